@@ -1,0 +1,2 @@
+//! The ocb command.
+fn main() {}

@@ -1,0 +1,1 @@
+//! The culling hierarchy of oracle and sampling.

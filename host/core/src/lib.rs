@@ -1,0 +1,19 @@
+//! The domain of OpenCollBench, pure: same input, same output.
+//!
+//! Nothing here does I/O, starts a thread, reads a clock or knows a plugin. The words are those of `GLOSSARY.md`.
+#![forbid(unsafe_code)]
+
+pub mod bvh;
+pub mod colormap;
+pub mod configuration;
+pub mod export;
+pub mod heatmap;
+pub mod mesh;
+pub mod oracle;
+pub mod pose;
+pub mod query;
+pub mod record;
+pub mod sampling;
+pub mod statistics;
+pub mod stock;
+pub mod validation;

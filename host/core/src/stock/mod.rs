@@ -1,0 +1,1 @@
+//! Stock objects, made here.

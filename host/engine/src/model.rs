@@ -1,0 +1,453 @@
+//! The values that the engine takes and gives. They are the JSON of the API and of `--json`: there is no second set.
+//!
+//! Ids are UUIDv7 text, times are microseconds since the Unix epoch (UTC), durations say their unit in their name.
+
+use ocb_core::configuration::{Class, Method};
+use ocb_core::query::Query;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// An object as the lists show it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ObjectInfo {
+    /// Stable id: `stock:<name>` for stock objects, otherwise a UUID.
+    pub id: String,
+    /// Display name.
+    pub name: String,
+    /// Triangle count.
+    pub triangles: u32,
+    /// Vertex count.
+    pub vertices: u32,
+    /// Axis-aligned bounding box: minimum x y z, maximum x y z.
+    pub bounds: [f64; 6],
+    /// SHA-256 (hex) of the mesh (positions, then triangles, little-endian).
+    pub sha256: String,
+    /// Where it comes from and under which terms.
+    pub terms: String,
+    /// Ships with the service.
+    pub stock: bool,
+    /// Every edge has exactly two triangles.
+    pub closed: bool,
+    /// What was noticed and mended while reading (one sentence each).
+    pub warnings: Vec<String>,
+    /// When it was added.
+    pub created_us: i64,
+}
+
+/// One algorithm of one plugin.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct AlgorithmInfo {
+    /// Unique id, e.g. `box-tree`.
+    pub id: String,
+    /// Display name.
+    pub name: String,
+    /// Version as the plugin says it.
+    pub version: String,
+    /// Authors.
+    pub authors: String,
+    /// SPDX licence expression.
+    pub license: String,
+    /// Home page or source.
+    pub url: String,
+    /// The paper the method comes from.
+    pub paper: String,
+    /// The questions it answers.
+    pub queries: Vec<Query>,
+    /// It reports BV and primitive tests.
+    pub counters: bool,
+    /// It reports witness points.
+    pub witness_points: bool,
+    /// Its parameters.
+    pub parameters: Vec<ParameterInfo>,
+    /// SHA-256 (hex) of the plugin file.
+    pub plugin_sha256: String,
+}
+
+/// A knob of an algorithm.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ParameterInfo {
+    /// Name.
+    pub name: String,
+    /// What it does.
+    pub description: String,
+    /// Smallest value.
+    pub minimum: f64,
+    /// Largest value.
+    pub maximum: f64,
+    /// Value when nothing is said.
+    pub default: f64,
+    /// Only whole numbers.
+    pub integer: bool,
+}
+
+/// What to measure.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RunSpec {
+    /// Object A (fixed).
+    pub object_a: String,
+    /// Object B (moving); the same object when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub object_b: Option<String>,
+    /// The question.
+    pub query: Query,
+    /// How the configurations are found.
+    pub method: Method,
+    /// Surface distance divided by L, the longest side of A's bounding box; at least 0.
+    #[serde(default)]
+    pub relative_distance: f64,
+    /// Algorithm ids; all that answer the question when empty.
+    #[serde(default)]
+    pub algorithms: Vec<String>,
+    /// Timed passes per configuration (1 to 99).
+    #[serde(default = "default_passes")]
+    pub passes: u32,
+    /// Measuring time allowed per algorithm; a slower one is measured on as many configurations (taken in a shuffled
+    /// order that all algorithms share) as fit.
+    #[serde(default = "default_budget")]
+    pub budget_seconds: f64,
+}
+
+fn default_passes() -> u32 {
+    3
+}
+
+fn default_budget() -> f64 {
+    60.0
+}
+
+/// What a run would cost.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Estimate {
+    /// Number of configurations.
+    pub configurations: u64,
+    /// The set is stored already.
+    pub configurations_stored: bool,
+    /// Expected seconds to find and certify the configurations.
+    pub configuration_seconds: f64,
+    /// Expected seconds per algorithm.
+    pub measuring_seconds: Vec<AlgorithmSeconds>,
+    /// All together, without waiting.
+    pub total_seconds: f64,
+    /// Runs ahead in the queue.
+    pub runs_ahead: u32,
+    /// Expected seconds until those are done.
+    pub wait_seconds: f64,
+}
+
+/// Seconds of one algorithm.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct AlgorithmSeconds {
+    /// Algorithm id.
+    pub algorithm: String,
+    /// Seconds.
+    pub seconds: f64,
+    /// Expected to be cut by the budget.
+    pub budget_limited: bool,
+}
+
+/// State of a run or of a stage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum State {
+    /// Waiting.
+    Queued,
+    /// At work.
+    Running,
+    /// Finished.
+    Done,
+    /// Ended by a fault; the reason is in `message`.
+    Failed,
+    /// Ended by its owner.
+    Cancelled,
+}
+
+/// A run with everything a page needs to show it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct RunInfo {
+    /// Id (UUIDv7); whoever knows it may look.
+    pub id: String,
+    /// What was asked, with defaults filled in.
+    pub spec: RunSpec,
+    /// Name of object A.
+    pub object_a_name: String,
+    /// Name of object B.
+    pub object_b_name: String,
+    /// State.
+    pub state: State,
+    /// Why it failed, one sentence.
+    pub message: Option<String>,
+    /// Runs ahead, while queued.
+    pub runs_ahead: u32,
+    /// The lanes, in order: object, configurations, one measuring lane per algorithm, heatmap.
+    pub stages: Vec<Stage>,
+    /// Summary per algorithm, as far as there is one.
+    pub results: Vec<AlgorithmResult>,
+    /// The configuration set, once known.
+    pub set: Option<SetInfo>,
+    /// The machine, once measured.
+    pub environment: Option<Environment>,
+    /// Times this run was started (more than 1 after a restart of the service).
+    pub attempts: u32,
+    /// Made by the caller (may cancel).
+    pub mine: bool,
+    /// When it was asked for.
+    pub created_us: i64,
+    /// When it ended.
+    pub finished_us: Option<i64>,
+}
+
+/// Which lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StageKind {
+    /// Reading the object(s).
+    Object,
+    /// Finding and certifying configurations.
+    Configurations,
+    /// Measuring one algorithm.
+    Measuring,
+    /// Aggregating onto the vertices.
+    Heatmap,
+}
+
+/// One lane of the live page.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Stage {
+    /// Which lane.
+    pub kind: StageKind,
+    /// The algorithm, for measuring lanes.
+    pub algorithm: Option<String>,
+    /// State.
+    pub state: State,
+    /// Items done (configurations, queries).
+    pub done: u64,
+    /// Items in all (0: unknown yet).
+    pub total: u64,
+    /// Items per second lately.
+    pub rate: f64,
+    /// Expected seconds left, when known.
+    pub seconds_left: Option<f64>,
+    /// Note or cause, one sentence.
+    pub message: Option<String>,
+}
+
+/// The configuration set of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SetInfo {
+    /// SHA-256 (hex) of the stored set.
+    pub sha256: String,
+    /// Configurations.
+    pub configurations: u32,
+    /// Rays without a position.
+    pub missed_rays: u32,
+    /// L, the longest side of A's bounding box.
+    pub longest_side: f64,
+    /// How many are of which class in f64.
+    pub classes: Vec<ClassCount>,
+    /// Share of A's triangles that are a closest feature at least once.
+    pub coverage_a: f64,
+    /// The same of B.
+    pub coverage_b: f64,
+}
+
+/// How many configurations are of a class.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ClassCount {
+    /// The class.
+    pub class: Class,
+    /// How many.
+    pub count: u32,
+}
+
+/// How a runner ended.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct OutcomeInfo {
+    /// Name of the outcome as in the glossary, e.g. `Completed`, `TimedOut`, `SandboxFault`.
+    pub name: String,
+    /// One sentence.
+    pub message: String,
+    /// Our fault, never the plugin's.
+    pub ours: bool,
+}
+
+/// Numbers of one algorithm on the run's configurations.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct AlgorithmResult {
+    /// Algorithm id.
+    pub algorithm: String,
+    /// Display name.
+    pub name: String,
+    /// How its runner ended.
+    pub outcome: OutcomeInfo,
+    /// Configurations measured.
+    pub n: u32,
+    /// Configurations in the set.
+    pub of: u32,
+    /// Stopped by the time budget before the whole set.
+    pub budget_limited: bool,
+    /// Time per query; absent when nothing was measured.
+    pub time: Option<TimeSummary>,
+    /// Wrong answers by verdict name (`correct`, `false_negative`, ...).
+    pub verdicts: Vec<VerdictCount>,
+    /// Wrong answers in all.
+    pub wrong: u32,
+    /// Mean BV tests per query.
+    pub bv_tests_mean: Option<f64>,
+    /// Mean primitive tests per query.
+    pub primitive_tests_mean: Option<f64>,
+    /// Build time of both structures, milliseconds.
+    pub build_ms: Option<f64>,
+    /// Peak memory of the runner above its baseline, bytes.
+    pub memory_bytes: Option<u64>,
+}
+
+/// Count of one verdict.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct VerdictCount {
+    /// The verdict.
+    pub verdict: ocb_core::record::Verdict,
+    /// How many.
+    pub count: u32,
+}
+
+/// A statistic with its 95 % bootstrap interval.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Estimated {
+    /// The value.
+    pub value: f64,
+    /// Lower end.
+    pub lo: f64,
+    /// Upper end.
+    pub hi: f64,
+}
+
+/// Distribution of the time per query over configurations, nanoseconds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct TimeSummary {
+    /// Arithmetic mean.
+    pub mean_ns: Estimated,
+    /// Median.
+    pub median_ns: Estimated,
+    /// 95th percentile.
+    pub p95_ns: Estimated,
+    /// Maximum.
+    pub max_ns: Estimated,
+    /// How many lie below the clock's resolution.
+    pub below_resolution: u32,
+}
+
+/// The facts of the machine and of the clock, attached to each run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Environment {
+    /// CPU model.
+    pub cpu: String,
+    /// CPUs.
+    pub cpus: u32,
+    /// Memory in bytes.
+    pub memory_bytes: u64,
+    /// Kernel release.
+    pub kernel: String,
+    /// Hash over what makes times comparable.
+    pub hardware_class: String,
+    /// `spin` or `futex`.
+    pub clock: String,
+    /// Null round trip that is subtracted: median, with p05 and p95 as its interval, nanoseconds.
+    pub null_ns: Estimated,
+    /// Samples repeated because the clock saw a disturbance.
+    pub disturbed: u64,
+    /// Layers of the jail in force.
+    pub jail: Vec<String>,
+    /// Version of this program.
+    pub version: String,
+}
+
+/// Something that happened in a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct RunEvent {
+    /// Position in the run's log, from 1; the `id:` of the event stream.
+    pub seq: i64,
+    /// When.
+    pub at_us: i64,
+    /// The run's state after it.
+    pub state: State,
+    /// Runs ahead, while queued.
+    pub runs_ahead: u32,
+    /// The lane that changed, as it is now.
+    pub stage: Option<Stage>,
+    /// The algorithm's summary, when it has just been finished.
+    pub result: Option<AlgorithmResult>,
+}
+
+/// What to colour an object by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Measure {
+    /// Time per query, nanoseconds.
+    Time,
+    /// BV tests per query.
+    BvTests,
+    /// Primitive tests per query.
+    PrimitiveTests,
+    /// How many configurations have their witness point on a triangle of the vertex.
+    Density,
+}
+
+/// Which object of the scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Side {
+    /// The fixed object.
+    #[default]
+    A,
+    /// The moving object.
+    B,
+}
+
+/// Which map.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct HeatmapRequest {
+    /// Algorithm id (ignored for density).
+    pub algorithm: String,
+    /// Which object.
+    #[serde(default)]
+    pub side: Side,
+    /// What to show.
+    pub measure: Measure,
+    /// Which statistic.
+    pub statistic: ocb_core::statistics::Statistic,
+    /// What to do with outliers.
+    pub outliers: ocb_core::statistics::Outliers,
+}
+
+/// Values on the vertices of an object.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Heatmap {
+    /// What was asked.
+    pub request: HeatmapRequest,
+    /// Unit of the values (`ns`, `tests`, `configurations`).
+    pub unit: String,
+    /// One per vertex, in the object's vertex order; null where there is none.
+    pub values: Vec<Option<f64>>,
+    /// Values that went into each vertex after outlier removal.
+    pub counts: Vec<u32>,
+    /// Values that outlier removal took from each vertex.
+    pub dropped: Vec<u32>,
+    /// Configurations that went in.
+    pub n: u32,
+    /// Smallest and largest value; absent when no vertex has one.
+    pub range: Option<[f64; 2]>,
+}
+
+/// Empirical distribution of the time per query.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Ecdf {
+    /// Algorithm id.
+    pub algorithm: String,
+    /// Number of values.
+    pub n: u32,
+    /// Times in nanoseconds, ascending, at most 512 points.
+    pub time_ns: Vec<f64>,
+    /// Share of queries at most that long, 0 to 1.
+    pub share: Vec<f64>,
+}

@@ -1,0 +1,2 @@
+//! The jailed process.
+fn main() {}
