@@ -1,0 +1,54 @@
+# OpenCollBench: `make serve` to use it, `make test` to prove it. Longer steps live in tests/setup/.
+SHELL := /bin/bash
+.SHELLFLAGS := -eu -o pipefail -c
+.DEFAULT_GOAL := help
+.PHONY: help serve build pages stock check test bench soak clean tools
+
+PORT ?= 8080
+DATA ?= data
+# Tools that tests/setup/tools.sh had to install for this folder alone come first.
+export PATH := $(CURDIR)/.tools/node_modules/.bin:$(HOME)/.cargo/bin:$(PATH)
+CARGO_FLAGS := --release --workspace
+TARGET := $(or $(CARGO_TARGET_DIR),target)
+PAGES := $(shell find web/app -type f -not -path '*/node_modules/*' -not -path '*/dist/*' 2>/dev/null)
+
+help: ## print this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-7s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+serve: build ## build host, runner, plugins and pages, then serve on 127.0.0.1:8080 (PORT=, DATA=)
+	exec $(TARGET)/release/ocb serve --data $(DATA) --listen 127.0.0.1:$(PORT) --stock-dir target/stock
+
+build: tools pages stock ## the same without serving
+	cargo build --release
+
+tools:
+	@tests/setup/tools.sh build
+
+pages: tools web/app/dist/index.html
+web/app/node_modules/.package-lock.json: web/app/package.json web/app/package-lock.json
+	cd web/app && npm ci --no-audit --no-fund
+web/app/dist/index.html: web/app/node_modules/.package-lock.json $(PAGES)
+	cd web/app && npm run build && touch dist/index.html
+
+stock: tools target/stock/dragon.obj
+target/stock/dragon.obj: web/stock/package.json web/stock/package-lock.json web/stock/write.mjs
+	cd web/stock && npm ci --no-audit --no-fund && node write.mjs ../../target/stock
+
+check: pages ## rustfmt, clippy, rustdoc, tidy tests, TypeScript and its linter: warnings are errors
+	cargo fmt --all --check
+	cargo clippy $(CARGO_FLAGS) --all-targets -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc $(CARGO_FLAGS) --no-deps --document-private-items
+	cargo test $(CARGO_FLAGS) --test tidy
+	cd web/app && npm run check
+
+test: ## everything: check, Rust, TypeScript, PostgreSQL, S3, a real browser on the built service
+	@tests/setup/test.sh
+
+bench: build ## measure the three algorithms on the torus knot from the terminal
+	$(TARGET)/release/ocb bench stock:torus-knot --query cd --count 2000 --data $(DATA)
+
+soak: build ## kill and restart the service for MINUTES (10)
+	tests/setup/soak.sh $(or $(MINUTES),10)
+
+clean: ## remove what was built; keeps data/ and .tools/
+	rm -rf target web/app/dist web/app/node_modules web/stock/node_modules

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# The whole proof, as `make test` and CI run it. Every step runs even when an earlier one failed, each one's output is kept
+# in target/test-logs, and the last line is "N passed, N failed" summed over all test programs.
+set -uo pipefail
+cd "$(dirname "$0")/../.."
+root=$PWD
+tests/setup/tools.sh test || exit 1
+export PATH="$root/.tools/node_modules/.bin:$HOME/.cargo/bin:$PATH" NO_COLOR=1 CARGO_TERM_COLOR=never CI=1
+export OCB_SHARED=${OCB_SHARED:-$root/../shared}
+[ -d "$OCB_SHARED/meshes" ] || echo "test: $OCB_SHARED/meshes is missing; tests on real input will fail (set OCB_SHARED)"
+
+logs=target/test-logs
+rm -rf "$logs" && mkdir -p "$logs"
+broken=()
+step() { # step NAME COMMAND...: run it, keep its output, remember a failure
+  local name=$1 started=$SECONDS
+  shift
+  echo "== $name: $*"
+  if "$@" 2>&1 | tee "$logs/$name.log"; then
+    echo "== $name: ok, $((SECONDS - started)) s"
+  else
+    broken+=("$name")
+    echo "== $name: FAILED, $((SECONDS - started)) s"
+  fi
+}
+
+. tests/setup/services.sh
+trap stop_services EXIT
+trap 'exit 130' INT TERM
+
+step build bash -c 'make -s pages stock && cargo build --release --workspace --all-targets'
+step check make -s check
+step vitest npm --prefix web/app run test
+start_services || broken+=(services)
+step rust cargo test --release --workspace --no-fail-fast
+step browser bash -c 'npm --prefix tests/e2e ci --no-audit --no-fund && npm --prefix tests/e2e test'
+
+# Each test program says its own counts; a step that broke without a counted failure counts as one.
+read -r passed failed < <(cat "$logs"/{rust,vitest,browser}.log 2>/dev/null | sed 's/\x1b\[[0-9;]*m//g' | awk '
+  /^test result:/          { p += $4; f += $6 }
+  /^ *Tests  /             { for (i = 2; i <= NF; i++) { if ($i ~ /^passed/) p += $(i - 1); if ($i ~ /^failed/) f += $(i - 1) } }
+  /^(#|ℹ) (pass|fail) /    { if ($2 == "pass") p += $3; else f += $3 }
+  END                      { print p + 0, f + 0 }')
+if [ ${#broken[@]} -gt 0 ]; then
+  echo "test: these steps failed: ${broken[*]} (output in $logs)"
+  [ "$failed" -gt 0 ] || failed=${#broken[@]}
+fi
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# tools.sh build|test: makes sure that the tools for `make serve` (build) or `make test` (test) are there. It installs
+# what it can (as root or with `sudo -n`) and says what; otherwise it prints the one line to run. Seconds when all is there.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+purpose=${1:?usage: tools.sh build|test}
+export DEBIAN_FRONTEND=noninteractive PATH="$PWD/.tools/node_modules/.bin:$HOME/.cargo/bin:$PATH"
+
+have() { command -v "$1" >/dev/null 2>&1; }
+say() { printf 'tools: %s\n' "$*" >&2; }
+die() { say "$*"; exit 1; }
+
+# The pages build with Node 20.19 or later in the 20 line, or 22.12 and later.
+node_ok() {
+  have node && have npm && node -e '
+    const [major, minor] = process.versions.node.split(".").map(Number);
+    process.exit((major === 20 && minor >= 19) || (major === 22 && minor >= 12) || major >= 24 ? 0 : 1)'
+}
+
+as_root() {
+  if [ "$(id -u)" = 0 ]; then "$@"; else sudo -n "$@"; fi
+}
+
+# Debian packages that are missing, as a list of names.
+packages=()
+have cc && have c++ || packages+=(build-essential)
+have curl || packages+=(ca-certificates curl)
+node_ok || have npm || packages+=(nodejs npm)
+if [ "$purpose" = test ]; then
+  have chromium || packages+=(chromium)
+  [ -d /usr/share/fonts/truetype/dejavu ] || packages+=(fonts-dejavu-core)
+  compgen -G '/usr/lib/postgresql/*/bin/initdb' >/dev/null || packages+=(postgresql)
+  python3 -c 'import venv, ensurepip' 2>/dev/null || packages+=(python3 python3-venv)
+fi
+
+if [ ${#packages[@]} -gt 0 ]; then
+  line="apt-get update && apt-get install -y --no-install-recommends ${packages[*]}"
+  have apt-get || die "please install these (Debian's names) and run make again: ${packages[*]}"
+  if [ "$(id -u)" != 0 ] && ! sudo -n true 2>/dev/null; then
+    die "missing: ${packages[*]}. Run this line, then make again:  sudo sh -c '$line'"
+  fi
+  say "installing with apt-get: ${packages[*]}"
+  # One update first: package lists on a fresh machine are absent or too old to be served.
+  as_root apt-get update -qq
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${packages[@]}" >/dev/null
+fi
+
+wanted=$(sed -n 's/^channel = "\(.*\)"/\1/p' rust-toolchain.toml)
+if ! have cargo; then
+  say "installing rustup for this user; it fetches Rust $wanted"
+  curl --proto '=https' --tlsv1.2 -fsS https://sh.rustup.rs | sh -s -- -y -q --profile minimal --default-toolchain none --no-modify-path
+fi
+if have rustup; then
+  # Newer rustup installs the toolchain of rust-toolchain.toml only when asked to.
+  rustup which --toolchain "$wanted" cargo-clippy >/dev/null 2>&1 && rustup which --toolchain "$wanted" rustfmt >/dev/null 2>&1 || {
+    say "installing Rust $wanted with rustup"
+    rustup toolchain install "$wanted" --profile minimal --component rustfmt --component clippy
+  }
+elif [ "$(rustc --version | cut -d' ' -f2)" != "$wanted" ]; then
+  die "Rust $wanted is needed and $(rustc --version) is installed without rustup. Install rustup, then run make again."
+fi
+
+if ! node_ok; then
+  say "installing Node 24 from npm into .tools (found: $(node --version 2>/dev/null || echo none))"
+  npm install --prefix .tools --no-audit --no-fund --no-save node@24 npm@11
+  hash -r
+  node_ok || die "Node 20.19 or 24 is needed; .tools/node_modules/.bin/node did not start."
+fi
+
+if [ "$purpose" = test ] && [ ! -x .tools/s3/bin/moto_server ]; then
+  say "installing the S3 test server (moto) from PyPI into .tools/s3"
+  rm -rf .tools/s3
+  python3 -m venv .tools/s3
+  .tools/s3/bin/pip install --quiet --disable-pip-version-check -r tests/setup/requirements.txt
+fi
