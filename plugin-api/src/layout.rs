@@ -1,0 +1,90 @@
+//! The layout note of Rust plugins: a description of every struct of the ABI as the plugin's compiler laid it out.
+//!
+//! `struct_size` does not see everything: a field that shrinks from `u64` to `u32` before padding leaves the size and
+//! every later offset as they were. abi_stable's type layouts do see it, and say which field it is. The note is for
+//! Rust alone; the contract is the C header, and a plugin without a note is as good as one with it.
+//!
+//! Two traps:
+//! - **The note is data that the plugin has written.** It helps honest authors against stale builds; it proves nothing.
+//!   Reading it follows pointers of the plugin's choice, so [`check`] may only be called inside the sandbox.
+//! - **Cargo unifies features over a workspace.** A feature that changes a struct would change it in host and plugin at
+//!   once, and the comparison would find nothing. So no feature of this crate may ever change a layout (`layout` itself
+//!   only adds this module), and a test that wants two different layouts must build them in two workspaces.
+
+use core::ffi::c_void;
+
+use abi_stable::StableAbi;
+use abi_stable::abi_stability::abi_checking::check_layout_compatibility;
+use abi_stable::library::AbiHeader;
+use abi_stable::type_layout::TypeLayout;
+
+use crate::raw;
+
+/// Never made; its layout reaches every struct of the ABI, the extension tables included.
+#[repr(C)]
+#[derive(StableAbi)]
+pub struct Abi {
+    entry: unsafe extern "C" fn(u32) -> *const raw::Plugin,
+    distance: *const raw::distance::Distance,
+    contacts: *const raw::contacts::Contacts,
+    counters: *const raw::counters::Counters,
+    parameters: *const raw::parameters::Parameters,
+}
+
+/// What stands behind the symbol [`raw::LAYOUT_SYMBOL`].
+#[repr(C)]
+pub struct LayoutNote {
+    /// Version of abi_stable's own structures; looked at first.
+    header: AbiHeader,
+    layout: &'static TypeLayout,
+}
+
+impl LayoutNote {
+    /// The note of this build.
+    pub const THIS: Self = Self { header: AbiHeader::VALUE, layout: <Abi as StableAbi>::LAYOUT };
+}
+
+/// Why a plugin's note does not fit.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LayoutError {
+    /// The plugin was built with an abi_stable whose notes this host cannot read.
+    Unreadable,
+    /// A struct differs; the text names the fields.
+    Different(String),
+}
+
+impl core::fmt::Display for LayoutError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Unreadable => write!(
+                f,
+                "the layout note was made with another version of abi_stable: build the plugin again with the host's \
+                 version of opencollbench-plugin"
+            ),
+            Self::Different(what) => write!(
+                f,
+                "the plugin was built against other struct layouts; build it again with the host's version of \
+                 opencollbench-plugin: {what}"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for LayoutError {}
+
+/// Compares the note at the address of [`raw::LAYOUT_SYMBOL`] with this build's. Call it inside the sandbox only.
+///
+/// # Safety
+/// `note` is the address of that symbol in a loaded library that stays loaded. What it points to is the plugin's word:
+/// a lying plugin can crash the process here, or do anything else that it could do in its constructors.
+pub unsafe fn check(note: *const c_void) -> Result<(), LayoutError> {
+    // SAFETY: the caller has found the symbol; the header is plain bytes and comes first in every version of the note.
+    let header = unsafe { &*note.cast::<AbiHeader>() };
+    if !header.is_compatible(&AbiHeader::VALUE) {
+        return Err(LayoutError::Unreadable);
+    }
+    // SAFETY: the header says that the note is one of ours; beyond that we take the plugin's word, as the caller knows.
+    let note = unsafe { &*note.cast::<LayoutNote>() };
+    check_layout_compatibility(<Abi as StableAbi>::LAYOUT, note.layout)
+        .map_err(|errors| LayoutError::Different(errors.to_string()))
+}
