@@ -1,0 +1,56 @@
+//! The limits of a runner and where it runs.
+
+/// The limits of one runner. What happens inside when each is reached stands in `sandbox/README.md`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Policy {
+    /// Memory of the jail, bytes.
+    pub memory_bytes: u64,
+    /// Time to load the file and describe what is in it, seconds.
+    pub load_seconds: f64,
+    /// Time to build the structure of one object, seconds.
+    pub build_seconds: f64,
+    /// Time to answer one query, seconds.
+    pub query_seconds: f64,
+    /// Time of the whole trial, seconds; the limit of processor time follows it.
+    pub trial_seconds: f64,
+    /// Bytes that the plugin may write to its standard output and error.
+    pub output_bytes: u64,
+    /// CPU that the runner is kept on; the scheduler's choice when absent.
+    pub runner_cpu: Option<usize>,
+    /// CPU that the supervising thread is kept on while a session lasts; the scheduler's choice when absent.
+    pub supervisor_cpu: Option<usize>,
+    /// Which hand-off times the queries.
+    pub clock: ClockChoice,
+    /// The plugin was built from our own sources: it may run even where this machine forbids namespaces, under the
+    /// layers that remain ([`crate::Session::layers`] lists them). Never set it for a file that somebody brought.
+    pub trusted: bool,
+}
+
+/// Which hand-off times the queries.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ClockChoice {
+    /// `Spin` where two CPUs can be had, else `Futex`.
+    #[default]
+    Auto,
+    /// Both sides watch shared memory, each on a CPU of its own: about 0.3 us per round trip.
+    Spin,
+    /// Both sides sleep in turn on one CPU: about 3 us per round trip.
+    Futex,
+}
+
+impl Default for Policy {
+    fn default() -> Self {
+        Policy {
+            memory_bytes: 2 << 30,
+            load_seconds: 10.0,
+            build_seconds: 120.0,
+            query_seconds: 10.0,
+            trial_seconds: 3600.0,
+            output_bytes: 64 << 10,
+            runner_cpu: None,
+            supervisor_cpu: None,
+            clock: ClockChoice::Auto,
+            trusted: false,
+        }
+    }
+}
