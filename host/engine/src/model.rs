@@ -451,3 +451,60 @@ pub struct Ecdf {
     /// Share of queries at most that long, 0 to 1.
     pub share: Vec<f64>,
 }
+
+/// What `plugin check` found, line by line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PluginReport {
+    /// File name, without its folder.
+    pub file: String,
+    /// SHA-256 (hex) of the file; absent when it could not be read.
+    pub sha256: Option<String>,
+    /// No line failed.
+    pub passed: bool,
+    /// The checks in order; those behind a fatal one are left out.
+    pub lines: Vec<CheckLine>,
+    /// The algorithms that the plugin describes.
+    pub algorithms: Vec<AlgorithmInfo>,
+}
+
+/// One check of a plugin.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct CheckLine {
+    /// What was checked, e.g. `load in the jail`.
+    pub check: String,
+    /// How it ended.
+    pub verdict: CheckVerdict,
+    /// What was seen, one sentence.
+    pub evidence: String,
+    /// How to mend it, when it did not pass.
+    pub hint: Option<String>,
+}
+
+/// How one check ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CheckVerdict {
+    /// As it must be.
+    Pass,
+    /// Allowed, but the author may want to know.
+    Note,
+    /// Must be mended.
+    Fail,
+}
+
+/// The service at a glance.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Status {
+    /// Version of this program.
+    pub version: String,
+    /// Hardware class of this machine.
+    pub hardware_class: String,
+    /// Runs at work (0 or 1).
+    pub running: u32,
+    /// Runs waiting.
+    pub queued: u32,
+    /// Algorithms offered.
+    pub algorithms: u32,
+    /// What keeps something from being offered, e.g. a plugin that does not load; one sentence each.
+    pub problems: Vec<String>,
+}

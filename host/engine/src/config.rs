@@ -1,0 +1,44 @@
+//! Where an engine finds its folder, its runner and its plugins.
+
+use std::path::{Path, PathBuf};
+
+/// How to open an [`crate::Engine`].
+#[derive(Clone, Debug)]
+pub struct EngineConfig {
+    /// The data folder: database, blobs and lock file, made when absent. One process at a time may open it.
+    pub data: PathBuf,
+    /// `postgres://...`; an SQLite file in the data folder when absent.
+    pub database_url: Option<String>,
+    /// `s3://bucket/prefix?endpoint=http://host:port` (credentials from `AWS_*`); a folder in the data folder when absent.
+    pub blob_url: Option<String>,
+    /// The `ocb-runner` binary, the only program that ever loads a plugin.
+    pub runner: PathBuf,
+    /// Plugin files, or folders whose `*.so` are plugins.
+    pub plugins: Vec<PathBuf>,
+    /// Folder with `bunny.obj` and `dragon.obj`, each with its terms in `<name>.terms`.
+    pub stock_dir: Option<PathBuf>,
+    /// Work on the queue. Off for commands that only read.
+    pub dispatch: bool,
+    /// Queue a quick run for the start page when there is none yet.
+    pub featured: bool,
+}
+
+impl EngineConfig {
+    /// With runner and plugins beside the running executable, SQLite and a local folder; dispatching, nothing featured.
+    pub fn beside_executable(data: impl Into<PathBuf>) -> Self {
+        let folder = std::env::current_exe()
+            .ok()
+            .and_then(|exe| exe.parent().map(Path::to_path_buf))
+            .unwrap_or_else(|| PathBuf::from("."));
+        Self {
+            data: data.into(),
+            database_url: None,
+            blob_url: None,
+            runner: folder.join("ocb-runner"),
+            plugins: vec![folder],
+            stock_dir: None,
+            dispatch: true,
+            featured: false,
+        }
+    }
+}
