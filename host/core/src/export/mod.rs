@@ -1,1 +1,30 @@
-//! Files that other programs read.
+//! Files that other programs read. Vertex and triangle order is always the mesh's own.
+
+pub mod glb;
+
+use crate::colormap::{Colormap, Scale};
+
+/// What a coloured file says about its colours.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Legend {
+    /// Id of the run.
+    pub run: String,
+    /// Algorithm id; empty for density.
+    pub algorithm: String,
+    /// Name of the measure, e.g. `time`.
+    pub measure: String,
+    /// Name of the statistic, e.g. `median`.
+    pub statistic: String,
+    /// What was done with outliers, e.g. `keep`.
+    pub outliers: String,
+    /// Unit of the values, e.g. `ns`.
+    pub unit: String,
+    /// Values at the two ends of the colours.
+    pub range: [f64; 2],
+    /// How values are spread over the colours.
+    pub scale: Scale,
+    /// Which colours.
+    pub colormap: Colormap,
+    /// Configurations that went in.
+    pub n: u64,
+}
