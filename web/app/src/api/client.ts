@@ -1,0 +1,84 @@
+import createClient from 'openapi-fetch'
+import { asApiError, fromResponse } from './errors'
+import type { paths } from './schema'
+import type {
+  AlgorithmInfo, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, RunInfo, RunSpec,
+} from './types'
+
+const http = createClient<paths>({ baseUrl: '/' })
+
+/** Unwraps an answer; anything but success becomes an `ApiError` with one sentence. */
+async function answer<T>(call: Promise<{ data?: T; error?: unknown; response: Response }>): Promise<T> {
+  try {
+    const { data, error, response } = await call
+    if (!response.ok || data === undefined) throw fromResponse(response.status, error)
+    return data
+  } catch (thrown) {
+    throw asApiError(thrown)
+  }
+}
+
+export const listObjects = (): Promise<ObjectInfo[]> => answer(http.GET('/api/v1/objects'))
+
+export const listAlgorithms = (): Promise<AlgorithmInfo[]> => answer(http.GET('/api/v1/algorithms'))
+
+export const estimate = (spec: RunSpec, signal?: AbortSignal): Promise<Estimate> =>
+  answer(http.POST('/api/v1/estimates', { body: spec, ...(signal && { signal }) }))
+
+export const startRun = (spec: RunSpec): Promise<RunInfo> => answer(http.POST('/api/v1/runs', { body: spec }))
+
+export const listRuns = (): Promise<RunInfo[]> => answer(http.GET('/api/v1/runs'))
+
+export const getRun = (id: string): Promise<RunInfo> => answer(http.GET('/api/v1/runs/{id}', { params: { path: { id } } }))
+
+export const cancelRun = (id: string): Promise<RunInfo> =>
+  answer(http.POST('/api/v1/runs/{id}/cancel', { params: { path: { id } } }))
+
+export const getEcdf = (id: string, algorithm: string): Promise<Ecdf> =>
+  answer(http.GET('/api/v1/runs/{id}/ecdf', { params: { path: { id }, query: { algorithm } } }))
+
+export const getHeatmap = (id: string, request: HeatmapRequest): Promise<Heatmap> =>
+  answer(http.GET('/api/v1/runs/{id}/heatmap', { params: { path: { id }, query: request } }))
+
+/** The featured run, or null while there is none. */
+export async function getFeatured(): Promise<RunInfo | null> {
+  try {
+    return await answer(http.GET('/api/v1/featured'))
+  } catch (thrown) {
+    const error = asApiError(thrown)
+    if (error.status === 404) return null
+    throw error
+  }
+}
+
+/** Sends a file; the service reads and checks it before it answers. */
+export const uploadObject = (file: File): Promise<ObjectInfo> => {
+  const form = new FormData()
+  form.append('file', file, file.name)
+  return answer(
+    http.POST('/api/v1/objects', {
+      // The document describes the multipart body as an object; the browser writes it from the form.
+      body: { file: file.name },
+      bodySerializer: () => form,
+    }),
+  )
+}
+
+/** The surface of an object as a binary glTF; vertices in the order of the heatmaps. */
+export async function fetchMesh(id: string, signal?: AbortSignal): Promise<ArrayBuffer> {
+  try {
+    const response = await fetch(meshUrl(id), signal ? { signal } : {})
+    if (!response.ok) throw fromResponse(response.status, await response.json().catch(() => null))
+    return await response.arrayBuffer()
+  } catch (thrown) {
+    throw asApiError(thrown)
+  }
+}
+
+export const meshUrl = (id: string): string => `/api/v1/objects/${encodeURIComponent(id)}/mesh.glb`
+
+/** Address of something to download that belongs to a run. */
+export function downloadUrl(run: string, what: string, query: Record<string, string | undefined>): string {
+  const given = Object.entries(query).filter((pair): pair is [string, string] => pair[1] !== undefined)
+  return `/api/v1/runs/${encodeURIComponent(run)}/${what}?${new URLSearchParams(given)}`
+}

@@ -1,0 +1,30 @@
+import type { RunSpec } from '../api/types'
+
+/** The same run on the command line. `file` gives the file of an uploaded object, whose id only the service knows. */
+export function commandLine(spec: RunSpec, file: (id: string) => string): string {
+  const objects = [spec.object_a, ...(spec.object_b && spec.object_b !== spec.object_a ? [spec.object_b] : [])]
+  const lines = [
+    `ocb bench ${objects.map((id) => quote(file(id))).join(' ')}`,
+    `--query ${spec.query === 'proximity' ? 'pq' : 'cd'}${spec.query === 'collision_all' ? ' --contacts all' : ''}`,
+    placement(spec),
+    ...(spec.algorithms ?? []).map((algorithm) => `--algorithm ${quote(algorithm)}`),
+    ...(spec.passes === undefined ? [] : [`--passes ${spec.passes}`]),
+    ...(spec.budget_seconds === undefined ? [] : [`--budget ${spec.budget_seconds}`]),
+  ]
+  return lines.join(' \\\n  ')
+}
+
+function placement({ method, relative_distance: distance = 0 }: RunSpec): string {
+  if (method.kind !== 'sphere') return `--distance ${distance}`
+  const { sampling } = method
+  const how =
+    sampling.kind === 'count'
+      ? `--count ${sampling.count}`
+      : `--rotate ${sampling.rotate} --move ${sampling.move}${sampling.kind === 'paper_compat' ? ' --paper-compat' : ''}`
+  return `--method sphere ${how} --distance ${distance}`
+}
+
+/** A word that a POSIX shell takes as it is. */
+function quote(word: string): string {
+  return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", String.raw`'\''`)}'`
+}

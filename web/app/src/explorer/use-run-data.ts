@@ -1,0 +1,86 @@
+import { useQueries } from '@tanstack/vue-query'
+import { computed, type ComputedRef } from 'vue'
+import { getEcdf, getHeatmap } from '../api/client'
+import type { Ecdf, Heatmap, HeatmapRequest, RunInfo } from '../api/types'
+import { MAX_PANES, type ExplorerState } from './url-state'
+
+/** One picture: whose values, and the map when it is there. */
+export interface PaneData {
+  algorithm: string
+  title: string
+  heatmap: Heatmap | null
+  error: string | null
+  /** Place among the measured algorithms, as in the chart; null for what belongs to all. */
+  series: number | null
+}
+
+/** Algorithms with values to show: measured on at least one configuration. */
+export function measured(run: RunInfo): { id: string; name: string }[] {
+  return run.results.filter((result) => result.n > 0).map(({ algorithm, name }) => ({ id: algorithm, name }))
+}
+
+/** The algorithms on the screen: those of the link that exist, else the first four. */
+export function visibleAlgorithms(run: RunInfo, state: ExplorerState): { id: string; name: string }[] {
+  const all = measured(run)
+  const chosen = all.filter(({ id }) => state.algorithms.includes(id))
+  const shown = (chosen.length > 0 ? chosen : all).slice(0, MAX_PANES)
+  // Density counts configurations: it is the same for every algorithm.
+  return state.measure === 'density' ? shown.slice(0, 1) : shown
+}
+
+/** The request behind one picture. */
+export function heatmapRequest(state: ExplorerState, algorithm: string): HeatmapRequest {
+  const { side, measure, statistic, outliers } = state
+  return { algorithm, side, measure, statistic, outliers }
+}
+
+/** The heatmaps on the screen; a finished run never changes, so what was fetched stays good. */
+export function useHeatmaps(run: ComputedRef<RunInfo>, state: ComputedRef<ExplorerState>): ComputedRef<PaneData[]> {
+  const visible = computed(() => visibleAlgorithms(run.value, state.value))
+  const queries = useQueries({
+    queries: computed(() =>
+      visible.value.map(({ id }) => {
+        const request = heatmapRequest(state.value, id)
+        return {
+          queryKey: ['heatmap', run.value.id, request],
+          queryFn: () => getHeatmap(run.value.id, request),
+          staleTime: Number.POSITIVE_INFINITY,
+        }
+      }),
+    ),
+  })
+  const order = computed(() => measured(run.value).map(({ id }) => id))
+  return computed(() =>
+    visible.value.map(({ id, name }, i) => {
+      const query = queries.value[i]
+      return {
+        algorithm: id,
+        title: state.value.measure === 'density' ? 'Configuration set' : name,
+        heatmap: query?.data ?? null,
+        error: query?.error?.message ?? null,
+        series: state.value.measure === 'density' ? null : order.value.indexOf(id),
+      }
+    }),
+  )
+}
+
+/** The distributions of the time per query, of the first four measured algorithms. */
+export function useEcdfs(run: ComputedRef<RunInfo>): ComputedRef<{ name: string; curve: Ecdf }[]> {
+  const shown = computed(() => measured(run.value).slice(0, MAX_PANES))
+  const queries = useQueries({
+    queries: computed(() =>
+      shown.value.map(({ id }) => ({
+        queryKey: ['ecdf', run.value.id, id],
+        queryFn: () => getEcdf(run.value.id, id),
+        staleTime: Number.POSITIVE_INFINITY,
+      })),
+    ),
+  })
+  return computed(() =>
+    shown.value.flatMap(({ name }, i) => {
+      const curve = queries.value[i]?.data
+      return curve ? [{ name, curve }] : []
+    }),
+  )
+}
+

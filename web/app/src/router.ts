@@ -1,0 +1,25 @@
+import { nextTick } from 'vue'
+import { createRouter, createWebHistory } from 'vue-router'
+import StartPage from './pages/StartPage.vue'
+
+export const router = createRouter({
+  history: createWebHistory(),
+  routes: [
+    { path: '/', component: StartPage, meta: { title: 'Where is it slow?' } },
+    { path: '/new', component: () => import('./pages/BuilderPage.vue'), meta: { title: 'New benchmark' } },
+    { path: '/r/:id', component: () => import('./pages/RunPage.vue'), props: true, meta: { title: 'Run' } },
+    { path: '/runs', component: () => import('./pages/RunsPage.vue'), meta: { title: 'My runs' } },
+    { path: '/objects', component: () => import('./pages/ObjectsPage.vue'), meta: { title: 'Objects' } },
+    { path: '/about', component: () => import('./pages/AboutPage.vue'), meta: { title: 'How we measure' } },
+    { path: '/:rest(.*)*', component: () => import('./pages/NotFoundPage.vue'), meta: { title: 'Nothing here' } },
+  ],
+  scrollBehavior: (to, from, saved) => saved ?? (to.path === from.path ? false : to.hash ? { el: to.hash, top: 90 } : { top: 0 }),
+})
+
+router.afterEach(async (to, from) => {
+  document.title = `${String(to.meta.title ?? 'Benchmark')} · OpenCollBench`
+  if (to.path === from.path || from.matched.length === 0) return
+  // A screen reader starts at the new page's heading, as after a real page load.
+  await nextTick()
+  document.querySelector<HTMLElement>('main')?.focus({ preventScroll: true })
+})

@@ -1,0 +1,64 @@
+import type { Class, Measure, Outliers, Query, StageKind, State, Statistic, Verdict } from '../api/types'
+
+/** The names of the API in the words of the pages: each once. */
+export const MEASURE: Record<Measure, string> = {
+  time: 'Time',
+  bv_tests: 'BV tests',
+  primitive_tests: 'Primitive tests',
+  density: 'Density',
+}
+
+export const STATISTIC: Record<Statistic, string> = {
+  mean: 'mean',
+  median: 'median',
+  min: 'minimum',
+  max: 'maximum',
+  standard_deviation: 'std deviation',
+  mad: 'MAD',
+}
+
+export const OUTLIER: Record<Outliers, string> = { keep: 'keep', per_vertex: 'per vertex', global: 'global' }
+
+export const QUERY: Record<Query, string> = {
+  collision_first: 'Collision, first contact',
+  collision_all: 'Collision, all contacts',
+  proximity: 'Proximity (distance)',
+}
+
+export const STATE: Record<State, string> = {
+  queued: 'waiting',
+  running: 'running',
+  done: 'done',
+  failed: 'failed',
+  cancelled: 'cancelled',
+}
+
+export const LANE: Record<StageKind, string> = {
+  object: 'Object',
+  configurations: 'Configurations',
+  measuring: 'Measuring',
+  heatmap: 'Heatmap',
+}
+
+/** What a lane counts. */
+export const LANE_UNIT: Record<StageKind, string> = {
+  object: 'objects',
+  configurations: 'configurations',
+  measuring: 'queries',
+  heatmap: 'maps',
+}
+
+export const VERDICT: Record<Verdict, string> = {
+  correct: 'correct',
+  false_negative: 'missed collision',
+  false_positive: 'false alarm',
+  distance_over: 'distance too long',
+  distance_under: 'distance too short',
+  wrong_witness: 'wrong witness',
+  invalid: 'no valid answer',
+  undecidable: 'undecidable, not scored',
+  gave_up: 'gave up',
+  unsupported: 'unsupported',
+}
+
+export const CLASS: Record<Class, string> = { clear: 'clear', colliding: 'colliding', grazing: 'grazing' }

@@ -1,0 +1,16 @@
+import vue from '@vitejs/plugin-vue'
+import { defineConfig } from 'vitest/config'
+
+export default defineConfig({
+  plugins: [vue()],
+  build: {
+    target: 'es2022',
+    // three alone is over the default 500 kB; it loads only with a page that draws.
+    chunkSizeWarningLimit: 900,
+  },
+  server: {
+    // `npm run dev` beside a running `ocb serve`; OCB_API names another address.
+    proxy: { '/api': process.env.OCB_API ?? 'http://127.0.0.1:8080' },
+  },
+  test: { environment: 'happy-dom', include: ['src/**/*.test.ts'] },
+})
