@@ -1,0 +1,14 @@
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+mod distance;
+mod frame;
+mod meet;
+pub mod vector;
+
+pub use distance::{Closest, distance, distance_below};
+pub use frame::Frame;
+pub use meet::meet;
+
+/// Three corners, in one frame with whatever it is compared with.
+pub type Triangle = [vector::Vector; 3];
