@@ -5,7 +5,7 @@
 use ocb_core::configuration::{Class, Method};
 use ocb_core::query::Query;
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
+use utoipa::{IntoParams, ToSchema};
 
 /// An object as the lists show it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -404,8 +404,9 @@ pub enum Side {
     B,
 }
 
-/// Which map.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+/// Which map; the query string of every heatmap route.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema, IntoParams)]
+#[into_params(parameter_in = Query)]
 pub struct HeatmapRequest {
     /// Algorithm id (ignored for density).
     pub algorithm: String,
@@ -437,6 +438,35 @@ pub struct Heatmap {
     pub n: u32,
     /// Smallest and largest value; absent when no vertex has one.
     pub range: Option<[f64; 2]>,
+}
+
+/// The value at one vertex of a heatmap.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct VertexValue {
+    /// Vertex index, from 0, in the object's order.
+    pub vertex: u32,
+    /// The value; null where there is none.
+    pub value: Option<f64>,
+    /// Values that went into it after outlier removal.
+    pub count: u32,
+    /// Values that outlier removal took from it.
+    pub dropped: u32,
+    /// Unit of the value (`ns`, `tests`, `configurations`).
+    pub unit: String,
+}
+
+impl Heatmap {
+    /// The value at one vertex; none beyond the last vertex.
+    pub fn vertex(&self, vertex: u32) -> Option<VertexValue> {
+        let i = usize::try_from(vertex).ok()?;
+        Some(VertexValue {
+            vertex,
+            value: *self.values.get(i)?,
+            count: *self.counts.get(i)?,
+            dropped: *self.dropped.get(i)?,
+            unit: self.unit.clone(),
+        })
+    }
 }
 
 /// Empirical distribution of the time per query.
