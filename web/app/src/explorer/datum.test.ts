@@ -14,5 +14,5 @@ describe('datum', () => {
 })
 
 it('counts the states of the vertices', () => {
-  expect(coverage([map])).toEqual({ vertices: 4, coloured: 2, noData: 1, allDropped: 1, few: 1 })
+  expect(coverage([map])).toEqual({ maps: 1, vertices: 4, coloured: 2, noData: 1, allDropped: 1, few: 1 })
 })

@@ -23,6 +23,7 @@ export function datum(map: VertexData, fadeFew: boolean): Float32Array<ArrayBuff
 
 /** How many vertices are in which state. */
 export interface Coverage {
+  maps: number
   vertices: number
   coloured: number
   noData: number
@@ -32,7 +33,7 @@ export interface Coverage {
 
 /** Counts the states over one or more maps (a vertex of two maps counts twice). */
 export function coverage(maps: readonly VertexData[]): Coverage {
-  const total: Coverage = { vertices: 0, coloured: 0, noData: 0, allDropped: 0, few: 0 }
+  const total: Coverage = { maps: maps.length, vertices: 0, coloured: 0, noData: 0, allDropped: 0, few: 0 }
   for (const map of maps) {
     map.values.forEach((value, i) => {
       total.vertices++

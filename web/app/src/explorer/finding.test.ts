@@ -9,7 +9,7 @@ const map = (values: (number | null)[], n = 20): Heatmap => ({
 
 it('says how much more the slow part costs', () => {
   const values = Array.from({ length: 200 }, (_, i) => (i < 180 ? 1000 : 4000))
-  expect(finding('Box tree', map(values))).toBe('On the slowest 5\u202f% of the surface Box tree takes at least 4× as long as on its middle.')
+  expect(finding('Box tree', map(values))).toBe('The slowest 5\u202f% of the surface cost Box tree at least 4× its median.')
 })
 
 it('says so when there is no slow part', () => {

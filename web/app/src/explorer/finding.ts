@@ -20,6 +20,6 @@ export function finding(name: string, map: Heatmap): string | null {
   const hot = quantile(sorted, 1 - HOT)
   if (middle <= 0) return null
   const times = hot / middle
-  if (times < 1.15) return `${name} costs nearly the same everywhere: ${withUnit(middle, map.unit)} in the middle of the surface.`
-  return `On the slowest ${percent(HOT)} of the surface ${name} takes at least ${significant(times, 2)}× as long as on its middle.`
+  if (times < 1.15) return `${name} costs nearly the same everywhere: ${withUnit(middle, map.unit)} at the median vertex.`
+  return `The slowest ${percent(HOT)} of the surface cost ${name} at least ${significant(times, 2)}× its median.`
 }
