@@ -1,6 +1,8 @@
 /** Properties that a stylesheet gives and a file of its own must carry. */
 const CARRIED = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'font-family', 'font-size', 'text-anchor'] as const
 
+const DRAWN: ReadonlySet<string> = new Set(['path', 'line', 'text', 'rect', 'circle'])
+
 /** The chart as a file of its own: computed styles written into each element, text kept as text. */
 export function standaloneSvg(svg: SVGSVGElement): string {
   const copy = svg.cloneNode(true) as SVGSVGElement
@@ -10,7 +12,9 @@ export function standaloneSvg(svg: SVGSVGElement): string {
     const style = getComputedStyle(original)
     const target = copies[i]
     if (!target) return
-    for (const name of CARRIED) {
+    const scope = [...target.attributes].filter(({ name }) => name.startsWith('data-v-'))
+    for (const { name } of scope) target.removeAttribute(name)
+    for (const name of DRAWN.has(target.tagName) ? CARRIED : []) {
       const value = style.getPropertyValue(name)
       if (value) target.setAttribute(name, value)
     }

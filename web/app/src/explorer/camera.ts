@@ -24,6 +24,8 @@ export class CameraRig {
   private wanted: readonly number[] | null = null
   private down: [number, number] | null = null
   private rest = 0
+  /** The view that was last told. */
+  private resting = ''
   private readonly abort = new AbortController()
 
   constructor(
@@ -54,6 +56,7 @@ export class CameraRig {
     this.controls.maxDistance = sphere.radius * 20
     if (this.wanted) this.apply(this.wanted)
     else this.reset()
+    this.resting = this.view().join()
   }
 
   /** The starting view. */
@@ -156,6 +159,12 @@ export class CameraRig {
 
   private rested(): void {
     clearTimeout(this.rest)
-    this.rest = window.setTimeout(() => this.events.rested(this.view()), 200)
+    this.rest = window.setTimeout(() => {
+      const view = this.view()
+      // A click ends a movement too, of nothing.
+      if (view.join() === this.resting) return
+      this.resting = view.join()
+      this.events.rested(view)
+    }, 200)
   }
 }

@@ -30,6 +30,7 @@ it('chooses one unit for a whole axis', () => {
 it('says values with their unit', () => {
   expect(plain(value(2.5, 'tests'))).toBe('2.5 tests')
   expect(plain(value(12_345, 'configurations'))).toBe('12,345 configurations')
+  expect(plain(value(1, 'configurations'))).toBe('1 configuration')
   expect(plain(value(2500, 'ns'))).toBe('2.5 µs')
 })
 

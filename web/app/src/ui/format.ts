@@ -27,6 +27,7 @@ export function time(ns: number): string {
 /** A value of a heatmap; `unit` as the API names it. */
 export function value(amount: number, unit: string): string {
   if (unit === 'ns') return time(amount)
+  if (amount === 1) return `1${GAP}${unit.replace(/s$/, '')}`
   if (Number.isInteger(amount)) return `${count(amount)}${GAP}${unit}`
   return significant(amount) + GAP + unit
 }
