@@ -24,9 +24,9 @@ export function withTriangles(id: string, triangles: number): string {
 }
 
 /** An id whose surface is quickly fetched, for thumbnails. */
-export function coarse(id: string): string {
+export function coarse(id: string, most = 3000): string {
   const triangles = proceduralTriangles(id)
-  return triangles === null ? id : withTriangles(id, Math.min(triangles, 3000))
+  return triangles === null ? id : withTriangles(id, Math.min(triangles, most))
 }
 
 /** The listed object that an id belongs to, at whatever number of triangles. */

@@ -1,0 +1,55 @@
+import { afterEach, describe, expect, it } from 'vitest'
+import { createApp, h, nextTick, ref, type App, type Component } from 'vue'
+import type { AlgorithmResult, Ecdf } from '../api/types'
+import EcdfChart from './EcdfChart.vue'
+import ResultTable from './ResultTable.vue'
+
+let app: App | null = null
+afterEach(() => app?.unmount())
+
+/** Mounts a component and hands out its element and what it exposes. */
+async function mount<T>(component: Component, props: Record<string, unknown>) {
+  const exposed = ref<T>()
+  const host = document.createElement('div')
+  document.body.append(host)
+  app = createApp({ render: () => h(component, { ...props, ref: exposed }) })
+  app.mount(host)
+  await nextTick()
+  return { host, exposed }
+}
+
+describe('EcdfChart', () => {
+  const curves: { name: string; curve: Ecdf }[] = ['Box <tree>', 'Parry'].map((name, i) => ({
+    name,
+    curve: { algorithm: name, n: 4, time_ns: [1000, 2000, 4000, 8000].map((t) => t * (i + 1)), share: [0.25, 0.5, 0.75, 1] },
+  }))
+
+  it('is told apart by dash, marker and colour, and read aloud', async () => {
+    const { host } = await mount(EcdfChart, { curves })
+    const drawn = [...host.querySelectorAll('.curve')].map((path) => path.getAttribute('stroke-dasharray'))
+    expect(new Set(drawn).size).toBe(2)
+    expect(host.querySelector('desc')?.textContent).toContain('Parry (dashed line, square): half of 4 queries take at most 4')
+  })
+
+  it('is a file of its own with title, description and key', async () => {
+    const { exposed } = await mount<{ source: () => string }>(EcdfChart, { curves })
+    const source = exposed.value?.source() ?? ''
+    expect(source).toMatch(/^<\?xml[^>]+>\s*<svg[^>]+xmlns="http:\/\/www\.w3\.org\/2000\/svg"/)
+    const parsed = new DOMParser().parseFromString(source.replace(/^<\?xml[^>]+>/, ''), 'image/svg+xml')
+    expect(parsed.querySelector('parsererror')).toBeNull()
+    for (const part of ['title', 'desc', 'path', 'text']) expect(parsed.querySelector(part)).not.toBeNull()
+    expect([...parsed.querySelectorAll('text')].map((text) => text.textContent)).toContain('Box <tree>')
+    expect(source).not.toMatch(/data-v-|var\(--/)
+  })
+})
+
+it('lists what failed without a place, and with the reason', async () => {
+  const failed: AlgorithmResult = {
+    algorithm: 'crashy', name: 'Crashy', outcome: { name: 'Signaled', message: 'It crashed with SIGSEGV.', ours: false }, n: 0, of: 9,
+    budget_limited: false, time: null, verdicts: [], wrong: 0, bv_tests_mean: null, primitive_tests_mean: null, build_ms: null, memory_bytes: null,
+  }
+  const { host } = await mount(ResultTable, { results: [failed] })
+  const row = host.querySelector('tr[data-algorithm=crashy]')
+  expect(row?.querySelector('td')?.textContent).toBe('–')
+  expect(row?.textContent).toContain('It crashed with SIGSEGV.')
+})
