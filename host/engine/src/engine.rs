@@ -1,17 +1,38 @@
 //! The one handle for server and command line.
 
+mod featured;
+mod follow;
+mod runs;
+
+use std::collections::VecDeque;
+use std::fs::File;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
-use futures::Stream;
-use ocb_core::configuration::Method;
+use ocb_core::colormap::{Colormap, Scale};
+use ocb_core::configuration::{ConfigurationSet, Method};
+use ocb_core::heatmap::VertexMap;
 use ocb_core::mesh::Mesh;
+use tokio::sync::Notify;
+use tokio::task::JoinHandle;
 
-use crate::model::{
-    AlgorithmInfo, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, PluginReport, RunEvent, RunInfo, RunSpec,
-    Status,
-};
-use crate::{EngineConfig, EngineError, Result};
+use crate::blobs::Blobs;
+use crate::cache::Cache;
+use crate::columns::RecordColumns;
+use crate::machine::{Machine, lock_data_folder};
+use crate::measure::Stop;
+use crate::model::{AlgorithmInfo, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, PluginReport, RunSpec, Status};
+use crate::objects::{Objects, blocking};
+use crate::registry::{Registry, check_plugin};
+use crate::runlog::Bell;
+use crate::store::Store;
+use crate::{EngineConfig, EngineError, Result, configurations, dispatcher, estimate, spec};
+
+/// Priority of what somebody waits for.
+pub const INTERACTIVE: i64 = 1;
+/// Priority of the service's own runs.
+const BACKGROUND: i64 = 5;
 
 /// Runs, objects, algorithms and results behind one cheap-to-clone handle.
 ///
@@ -19,7 +40,36 @@ use crate::{EngineConfig, EngineError, Result};
 /// knows the id of a run or of an object may look at it; only its owner may cancel a run.
 #[derive(Clone)]
 pub struct Engine {
-    config: Arc<EngineConfig>,
+    inner: Arc<Inner>,
+}
+
+/// What all parts of one engine share.
+pub struct Inner {
+    pub config: EngineConfig,
+    pub store: Store,
+    pub blobs: Blobs,
+    pub objects: Objects,
+    pub registry: Registry,
+    pub machine: Machine,
+    pub bell: Bell,
+    /// Rung when the queue has something new.
+    pub wake: Notify,
+    /// The run at work and how it is stopped.
+    pub current: Mutex<Option<(String, Stop)>>,
+    pub sets: Cache<ConfigurationSet>,
+    pub records: Cache<RecordColumns>,
+    pub maps: Cache<VertexMap>,
+    closing: AtomicBool,
+    dispatcher: Mutex<VecDeque<JoinHandle<()>>>,
+    /// Held as long as this process uses the folder.
+    _lock: File,
+}
+
+impl Inner {
+    /// The engine is shutting down.
+    pub fn closing(&self) -> bool {
+        self.closing.load(Ordering::SeqCst)
+    }
 }
 
 impl Engine {
@@ -29,136 +79,157 @@ impl Engine {
     /// [`EngineError::Busy`] when another process has this folder open; `Fault` when folder, database, blob storage or
     /// runner cannot be used.
     pub async fn open(config: EngineConfig) -> Result<Self> {
-        Ok(Self { config: Arc::new(config) })
+        std::fs::create_dir_all(&config.data).map_err(|e| {
+            EngineError::Fault(format!("The data folder {} cannot be made: {e}.", config.data.display()))
+        })?;
+        let lock = lock_data_folder(&config.data)?;
+        let store = Store::open(&config.data, config.database_url.as_deref()).await?;
+        let blobs = Blobs::open(&config.data, config.blob_url.as_deref())?;
+        let registry = Registry::open(&config, &store).await?;
+        let inner = Arc::new(Inner {
+            objects: Objects::new(store.clone(), blobs.clone(), config.stock_dir.clone()),
+            machine: Machine::observe()?,
+            bell: Bell::new(),
+            wake: Notify::new(),
+            current: Mutex::new(None),
+            sets: Cache::new(4),
+            records: Cache::new(16),
+            maps: Cache::new(8),
+            closing: AtomicBool::new(false),
+            dispatcher: Mutex::new(VecDeque::new()),
+            _lock: lock,
+            config,
+            store,
+            blobs,
+            registry,
+        });
+        let engine = Self { inner };
+        if engine.inner.config.dispatch {
+            dispatcher::recover(&engine.inner).await?;
+            engine.feature_a_run().await?;
+            let task = tokio::spawn(dispatcher::work(engine.inner.clone()));
+            engine.tasks().push_back(task);
+        }
+        Ok(engine)
     }
 
     /// Stops working: a run under way goes back into the queue, everything known is on disk when this returns.
-    pub async fn shutdown(&self) {}
+    pub async fn shutdown(&self) {
+        self.inner.closing.store(true, Ordering::SeqCst);
+        self.inner.stop_current(None);
+        self.inner.wake.notify_one();
+        let task = self.tasks().pop_front();
+        if let Some(task) = task {
+            let _ = task.await;
+        }
+        self.inner.store.close().await;
+    }
+
+    fn tasks(&self) -> std::sync::MutexGuard<'_, VecDeque<JoinHandle<()>>> {
+        self.inner.dispatcher.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 
     /// The service at a glance.
     pub async fn status(&self) -> Result<Status> {
-        Err(self.absent("status"))
+        Ok(Status {
+            version: env!("CARGO_PKG_VERSION").into(),
+            hardware_class: self.inner.machine.hardware_class.clone(),
+            running: self.inner.store.running().await?.len() as u32,
+            queued: self.inner.store.queued().await?.len() as u32,
+            algorithms: self.inner.registry.algorithms().len() as u32,
+            problems: self.inner.registry.problems().to_vec(),
+        })
     }
 
     /// Stock objects, then those that the viewer added, newest first.
     pub async fn objects(&self, viewer: Option<&str>) -> Result<Vec<ObjectInfo>> {
-        Err(self.absent(viewer.unwrap_or("objects")))
+        self.inner.objects.list(viewer).await
     }
 
     /// One object by id (`stock:NAME@TRIANGLES`, `stock:bunny`, `stock:dragon` or a UUID).
     pub async fn object(&self, id: &str) -> Result<ObjectInfo> {
-        Err(self.absent(id))
+        self.inner.objects.info(id).await
     }
 
     /// Reads an OBJ file and keeps its mesh; the same mesh of the same owner is kept once. Nothing is kept on error.
     pub async fn add_object(&self, name: &str, bytes: Vec<u8>, owner: Option<&str>) -> Result<ObjectInfo> {
-        let _ = (bytes, owner);
-        Err(self.absent(name))
+        self.inner.objects.add(name, bytes, owner).await
     }
 
     /// The mesh of an object.
     pub async fn mesh(&self, id: &str) -> Result<Arc<Mesh>> {
-        Err(self.absent(id))
+        self.inner.objects.mesh(id).await
     }
 
     /// Keeps a file of configurations (a Parquet set of ours, or raw little-endian f64 4x4 row-major matrices that place
     /// B in A's frame) and gives the method that names it in a [`RunSpec`].
     pub async fn add_configurations(&self, bytes: Vec<u8>) -> Result<Method> {
-        let _ = bytes;
-        Err(self.absent("configurations"))
+        let bytes = blocking(move || configurations::read_file(&bytes).map(|_| bytes)).await?;
+        let length = bytes.len();
+        let sha256 = self.inner.blobs.put(bytes).await?;
+        self.inner.store.add_blob(&sha256, length, "application/octet-stream").await?;
+        Ok(Method::File { sha256 })
     }
 
     /// All algorithms of all plugins that could be described, by id.
     pub fn algorithms(&self) -> Vec<AlgorithmInfo> {
-        Vec::new()
+        self.inner.registry.algorithms()
     }
 
     /// Checks a plugin file: format, loading in the jail, ABI, descriptor, answers on smoke configurations.
     ///
     /// What is wrong with the plugin is in the report; an error means that the check itself could not be made.
     pub async fn check_plugin(&self, file: &Path) -> Result<PluginReport> {
-        Err(self.absent(&file.display().to_string()))
+        let (runner, file) = (self.inner.config.runner.clone(), file.to_owned());
+        // A thread of its own: a jail ends with the thread that started it.
+        let (sender, report) = tokio::sync::oneshot::channel();
+        std::thread::spawn(move || sender.send(check_plugin(&runner, &file)));
+        report.await.unwrap_or_else(|_| Err(EngineError::Fault("The plugin check broke down.".into())))
     }
 
     /// Number of configurations, expected time and wait of a run that is not asked for yet; checks the spec as `submit`.
     pub async fn estimate(&self, spec: &RunSpec) -> Result<Estimate> {
-        Err(self.absent(&spec.object_a))
+        estimate::estimate(&self.inner, &self.check(spec).await?).await
     }
 
-    /// Checks the spec and queues the run.
-    pub async fn submit(&self, spec: RunSpec, owner: Option<&str>) -> Result<RunInfo> {
-        let _ = owner;
-        Err(self.absent(&spec.object_a))
-    }
-
-    /// One run.
-    pub async fn run(&self, id: &str, viewer: Option<&str>) -> Result<RunInfo> {
-        let _ = viewer;
-        Err(self.absent(id))
-    }
-
-    /// The owner's runs, newest first (at most 200).
-    pub async fn runs(&self, owner: &str) -> Result<Vec<RunInfo>> {
-        Err(self.absent(owner))
-    }
-
-    /// Ends a run that is queued or under way. A run that has ended stays as it is.
-    pub async fn cancel(&self, id: &str, caller: Option<&str>) -> Result<RunInfo> {
-        let _ = caller;
-        Err(self.absent(id))
-    }
-
-    /// The newest finished run for the start page, if there is one already.
-    pub async fn featured(&self) -> Result<Option<RunInfo>> {
-        Ok(None)
-    }
-
-    /// The run's events behind `after_seq` (0: all), oldest first.
-    pub async fn events(&self, id: &str, after_seq: i64) -> Result<Vec<RunEvent>> {
-        let _ = after_seq;
-        Err(self.absent(id))
-    }
-
-    /// Replays the run's events behind `after_seq`, then follows; ends behind the event in which the run ends.
-    pub async fn follow(
-        &self,
-        id: &str,
-        after_seq: i64,
-    ) -> Result<impl Stream<Item = Result<RunEvent>> + Send + 'static> {
-        let _ = (id, after_seq);
-        Ok(futures::stream::empty())
+    async fn check(&self, spec: &RunSpec) -> Result<spec::Checked> {
+        let inner = &self.inner;
+        spec::check(spec, &inner.objects, &inner.registry, &inner.store, &inner.blobs).await
     }
 
     /// Values on the vertices of one object of the run.
     pub async fn heatmap(&self, run: &str, request: &HeatmapRequest) -> Result<Heatmap> {
-        let _ = request;
-        Err(self.absent(run))
+        self.inner.heatmap(run, request).await
+    }
+
+    /// The coloured object as glTF binary, with the raw values.
+    pub async fn heatmap_glb(
+        &self,
+        run: &str,
+        request: &HeatmapRequest,
+        map: Colormap,
+        scale: Scale,
+    ) -> Result<Vec<u8>> {
+        self.inner.export(run, request, map, scale).await
     }
 
     /// Distribution of the time per query of one algorithm.
     pub async fn ecdf(&self, run: &str, algorithm: &str) -> Result<Ecdf> {
-        let _ = algorithm;
-        Err(self.absent(run))
+        self.inner.ecdf(run, algorithm).await
     }
 
     /// The records of one algorithm as Parquet.
     pub async fn records_parquet(&self, run: &str, algorithm: &str) -> Result<Vec<u8>> {
-        let _ = algorithm;
-        Err(self.absent(run))
+        self.inner.records_parquet(run, algorithm).await
     }
 
     /// The records of one algorithm as CSV with a header line.
     pub async fn records_csv(&self, run: &str, algorithm: &str) -> Result<Vec<u8>> {
-        let _ = algorithm;
-        Err(self.absent(run))
+        self.inner.records_csv(run, algorithm).await
     }
 
     /// The run's configuration set with its truth as Parquet.
     pub async fn configurations_parquet(&self, run: &str) -> Result<Vec<u8>> {
-        Err(self.absent(run))
-    }
-
-    fn absent(&self, what: &str) -> EngineError {
-        EngineError::NotFound(format!("There is no {what:?} in {}.", self.config.data.display()))
+        self.inner.configurations_parquet(run).await
     }
 }

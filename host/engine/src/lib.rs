@@ -1,11 +1,27 @@
 //! Runs, queue, store and registry: everything between a request and its heatmap.
 //!
 //! One handle, [`Engine`], serves the web server and the command line alike; its values ([`model`]) are the JSON of both.
+#![forbid(unsafe_code)]
 
+mod benchmark;
+mod blobs;
+mod cache;
+mod columns;
 mod config;
+mod configurations;
+mod dispatcher;
 mod engine;
 mod error;
+mod estimate;
+mod machine;
+mod measure;
 pub mod model;
+mod objects;
+mod registry;
+mod results;
+mod runlog;
+mod spec;
+mod store;
 
 pub use config::EngineConfig;
 pub use engine::Engine;

@@ -57,6 +57,8 @@ pub struct AlgorithmInfo {
     pub counters: bool,
     /// It reports witness points.
     pub witness_points: bool,
+    /// It computes in f32: its answers are judged in the wider band.
+    pub single_precision: bool,
     /// Its parameters.
     pub parameters: Vec<ParameterInfo>,
     /// SHA-256 (hex) of the plugin file.

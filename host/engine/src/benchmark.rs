@@ -1,0 +1,343 @@
+//! One run, start to end: object, configurations, measuring, heatmap.
+//!
+//! Blocks on a thread of its own. Every stage first looks for what an earlier attempt has stored.
+
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use ocb_core::configuration::{ConfigurationSet, Method};
+use ocb_core::oracle::Shape;
+use tokio::runtime::Handle;
+
+use crate::columns::{RecordsOf, SetOf, records_parquet, set_parquet};
+use crate::configurations::{self, Gauge};
+use crate::engine::Inner;
+use crate::machine::MeasuringRight;
+use crate::measure::{self, Measured, News, Stop, Task};
+use crate::model::{Environment, RunSpec, SetInfo, State};
+use crate::registry::Contestant;
+use crate::runlog::RunLog;
+use crate::store::{RunRow, StoredResult};
+use crate::{EngineError, Result};
+
+/// How often the run's thread looks up from waiting.
+const TICK: Duration = Duration::from_millis(200);
+/// Lanes before the measuring ones.
+const OBJECT: usize = 0;
+const CONFIGURATIONS: usize = 1;
+const FIRST_MEASURING: usize = 2;
+
+/// How a run ended when nothing went wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// All stages are through.
+    Done,
+    /// It was stopped from outside.
+    Stopped,
+}
+
+/// Carries out a claimed run. An error is the reason why the run failed.
+pub fn run(inner: &Arc<Inner>, id: &str, stop: &Stop, handle: &Handle) -> Result<End> {
+    let row =
+        handle.block_on(inner.store.run(id))?.ok_or_else(|| EngineError::Fault(format!("The run {id} is gone.")))?;
+    let log = RunLog::begin(id, &row.spec.algorithms, inner.store.clone(), inner.bell.clone(), handle.clone())?;
+    let mut bench = Bench { inner, row, stop, log };
+    let ended = bench.stages();
+    match &ended {
+        Ok(End::Done) => {}
+        Ok(End::Stopped) if inner.closing() => {}
+        Ok(End::Stopped) => bench.log.end_open(State::Cancelled, None)?,
+        Err(e) => bench.log.end_open(State::Failed, Some(&e.to_string()))?,
+    }
+    ended
+}
+
+struct Bench<'a> {
+    inner: &'a Arc<Inner>,
+    row: RunRow,
+    stop: &'a Stop,
+    log: RunLog,
+}
+
+/// The two objects, and whether they are one.
+struct Pairing {
+    a: Shape,
+    b: Shape,
+    same: bool,
+}
+
+impl Bench<'_> {
+    fn stages(&mut self) -> Result<End> {
+        let pairing = self.objects()?;
+        if self.stop.asked() {
+            return Ok(End::Stopped);
+        }
+        let Some((set, info)) = self.configurations(&pairing)? else { return Ok(End::Stopped) };
+        if self.measuring(&pairing, &set, &info)? == End::Stopped {
+            return Ok(End::Stopped);
+        }
+        self.heatmaps()?;
+        Ok(End::Done)
+    }
+
+    fn objects(&mut self) -> Result<Pairing> {
+        let spec = self.row.spec.clone();
+        let same = spec.object_b.is_none();
+        self.log.start(OBJECT, if same { 1 } else { 2 })?;
+        let mesh_a = self.log.wait(self.inner.objects.mesh(&spec.object_a))?;
+        let mesh_b = match &spec.object_b {
+            Some(id) => self.log.wait(self.inner.objects.mesh(id))?,
+            None => mesh_a.clone(),
+        };
+        let (a, b) = (Shape::new(mesh_a), Shape::new(mesh_b));
+        let done = if same { 1 } else { 2 };
+        self.log.progress(OBJECT, done, done)?;
+        self.log.end(OBJECT, State::Done, None, None)?;
+        Ok(Pairing { a, b, same })
+    }
+
+    /// Stored positions when somebody found them before, else new ones; `None` when stopped.
+    fn configurations(&mut self, pairing: &Pairing) -> Result<Option<(Arc<ConfigurationSet>, SetInfo)>> {
+        let (a, b) = (pairing.a.mesh(), pairing.b.mesh());
+        let (sha_a, sha_b) = (a.sha256(), b.sha256());
+        let key = configurations::set_key(&sha_a, &sha_b, &self.row.spec)?;
+        let store = self.inner.store.clone();
+        if let Some(stored) = self.log.wait(store.set(&key))? {
+            let n = u64::from(stored.info.configurations);
+            self.log.start(CONFIGURATIONS, n)?;
+            let set = self.log.wait(self.inner.set(&stored.blob))?;
+            self.log.wait(store.set_of_run(&self.row.id, &stored.info, &stored.blob))?;
+            self.log.progress(CONFIGURATIONS, n, n)?;
+            self.log.end(CONFIGURATIONS, State::Done, Some("Saved positions were used again.".into()), None)?;
+            return Ok(Some((set, stored.info)));
+        }
+        let started = Instant::now();
+        let Some(set) = self.find(pairing)? else { return Ok(None) };
+        let seconds = started.elapsed().as_secs_f64();
+        let bytes = set_parquet(&SetOf { mesh_a: &sha_a, mesh_b: &sha_b }, &set)?;
+        let length = bytes.len();
+        let blob = self.log.wait(self.inner.blobs.put(bytes))?;
+        let info = configurations::describe(&set, &blob, [a.triangles().len(), b.triangles().len()]);
+        self.log.wait(store.add_blob(&blob, length, "application/vnd.apache.parquet"))?;
+        self.log.wait(store.keep_set(&key, &info, &blob, self.triangles(pairing), seconds))?;
+        self.log.wait(store.set_of_run(&self.row.id, &info, &blob))?;
+        let missed = (info.missed_rays > 0)
+            .then(|| format!("On {} rays the objects never come to this distance.", info.missed_rays));
+        self.log.end(CONFIGURATIONS, State::Done, missed, None)?;
+        Ok(Some((self.inner.sets.put(&blob, set), info)))
+    }
+
+    /// Finds the set on all CPUs while this thread reports.
+    fn find(&mut self, pairing: &Pairing) -> Result<Option<ConfigurationSet>> {
+        let spec: &RunSpec = &self.row.spec.clone();
+        let poses = match &spec.method {
+            Method::File { sha256 } => Some(configurations::read_file(&self.log.wait(self.inner.blobs.get(sha256))?)?),
+            Method::Sphere { .. } => None,
+        };
+        let total = match (&spec.method, &poses) {
+            (Method::Sphere { sampling, .. }, _) => ocb_core::sampling::sphere::count(sampling)
+                .map_err(|e| EngineError::Invalid(format!("These configurations are not possible: {e}.")))?,
+            (_, poses) => poses.as_ref().map_or(0, |p| p.len() as u64),
+        };
+        self.log.start(CONFIGURATIONS, total)?;
+        let gauge = Gauge::default();
+        let (gauge, poses) = (&gauge, poses.as_deref());
+        let set = thread::scope(|scope| {
+            let worker = scope.spawn(|| configurations::make(&pairing.a, &pairing.b, spec, poses, gauge));
+            while !worker.is_finished() {
+                thread::sleep(TICK.min(Duration::from_millis(20)));
+                if self.stop.asked() {
+                    gauge.stop.store(true, Ordering::Relaxed);
+                }
+                self.log.progress_slowly(CONFIGURATIONS, gauge.done.load(Ordering::Relaxed), total)?;
+            }
+            worker.join().unwrap_or_else(|_| Err(EngineError::Fault("Finding the configurations broke down.".into())))
+        })?;
+        if set.is_some() {
+            self.log.progress(CONFIGURATIONS, total, total)?;
+        }
+        Ok(set)
+    }
+
+    fn measuring(&mut self, pairing: &Pairing, set: &ConfigurationSet, info: &SetInfo) -> Result<End> {
+        let known = self.log.wait(self.inner.store.results(&self.row.id))?;
+        if self.row.spec.algorithms.iter().all(|a| known.iter().any(|k| k.result.algorithm == *a)) {
+            // An earlier attempt came as far as this.
+            for (lane, stored) in known.into_iter().enumerate() {
+                let n = u64::from(stored.result.n);
+                self.log.progress(FIRST_MEASURING + lane, n, n)?;
+                self.end_lane(lane, stored)?;
+            }
+            return Ok(End::Done);
+        }
+        let contestants = self.contestants()?;
+        let Some(_right) = self.right_to_measure()? else { return Ok(End::Stopped) };
+        let spec = self.row.spec.clone();
+        let task = Task {
+            a: &pairing.a,
+            b: &pairing.b,
+            same: pairing.same,
+            set,
+            query: spec.query,
+            passes: spec.passes,
+            budget: Duration::from_secs_f64(spec.budget_seconds),
+            seed: seed_of(&info.sha256),
+            contestants: &contestants,
+        };
+        let (sender, news) = mpsc::channel();
+        let mut finished: Vec<(usize, Measured)> = Vec::new();
+        thread::scope(|scope| -> Result<()> {
+            let (registry, machine, stop) = (&self.inner.registry, &self.inner.machine, self.stop);
+            let worker = thread::Builder::new()
+                .name("measuring".into())
+                .spawn_scoped(scope, move || measure::measure(&task, registry, machine, stop, &sender))
+                .map_err(|e| EngineError::fault("Starting the measuring thread failed", e))?;
+            loop {
+                match news.recv_timeout(TICK) {
+                    Ok(News::Progress { lane, done, total }) => {
+                        self.log.progress(FIRST_MEASURING + lane, done, total)?;
+                    }
+                    Ok(News::Finished { lane, measured }) => finished.push((lane, *measured)),
+                    Err(RecvTimeoutError::Timeout) => {}
+                    Err(RecvTimeoutError::Disconnected) => break,
+                }
+            }
+            worker.join().map_err(|_| EngineError::Fault("The measuring thread broke down.".into()))
+        })?;
+        if self.stop.asked() {
+            return Ok(End::Stopped);
+        }
+        self.keep(pairing, info, finished)
+    }
+
+    /// Stores what was measured; the run fails only when there is nothing to show at all.
+    fn keep(&mut self, pairing: &Pairing, info: &SetInfo, finished: Vec<(usize, Measured)>) -> Result<End> {
+        let (lanes, measured): (Vec<usize>, Vec<Measured>) = finished.into_iter().unzip();
+        let environment = measure::environment(&self.inner.machine, &measured);
+        if let Some(environment) = &environment {
+            self.log.wait(self.inner.store.environment_of_run(&self.row.id, environment))?;
+        }
+        let mut nothing = None;
+        let mut any = false;
+        for (lane, measured) in lanes.into_iter().zip(&measured) {
+            let stored = self.keep_one(lane, pairing, info, measured, environment.as_ref())?;
+            any |= stored.result.n > 0;
+            nothing.get_or_insert_with(|| stored.result.outcome.message.clone());
+            self.end_lane(lane, stored)?;
+        }
+        match nothing {
+            Some(cause) if !any => Err(EngineError::Fault(format!("No algorithm could be measured. {cause}"))),
+            _ => Ok(End::Done),
+        }
+    }
+
+    fn keep_one(
+        &mut self,
+        lane: usize,
+        pairing: &Pairing,
+        info: &SetInfo,
+        measured: &Measured,
+        environment: Option<&Environment>,
+    ) -> Result<StoredResult> {
+        let algorithm = &measured.contestant.info;
+        let of = RecordsOf {
+            run: &self.row.id,
+            algorithm: &algorithm.id,
+            plugin_sha256: &algorithm.plugin_sha256,
+            hardware_class: environment.map_or("", |e| &e.hardware_class),
+            set_sha256: &info.sha256,
+        };
+        let records = if measured.records.is_empty() {
+            None
+        } else {
+            let bytes = records_parquet(&of, &measured.records)?;
+            let length = bytes.len();
+            let blob = self.log.wait(self.inner.blobs.put(bytes))?;
+            self.log.wait(self.inner.store.add_blob(&blob, length, "application/vnd.apache.parquet"))?;
+            Some(blob)
+        };
+        let stored = StoredResult {
+            result: measure::summarise(measured),
+            records,
+            plugin_sha256: algorithm.plugin_sha256.clone(),
+            seconds_per_configuration: measured.seconds_per_query,
+        };
+        let triangles = self.triangles(pairing);
+        self.log.wait(self.inner.store.keep_result(&self.row.id, lane, &stored, triangles, self.row.spec.query))?;
+        Ok(stored)
+    }
+
+    fn end_lane(&mut self, lane: usize, stored: StoredResult) -> Result<()> {
+        let result = stored.result;
+        let failed = result.outcome.name != "Completed";
+        let message = if failed {
+            Some(result.outcome.message.clone())
+        } else {
+            result
+                .budget_limited
+                .then(|| format!("The time allowed sufficed for {} of {} configurations.", result.n, result.of))
+        };
+        let state = if failed { State::Failed } else { State::Done };
+        self.log.end(FIRST_MEASURING + lane, state, message, Some(result))
+    }
+
+    /// The algorithms may have changed since the run was asked for, by a restart with other plugins.
+    fn contestants(&self) -> Result<Vec<Arc<Contestant>>> {
+        let find = |id: &String| {
+            self.inner.registry.contestant(id).ok_or_else(|| {
+                EngineError::Invalid(format!(
+                    "The algorithm {id:?} is no longer installed; start the run again without it."
+                ))
+            })
+        };
+        self.row.spec.algorithms.iter().map(find).collect()
+    }
+
+    /// Waits until no other process measures on this machine; `None` when stopped.
+    fn right_to_measure(&mut self) -> Result<Option<MeasuringRight>> {
+        let mut waited = false;
+        loop {
+            if self.stop.asked() {
+                return Ok(None);
+            }
+            if let Some(right) = MeasuringRight::try_take()? {
+                if waited {
+                    self.log.note(FIRST_MEASURING, None)?;
+                }
+                return Ok(Some(right));
+            }
+            if !waited {
+                self.log.note(FIRST_MEASURING, Some("Waiting: another process is measuring on this machine."))?;
+                waited = true;
+            }
+            thread::sleep(TICK);
+        }
+    }
+
+    /// Aggregates every algorithm onto the vertices once, so that the first look at the run is quick.
+    fn heatmaps(&mut self) -> Result<()> {
+        let lane = FIRST_MEASURING + self.row.spec.algorithms.len();
+        let results = self.log.wait(self.inner.store.results(&self.row.id))?;
+        let measured: Vec<_> = results.iter().filter(|r| r.records.is_some()).collect();
+        let total = measured.len() as u64;
+        self.log.start(lane, total)?;
+        for (done, stored) in (1..).zip(measured) {
+            let request = crate::results::first_look(&stored.result.algorithm);
+            self.log.wait(self.inner.heatmap(&self.row.id, &request))?;
+            self.log.progress(lane, done, total)?;
+        }
+        self.log.end(lane, State::Done, None, None)
+    }
+
+    fn triangles(&self, pairing: &Pairing) -> u64 {
+        (pairing.a.mesh().triangles().len() + pairing.b.mesh().triangles().len()) as u64
+    }
+}
+
+/// The shared order depends on the set alone, so that the same run can be repeated.
+fn seed_of(set_sha256: &str) -> u64 {
+    u64::from_str_radix(&set_sha256[..16], 16).unwrap_or(0)
+}

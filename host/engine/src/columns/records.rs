@@ -1,0 +1,224 @@
+//! The records of one algorithm.
+
+use std::collections::HashMap;
+use std::fmt::Write;
+use std::sync::Arc;
+
+use arrow::array::{BooleanArray, Float64Array, RecordBatch, StringArray, UInt32Array, UInt64Array};
+use arrow::util::display::{ArrayFormatter, FormatOptions};
+use nalgebra::Point3;
+use ocb_core::query::Answer;
+use ocb_core::record::{Record, Verdict};
+
+use super::{SCHEMA_VERSION, batch, column, from_parquet, to_parquet};
+use crate::{EngineError, Result};
+
+/// What the file says of itself.
+pub struct RecordsOf<'a> {
+    /// Id of the run.
+    pub run: &'a str,
+    /// Algorithm id.
+    pub algorithm: &'a str,
+    /// SHA-256 of the plugin file.
+    pub plugin_sha256: &'a str,
+    /// Hardware class of the machine.
+    pub hardware_class: &'a str,
+    /// SHA-256 of the stored configuration set.
+    pub set_sha256: &'a str,
+}
+
+/// What the heatmap and the charts need of the records, in the file's order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RecordColumns {
+    /// Index of the configuration in its set.
+    pub configuration: Vec<u32>,
+    /// Nanoseconds.
+    pub time_ns: Vec<f64>,
+    /// BV tests, where counted.
+    pub bv_tests: Vec<Option<u64>>,
+    /// Primitive tests, where counted.
+    pub primitive_tests: Vec<Option<u64>>,
+}
+
+/// The records as Parquet, one row per measured configuration.
+pub fn records_parquet(of: &RecordsOf, records: &[Record]) -> Result<Vec<u8>> {
+    let answers: Vec<Flat> = records.iter().map(|r| Flat::from(&r.answer)).collect();
+    let points = |side: usize, axis: usize| -> Arc<Float64Array> {
+        Arc::new(answers.iter().map(|a| a.points.map(|p| p[side][axis])).collect())
+    };
+    let triangles =
+        |side: usize| -> Arc<UInt32Array> { Arc::new(answers.iter().map(|a| a.triangles.map(|t| t[side])).collect()) };
+    let metadata = HashMap::from(
+        [
+            ("opencollbench.schema", SCHEMA_VERSION),
+            ("opencollbench.version", env!("CARGO_PKG_VERSION")),
+            ("opencollbench.run", of.run),
+            ("opencollbench.algorithm", of.algorithm),
+            ("opencollbench.plugin_sha256", of.plugin_sha256),
+            ("opencollbench.hardware_class", of.hardware_class),
+            ("opencollbench.set_sha256", of.set_sha256),
+        ]
+        .map(|(key, value)| (key.to_owned(), value.to_owned())),
+    );
+    to_parquet(&batch(
+        metadata,
+        vec![
+            ("configuration", Arc::new(records.iter().map(|r| r.configuration).collect::<UInt32Array>())),
+            ("time_ns", Arc::new(records.iter().map(|r| r.time_ns).collect::<Float64Array>())),
+            ("below_resolution", Arc::new(records.iter().map(|r| Some(r.below_resolution)).collect::<BooleanArray>())),
+            ("passes", Arc::new(records.iter().map(|r| r.passes).collect::<UInt32Array>())),
+            ("bv_tests", Arc::new(records.iter().map(|r| r.counters.map(|c| c.bv_tests)).collect::<UInt64Array>())),
+            (
+                "primitive_tests",
+                Arc::new(records.iter().map(|r| r.counters.map(|c| c.primitive_tests)).collect::<UInt64Array>()),
+            ),
+            ("verdict", Arc::new(records.iter().map(|r| Some(verdict_name(r.verdict))).collect::<StringArray>())),
+            ("answer", Arc::new(answers.iter().map(|a| Some(a.kind)).collect::<StringArray>())),
+            ("hit", Arc::new(answers.iter().map(|a| a.hit).collect::<BooleanArray>())),
+            ("contacts", Arc::new(answers.iter().map(|a| a.contacts).collect::<UInt64Array>())),
+            ("distance", Arc::new(answers.iter().map(|a| a.distance).collect::<Float64Array>())),
+            ("triangle_a", triangles(0)),
+            ("triangle_b", triangles(1)),
+            ("point_a_x", points(0, 0)),
+            ("point_a_y", points(0, 1)),
+            ("point_a_z", points(0, 2)),
+            ("point_b_x", points(1, 0)),
+            ("point_b_y", points(1, 1)),
+            ("point_b_z", points(1, 2)),
+        ],
+    )?)
+}
+
+/// Reads back what [`records_parquet`] wrote.
+pub fn read_records(bytes: &[u8]) -> Result<RecordColumns> {
+    let damaged = |e: String| EngineError::Fault(format!("A stored file of records cannot be read: {e}."));
+    let (_, batches) = from_parquet(bytes).map_err(damaged)?;
+    let mut all = RecordColumns::default();
+    for batch in &batches {
+        all.append(batch).map_err(damaged)?;
+    }
+    Ok(all)
+}
+
+/// The same rows as CSV with a header line; an absent value is an empty field.
+pub fn records_csv(parquet: &[u8]) -> Result<Vec<u8>> {
+    let fault = |e: String| EngineError::Fault(format!("Writing the records as CSV failed: {e}."));
+    let (schema, batches) = from_parquet(parquet).map_err(fault)?;
+    // No field needs quotes: the only texts are names of verdicts and answers.
+    let mut text = schema.fields().iter().map(|f| f.name().as_str()).collect::<Vec<_>>().join(",");
+    text.push('\n');
+    for batch in &batches {
+        let columns = batch
+            .columns()
+            .iter()
+            .map(|c| ArrayFormatter::try_new(c.as_ref(), &FormatOptions::default()))
+            .collect::<std::result::Result<Vec<_>, _>>()
+            .map_err(|e| fault(e.to_string()))?;
+        for row in 0..batch.num_rows() {
+            for (i, column) in columns.iter().enumerate() {
+                let comma = if i == 0 { "" } else { "," };
+                write!(text, "{comma}{}", column.value(row)).map_err(|e| fault(e.to_string()))?;
+            }
+            text.push('\n');
+        }
+    }
+    Ok(text.into_bytes())
+}
+
+impl RecordColumns {
+    fn append(&mut self, batch: &RecordBatch) -> std::result::Result<(), String> {
+        self.configuration.extend_from_slice(column::<UInt32Array>(batch, "configuration")?.values());
+        self.time_ns.extend_from_slice(column::<Float64Array>(batch, "time_ns")?.values());
+        self.bv_tests.extend(column::<UInt64Array>(batch, "bv_tests")?.iter());
+        self.primitive_tests.extend(column::<UInt64Array>(batch, "primitive_tests")?.iter());
+        Ok(())
+    }
+}
+
+/// An answer of any kind in one row.
+struct Flat {
+    kind: &'static str,
+    hit: Option<bool>,
+    contacts: Option<u64>,
+    distance: Option<f64>,
+    triangles: Option<[u32; 2]>,
+    points: Option<[Point3<f64>; 2]>,
+}
+
+impl From<&Answer> for Flat {
+    fn from(answer: &Answer) -> Self {
+        let none = Flat { kind: "", hit: None, contacts: None, distance: None, triangles: None, points: None };
+        match answer {
+            Answer::Collision { hit, pair } => Flat { kind: "collision", hit: Some(*hit), triangles: *pair, ..none },
+            Answer::Contacts { total, .. } => {
+                Flat { kind: "contacts", hit: Some(*total > 0), contacts: Some(*total), ..none }
+            }
+            Answer::Distance { distance, points, triangles } => {
+                Flat { kind: "distance", distance: Some(*distance), triangles: *triangles, points: *points, ..none }
+            }
+            Answer::GaveUp => Flat { kind: "gave_up", ..none },
+            Answer::Unsupported => Flat { kind: "unsupported", ..none },
+        }
+    }
+}
+
+fn verdict_name(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Correct => "correct",
+        Verdict::FalseNegative => "false_negative",
+        Verdict::FalsePositive => "false_positive",
+        Verdict::DistanceOver => "distance_over",
+        Verdict::DistanceUnder => "distance_under",
+        Verdict::WrongWitness => "wrong_witness",
+        Verdict::Invalid => "invalid",
+        Verdict::Undecidable => "undecidable",
+        Verdict::GaveUp => "gave_up",
+        Verdict::Unsupported => "unsupported",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ocb_core::query::Counters;
+
+    fn record(configuration: u32, answer: Answer, counters: Option<Counters>) -> Record {
+        Record {
+            configuration,
+            time_ns: 120.5 + f64::from(configuration),
+            below_resolution: configuration == 1,
+            passes: 3,
+            counters,
+            answer,
+            verdict: Verdict::Correct,
+        }
+    }
+
+    #[test]
+    fn records_come_back_from_parquet_and_read_well_as_csv() {
+        let records = [
+            record(
+                7,
+                Answer::Collision { hit: true, pair: Some([3, 4]) },
+                Some(Counters { bv_tests: 9, primitive_tests: 2 }),
+            ),
+            record(1, Answer::Distance { distance: 0.25, points: None, triangles: None }, None),
+            record(2, Answer::GaveUp, None),
+        ];
+        let of = RecordsOf { run: "r", algorithm: "a", plugin_sha256: "p", hardware_class: "h", set_sha256: "s" };
+        let file = records_parquet(&of, &records).unwrap();
+        let columns = read_records(&file).unwrap();
+        assert_eq!(columns.configuration, [7, 1, 2]);
+        assert_eq!(columns.time_ns, [127.5, 121.5, 122.5]);
+        assert_eq!(columns.bv_tests, [Some(9), None, None]);
+        assert_eq!(columns.primitive_tests, [Some(2), None, None]);
+        let csv = String::from_utf8(records_csv(&file).unwrap()).unwrap();
+        let lines: Vec<&str> = csv.lines().collect();
+        assert!(lines[0].starts_with("configuration,time_ns,below_resolution,passes,bv_tests"), "{}", lines[0]);
+        assert_eq!(lines[1], "7,127.5,false,3,9,2,correct,collision,true,,,3,4,,,,,,");
+        assert_eq!(lines[2], "1,121.5,true,3,,,correct,distance,,,0.25,,,,,,,,");
+        assert_eq!(lines.len(), 4);
+        let (schema, _) = from_parquet(&file).unwrap();
+        assert_eq!(schema.metadata().get("opencollbench.run").map(String::as_str), Some("r"));
+    }
+}

@@ -1,0 +1,111 @@
+//! The local dispatcher: one process owns the queue, one run is at work at a time, each on a thread of its own.
+
+use std::sync::{Arc, PoisonError};
+use std::time::Duration;
+
+use tokio::runtime::Handle;
+
+use crate::benchmark::{self, End};
+use crate::engine::Inner;
+use crate::measure::Stop;
+use crate::model::State;
+use crate::runlog::plain_event;
+use crate::{EngineError, Result};
+
+/// A run that was started this often is not tried again: it may be what ends the service.
+const MAX_ATTEMPTS: i64 = 3;
+/// The queue is looked at this often even if nobody rings.
+const IDLE: Duration = Duration::from_secs(30);
+/// After a fault of the database.
+const BACK_OFF: Duration = Duration::from_secs(2);
+
+/// Puts back what an ended process left behind.
+pub async fn recover(inner: &Inner) -> Result<()> {
+    let (queued, failed) = inner.store.recover(MAX_ATTEMPTS).await?;
+    for run in &failed {
+        inner.bell.tell(&inner.store, run, plain_event(State::Failed, 0)).await?;
+    }
+    if !queued.is_empty() {
+        tracing::info!("{} interrupted run(s) are back in the queue", queued.len());
+    }
+    Ok(())
+}
+
+/// Works on the queue until the engine closes.
+pub async fn work(inner: Arc<Inner>) {
+    while !inner.closing() {
+        match inner.store.claim().await {
+            Ok(Some(id)) => {
+                if let Err(e) = carry_out(&inner, &id).await {
+                    tracing::error!("run {id}: {e}");
+                    tokio::time::sleep(BACK_OFF).await;
+                }
+            }
+            Ok(None) => {
+                let _ = tokio::time::timeout(IDLE, inner.wake.notified()).await;
+            }
+            Err(e) => {
+                tracing::error!("looking at the queue: {e}");
+                tokio::time::sleep(BACK_OFF).await;
+            }
+        }
+    }
+}
+
+async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
+    let stop = Stop::default();
+    inner.set_current(Some((id.to_owned(), stop.clone())));
+    announce(inner).await?;
+    let (sender, ended) = tokio::sync::oneshot::channel();
+    let (for_run, for_id, handle) = (inner.clone(), id.to_owned(), Handle::current());
+    let thread = std::thread::Builder::new().name("run".into()).spawn(move || {
+        let _ = sender.send(benchmark::run(&for_run, &for_id, &stop, &handle));
+    });
+    let ended = match thread {
+        // The sender is dropped without a word only when the thread panicked.
+        Ok(_) => ended.await.unwrap_or_else(|_| Err(EngineError::Fault("The run broke down; see the log.".into()))),
+        Err(e) => Err(EngineError::fault("Starting the run's thread failed", e)),
+    };
+    inner.set_current(None);
+    let (state, message) = match ended {
+        Ok(End::Done) => (State::Done, None),
+        Ok(End::Stopped) if inner.closing() => {
+            inner.store.put_back(id).await?;
+            return inner.bell.tell(&inner.store, id, plain_event(State::Queued, 0)).await;
+        }
+        Ok(End::Stopped) => (State::Cancelled, None),
+        Err(e) => {
+            tracing::warn!("run {id} failed: {e}");
+            (State::Failed, Some(e.to_string()))
+        }
+    };
+    inner.store.end_run(id, State::Running, state, message.as_deref()).await?;
+    inner.bell.tell(&inner.store, id, plain_event(state, 0)).await?;
+    announce(inner).await
+}
+
+/// Tells those who wait how many are ahead of them.
+pub async fn announce(inner: &Inner) -> Result<()> {
+    let running = inner.store.running().await?.len() as u32;
+    for (ahead, run) in (running..).zip(inner.store.queued().await?) {
+        inner.bell.tell(&inner.store, &run.id, plain_event(State::Queued, ahead)).await?;
+    }
+    Ok(())
+}
+
+impl Inner {
+    /// Notes which run is at work and how it is stopped.
+    fn set_current(&self, current: Option<(String, Stop)>) {
+        *self.current.lock().unwrap_or_else(PoisonError::into_inner) = current;
+    }
+
+    /// Stops the run at work if it is this one, or whichever it is.
+    pub fn stop_current(&self, id: Option<&str>) {
+        let current = self.current.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((running, stop)) = &*current
+            && id.is_none_or(|id| id == running)
+        {
+            stop.stop();
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Asking for runs, looking at them and ending them.
+
+use std::time::{Duration, Instant};
+
+use super::{Engine, INTERACTIVE};
+use crate::model::{RunInfo, RunSpec, State};
+use crate::runlog::{fresh_stages, plain_event};
+use crate::store::{RunRow, now_us};
+use crate::{EngineError, Result, dispatcher, estimate};
+
+/// Longest list of runs.
+const MAX_LIST: i64 = 200;
+/// How long `cancel` waits for a run under way to end before it answers.
+const CANCEL_PATIENCE: Duration = Duration::from_secs(3);
+
+impl Engine {
+    /// Checks the spec and queues the run.
+    pub async fn submit(&self, spec: RunSpec, owner: Option<&str>) -> Result<RunInfo> {
+        self.queue(spec, owner, INTERACTIVE, false).await
+    }
+
+    pub(super) async fn queue(
+        &self,
+        spec: RunSpec,
+        owner: Option<&str>,
+        priority: i64,
+        featured: bool,
+    ) -> Result<RunInfo> {
+        let checked = self.check(&spec).await?;
+        let expected = estimate::estimate(&self.inner, &checked).await?;
+        let row = RunRow {
+            id: uuid::Uuid::now_v7().to_string(),
+            owner: owner.map(str::to_owned),
+            featured,
+            priority,
+            state: State::Queued,
+            attempts: 0,
+            message: None,
+            object_a_name: checked.object_a.name,
+            object_b_name: checked.object_b.name,
+            set: None,
+            set_blob: None,
+            environment: None,
+            expected_seconds: expected.total_seconds,
+            created_us: now_us(),
+            finished_us: None,
+            spec: checked.spec,
+        };
+        self.inner.store.add_run(&row, &fresh_stages(&row.spec.algorithms)).await?;
+        dispatcher::announce(&self.inner).await?;
+        self.inner.wake.notify_one();
+        self.run(&row.id, owner).await
+    }
+
+    /// One run.
+    pub async fn run(&self, id: &str, viewer: Option<&str>) -> Result<RunInfo> {
+        let row = self.inner.run_row(id).await?;
+        self.info(row, viewer).await
+    }
+
+    /// The owner's runs, newest first (at most 200).
+    pub async fn runs(&self, owner: &str) -> Result<Vec<RunInfo>> {
+        let mut all = Vec::new();
+        for row in self.inner.store.runs_of(owner, MAX_LIST).await? {
+            all.push(self.info(row, Some(owner)).await?);
+        }
+        Ok(all)
+    }
+
+    /// The newest finished run for the start page, if there is one already.
+    pub async fn featured(&self) -> Result<Option<RunInfo>> {
+        match self.inner.store.newest_featured().await? {
+            Some(row) => Ok(Some(self.info(row, None).await?)),
+            None => Ok(None),
+        }
+    }
+
+    /// Ends a run that is queued or under way. A run that has ended stays as it is.
+    pub async fn cancel(&self, id: &str, caller: Option<&str>) -> Result<RunInfo> {
+        let row = self.inner.run_row(id).await?;
+        if caller.is_none() || row.owner.as_deref() != caller {
+            return Err(EngineError::Forbidden("Only who asked for this run may cancel it.".into()));
+        }
+        let asked = Instant::now();
+        loop {
+            if self.inner.store.end_run(id, State::Queued, State::Cancelled, None).await? {
+                self.inner.bell.tell(&self.inner.store, id, plain_event(State::Cancelled, 0)).await?;
+                dispatcher::announce(&self.inner).await?;
+                break;
+            }
+            // Between the claim and the start there is a moment in which neither works; so it is tried until it does.
+            self.inner.stop_current(Some(id));
+            let state = self.inner.run_row(id).await?.state;
+            if !matches!(state, State::Queued | State::Running) || asked.elapsed() > CANCEL_PATIENCE {
+                break;
+            }
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+        self.run(id, caller).await
+    }
+
+    async fn info(&self, row: RunRow, viewer: Option<&str>) -> Result<RunInfo> {
+        let store = &self.inner.store;
+        let runs_ahead = if row.state == State::Queued {
+            let running = store.running().await?.len();
+            let place = store.queued().await?.iter().position(|run| run.id == row.id);
+            (running + place.unwrap_or(0)) as u32
+        } else {
+            0
+        };
+        Ok(RunInfo {
+            stages: store.stages(&row.id).await?,
+            results: store.results(&row.id).await?.into_iter().map(|stored| stored.result).collect(),
+            mine: viewer.is_some() && row.owner.as_deref() == viewer,
+            runs_ahead,
+            id: row.id,
+            spec: row.spec,
+            object_a_name: row.object_a_name,
+            object_b_name: row.object_b_name,
+            state: row.state,
+            message: row.message,
+            set: row.set,
+            environment: row.environment,
+            attempts: row.attempts,
+            created_us: row.created_us,
+            finished_us: row.finished_us,
+        })
+    }
+}

@@ -1,0 +1,245 @@
+//! Measuring: plain blocking code on one thread of its own.
+//!
+//! The algorithms take turns, one pass each per round, so that a slow drift of the machine meets all of them alike. Every
+//! turn is a fresh jailed process. All share one shuffled order; an algorithm whose budget ends measures a prefix of it.
+
+mod lane;
+mod order;
+mod summary;
+
+use std::sync::mpsc::Sender;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use ocb_core::configuration::ConfigurationSet;
+use ocb_core::oracle::{Pair, Shape};
+use ocb_core::query::Query;
+use ocb_sandbox::{Killer, Outcome, Policy, Session, Trial};
+
+use crate::machine::Machine;
+use crate::model::OutcomeInfo;
+use crate::registry::{Contestant, Registry, plugin_hash};
+
+pub use lane::{Lane, Measured};
+pub use summary::{environment, summarise};
+
+/// How often a lane may report, so that pages live and nothing else suffers.
+const REPORT_EVERY: Duration = Duration::from_millis(200);
+
+/// Ends the measuring from another thread.
+#[derive(Clone, Default)]
+pub struct Stop {
+    inner: Arc<Mutex<(bool, Option<Killer>)>>,
+}
+
+impl Stop {
+    /// No further question is asked, and the runner under way is killed.
+    pub fn stop(&self) {
+        let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
+        inner.0 = true;
+        if let Some(killer) = &inner.1 {
+            killer.kill();
+        }
+    }
+
+    /// Was it asked for?
+    pub fn asked(&self) -> bool {
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner).0
+    }
+
+    /// From now on a stop kills this runner.
+    fn watch(&self, killer: Option<Killer>) {
+        let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
+        if let (true, Some(killer)) = (inner.0, &killer) {
+            killer.kill();
+        }
+        inner.1 = killer;
+    }
+}
+
+/// What is measured.
+pub struct Task<'a> {
+    /// Object A.
+    pub a: &'a Shape,
+    /// Object B.
+    pub b: &'a Shape,
+    /// A and B are the same object.
+    pub same: bool,
+    /// The configurations with their truth.
+    pub set: &'a ConfigurationSet,
+    /// The question.
+    pub query: Query,
+    /// Timed passes.
+    pub passes: u32,
+    /// Measuring time allowed per algorithm.
+    pub budget: Duration,
+    /// Seed of the shared order.
+    pub seed: u64,
+    /// The algorithms.
+    pub contestants: &'a [Arc<Contestant>],
+}
+
+/// News for whoever reports the progress.
+pub enum News {
+    /// A lane has done so many of its expected questions.
+    Progress {
+        /// Which contestant.
+        lane: usize,
+        /// Questions answered.
+        done: u64,
+        /// Questions expected in all, as far as is known now.
+        total: u64,
+    },
+    /// A lane will not change any more.
+    Finished {
+        /// Which contestant.
+        lane: usize,
+        /// All that was measured.
+        measured: Box<Measured>,
+    },
+}
+
+/// Measures all contestants and sends what happens; returns early when stopped.
+pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop, news: &Sender<News>) {
+    let _quiet = machine.keep_off();
+    let mut lanes: Vec<Lane> = task.contestants.iter().map(|c| Lane::new(c.clone(), task.set.placed.len())).collect();
+    let base = order::shuffled(task.set.placed.len() as u32, task.seed);
+    // Round `passes` is the untimed one, in which the counters are asked for.
+    for round in 0..=task.passes {
+        for (index, lane) in lanes.iter_mut().enumerate() {
+            let counting = round == task.passes;
+            if lane.ended() || (counting && !lane.contestant.info.counters) {
+                continue;
+            }
+            let turn = Turn { task, registry, machine, stop, news, index, round };
+            turn.play(lane, &base);
+            if stop.asked() {
+                return;
+            }
+        }
+    }
+    for (lane, index) in lanes.into_iter().zip(0..) {
+        // The receiver is gone only when nobody wants the run any more.
+        let _ = news.send(News::Finished { lane: index, measured: Box::new(lane.into_measured()) });
+    }
+}
+
+/// One algorithm's pass in a fresh process.
+struct Turn<'a> {
+    task: &'a Task<'a>,
+    registry: &'a Registry,
+    machine: &'a Machine,
+    stop: &'a Stop,
+    news: &'a Sender<News>,
+    index: usize,
+    round: u32,
+}
+
+impl Turn<'_> {
+    fn play(&self, lane: &mut Lane, base: &[u32]) {
+        let placed = &self.task.set.placed;
+        let prefix = &base[..lane.reach.unwrap_or(base.len())];
+        let order =
+            if self.round == 0 { prefix.to_vec() } else { order::reshuffled(prefix, self.task.seed, self.round) };
+        self.report(lane);
+        let mut session = match self.start(lane) {
+            Ok(session) => session,
+            Err(outcome) => return lane.end(outcome),
+        };
+        self.stop.watch(Some(session.killer()));
+        lane.begin_turn(&session);
+        let allowed = self.allowance(lane);
+        let (started, mut reported) = (Instant::now(), Instant::now());
+        let mut reached = 0;
+        for &i in &order {
+            let configuration = &placed[i as usize].configuration;
+            let answered = if self.counting() {
+                session.count(self.task.query, configuration).map(|(answer, counters)| lane.count(i, answer, counters))
+            } else {
+                session.query(self.task.query, configuration).map(|sample| lane.time(i, sample))
+            };
+            // What it died of is in the session's ending.
+            if answered.is_err() {
+                break;
+            }
+            reached += 1;
+            let now = Instant::now();
+            if now - reported >= REPORT_EVERY {
+                reported = now;
+                self.report(lane);
+                if self.stop.asked() {
+                    break;
+                }
+            }
+            if now - started >= allowed {
+                break;
+            }
+        }
+        lane.spent += started.elapsed();
+        self.stop.watch(None);
+        let ending = session.finish();
+        if self.round == 0 {
+            lane.reach = Some(reached);
+        }
+        lane.end_turn(&ending);
+        if ending.outcome != Outcome::Completed {
+            lane.end(outcome_info(&ending.outcome));
+        }
+        lane.judge(&Pair::new(self.task.a, self.task.b), placed, self.task.query);
+        self.report(lane);
+    }
+
+    fn start(&self, lane: &Lane) -> Result<Session, OutcomeInfo> {
+        let contestant = &lane.contestant;
+        let ours = |message: String| OutcomeInfo { name: "SandboxFault".into(), message, ours: true };
+        match plugin_hash(&contestant.file) {
+            Ok(hash) if hash == contestant.info.plugin_sha256 => {}
+            Ok(_) => {
+                return Err(ours("The plugin file was replaced after the service had read it; start it again.".into()));
+            }
+            Err(e) => return Err(ours(e.to_string())),
+        }
+        let policy = Policy {
+            runner_cpu: Some(self.machine.measuring_cpu()),
+            supervisor_cpu: Some(self.machine.supervisor_cpu()),
+            // A single question may take a whole turn (brute force on large objects), and no more.
+            query_seconds: self.task.budget.as_secs_f64().max(Policy::default().query_seconds),
+            ..Policy::default()
+        };
+        let trial = Trial {
+            plugin: &contestant.file,
+            algorithm: &contestant.info.id,
+            mesh_a: self.task.a.mesh(),
+            mesh_b: (!self.task.same).then(|| self.task.b.mesh()),
+            parameters: &[],
+        };
+        self.registry.launcher(contestant, policy).start(&trial).map_err(|ending| outcome_info(&ending.outcome))
+    }
+
+    fn counting(&self) -> bool {
+        self.round == self.task.passes
+    }
+
+    /// The first pass decides how far the algorithm gets; later ones may use what it left. Counting makes an algorithm
+    /// slower and is not timed, so it gets the share of two passes, and what it does not reach has no counters.
+    fn allowance(&self, lane: &Lane) -> Duration {
+        let share = self.task.budget / self.task.passes;
+        match self.round {
+            0 => share,
+            _ if self.counting() => share * 2,
+            _ => self.task.budget.saturating_sub(lane.spent).max(share),
+        }
+    }
+
+    fn report(&self, lane: &Lane) {
+        let rounds = u64::from(self.task.passes) + u64::from(lane.contestant.info.counters);
+        let reach = lane.reach.unwrap_or(self.task.set.placed.len()) as u64;
+        let total = (reach * rounds).max(lane.done);
+        let _ = self.news.send(News::Progress { lane: self.index, done: lane.done, total });
+    }
+}
+
+/// An outcome for the pages.
+pub fn outcome_info(outcome: &Outcome) -> OutcomeInfo {
+    OutcomeInfo { name: outcome.name().into(), message: outcome.to_string(), ours: outcome.ours() }
+}

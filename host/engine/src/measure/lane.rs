@@ -1,0 +1,186 @@
+//! What one algorithm has answered so far.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use ocb_core::configuration::Placed;
+use ocb_core::oracle::Pair;
+use ocb_core::query::{Answer, Counters, Query};
+use ocb_core::record::{Record, Verdict};
+use ocb_core::statistics::Statistic;
+use ocb_core::validation::{Precision, judge};
+use ocb_sandbox::{ClockFacts, Ending, Sample, Session};
+use rayon::prelude::*;
+
+use crate::model::OutcomeInfo;
+use crate::registry::Contestant;
+
+/// One algorithm while it is measured.
+pub struct Lane {
+    /// The algorithm.
+    pub contestant: Arc<Contestant>,
+    /// How far into the shared order it gets; known after the first pass.
+    pub reach: Option<usize>,
+    /// Questions answered.
+    pub done: u64,
+    /// Wall time of its timed passes.
+    pub spent: Duration,
+    cells: Vec<Cell>,
+    unjudged: Vec<(u32, Answer)>,
+    build_ns: Vec<f64>,
+    memory_bytes: Option<u64>,
+    clocks: Vec<ClockFacts>,
+    layers: Vec<String>,
+    disturbed: u64,
+    outcome: Option<OutcomeInfo>,
+}
+
+/// One configuration.
+#[derive(Default)]
+struct Cell {
+    times: Vec<f64>,
+    below: u32,
+    answer: Option<Answer>,
+    verdict: Option<Verdict>,
+    counters: Option<Counters>,
+}
+
+/// All that was measured of one algorithm.
+pub struct Measured {
+    /// The algorithm.
+    pub contestant: Arc<Contestant>,
+    /// In the order of the set; only what was reached.
+    pub records: Vec<Record>,
+    /// Configurations in the set.
+    pub of: usize,
+    /// How the runner ended; absent when it did all that was asked.
+    pub outcome: Option<OutcomeInfo>,
+    /// Stopped by the budget before the whole set.
+    pub budget_limited: bool,
+    /// Build time of both structures in each process, nanoseconds.
+    pub build_ns: Vec<f64>,
+    /// Largest peak memory of the processes.
+    pub memory_bytes: Option<u64>,
+    /// The clock of each process.
+    pub clocks: Vec<ClockFacts>,
+    /// Layers of the jail.
+    pub layers: Vec<String>,
+    /// Questions repeated because of a disturbance.
+    pub disturbed: u64,
+    /// Wall seconds per question with everything around it.
+    pub seconds_per_query: Option<f64>,
+}
+
+impl Lane {
+    /// Nothing measured yet of a set of so many configurations.
+    pub fn new(contestant: Arc<Contestant>, configurations: usize) -> Self {
+        Self {
+            contestant,
+            reach: None,
+            done: 0,
+            spent: Duration::ZERO,
+            cells: std::iter::repeat_with(Cell::default).take(configurations).collect(),
+            unjudged: Vec::new(),
+            build_ns: Vec::new(),
+            memory_bytes: None,
+            clocks: Vec::new(),
+            layers: Vec::new(),
+            disturbed: 0,
+            outcome: None,
+        }
+    }
+
+    /// It died; no further turn.
+    pub fn ended(&self) -> bool {
+        self.outcome.is_some()
+    }
+
+    /// Notes the first cause of its end.
+    pub fn end(&mut self, outcome: OutcomeInfo) {
+        self.outcome.get_or_insert(outcome);
+    }
+
+    /// A fresh process has built both structures.
+    pub fn begin_turn(&mut self, session: &Session) {
+        self.build_ns.push(session.build_ns());
+        self.clocks.push(*session.clock());
+        self.layers = session.layers().to_vec();
+    }
+
+    /// A process has left.
+    pub fn end_turn(&mut self, ending: &Ending) {
+        self.memory_bytes = self.memory_bytes.max(ending.memory_peak_bytes);
+    }
+
+    /// A timed answer.
+    pub fn time(&mut self, configuration: u32, sample: Sample) {
+        let cell = &mut self.cells[configuration as usize];
+        cell.times.push(sample.time_ns);
+        cell.below += u32::from(sample.below_resolution);
+        self.disturbed += u64::from(sample.disturbed);
+        self.answered(configuration, sample.answer);
+    }
+
+    /// An answer of the untimed pass.
+    pub fn count(&mut self, configuration: u32, answer: Answer, counters: Option<Counters>) {
+        self.cells[configuration as usize].counters = counters;
+        self.answered(configuration, answer);
+    }
+
+    /// An answer that was judged in an earlier pass needs no second look; every other one does.
+    fn answered(&mut self, configuration: u32, answer: Answer) {
+        self.done += 1;
+        if self.cells[configuration as usize].answer.as_ref() != Some(&answer) {
+            self.unjudged.push((configuration, answer));
+        }
+    }
+
+    /// Compares the new answers with the truth, on the CPUs that do not measure. A wrong answer in any pass makes the
+    /// verdict; an algorithm that is right only sometimes is not right.
+    pub fn judge(&mut self, pair: &Pair, placed: &[Placed], query: Query) {
+        let single = self.contestant.info.single_precision;
+        let precision = || if single { Precision::Single } else { Precision::Double };
+        let verdicts: Vec<Verdict> = self
+            .unjudged
+            .par_iter()
+            .map(|(i, answer)| judge(pair, &placed[*i as usize], query, answer, precision()))
+            .collect();
+        for ((i, answer), verdict) in self.unjudged.drain(..).zip(verdicts) {
+            let cell = &mut self.cells[i as usize];
+            cell.answer.get_or_insert(answer);
+            match cell.verdict {
+                Some(known) if known.is_wrong() || !verdict.is_wrong() => {}
+                _ => cell.verdict = Some(verdict),
+            }
+        }
+    }
+
+    /// The medians over the passes.
+    pub fn into_measured(self) -> Measured {
+        let of = self.cells.len();
+        let queries: usize = self.cells.iter().map(|c| c.times.len()).sum();
+        let mut records = Vec::new();
+        for (configuration, mut cell) in (0..).zip(self.cells) {
+            let passes = cell.times.len() as u32;
+            let median = Statistic::Median.of(&mut cell.times);
+            if let (Some(time_ns), Some(answer), Some(verdict)) = (median, cell.answer, cell.verdict) {
+                let below_resolution = 2 * cell.below >= passes;
+                let counters = cell.counters;
+                records.push(Record { configuration, time_ns, below_resolution, passes, counters, answer, verdict });
+            }
+        }
+        Measured {
+            budget_limited: self.outcome.is_none() && records.len() < of,
+            contestant: self.contestant,
+            records,
+            of,
+            outcome: self.outcome,
+            build_ns: self.build_ns,
+            memory_bytes: self.memory_bytes,
+            clocks: self.clocks,
+            layers: self.layers,
+            disturbed: self.disturbed,
+            seconds_per_query: (queries > 0).then(|| self.spent.as_secs_f64() / queries as f64),
+        }
+    }
+}

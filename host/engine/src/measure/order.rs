@@ -1,0 +1,55 @@
+//! The order in which configurations are measured.
+
+/// The numbers 0 to n-1 in an order that depends on nothing but the seed: all algorithms share it.
+pub fn shuffled(n: u32, seed: u64) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..n).collect();
+    shuffle(&mut order, seed);
+    order
+}
+
+/// Another order of the same prefix for a later round, so that no configuration always follows the same one.
+pub fn reshuffled(prefix: &[u32], seed: u64, round: u32) -> Vec<u32> {
+    let mut order = prefix.to_vec();
+    shuffle(&mut order, seed ^ (u64::from(round) << 32));
+    order
+}
+
+/// Fisher and Yates with SplitMix64 (Steele, Lea and Flood 2014).
+fn shuffle(order: &mut [u32], seed: u64) {
+    let mut state = seed;
+    for i in (1..order.len()).rev() {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^= z >> 31;
+        order.swap(i, ((u128::from(z) * (i as u128 + 1)) >> 64) as usize);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_order_holds_each_configuration_once_and_is_repeatable() {
+        let order = shuffled(1000, 7);
+        let mut sorted = order.clone();
+        sorted.sort_unstable();
+        assert_eq!(sorted, (0..1000).collect::<Vec<u32>>());
+        assert_ne!(order, sorted);
+        assert_eq!(order, shuffled(1000, 7));
+        assert_ne!(order, shuffled(1000, 8));
+    }
+
+    #[test]
+    fn later_rounds_stay_within_the_prefix() {
+        let base = shuffled(100, 3);
+        let mut later = reshuffled(&base[..10], 3, 2);
+        assert_ne!(later, base[..10]);
+        later.sort_unstable();
+        let mut prefix = base[..10].to_vec();
+        prefix.sort_unstable();
+        assert_eq!(later, prefix);
+    }
+}

@@ -1,0 +1,100 @@
+//! From what was measured to the numbers of tables and pages.
+
+use ocb_core::record::Verdict;
+use ocb_core::statistics::{Statistic, bootstrap_interval, maximum_interval, quantile, quantile_interval};
+
+use super::Measured;
+use crate::machine::Machine;
+use crate::model::{AlgorithmResult, Environment, Estimated, OutcomeInfo, TimeSummary, VerdictCount};
+
+/// Seed of the bootstrap: the same times always give the same interval.
+const SEED: u64 = 1;
+
+/// The numbers of one algorithm.
+pub fn summarise(measured: &Measured) -> AlgorithmResult {
+    let records = &measured.records;
+    let completed = || OutcomeInfo {
+        name: "Completed".into(),
+        message: "The plugin answered everything it was asked.".into(),
+        ours: false,
+    };
+    let counters: Vec<_> = records.iter().filter_map(|r| r.counters).collect();
+    let mean = |of: fn(&ocb_core::query::Counters) -> u64| {
+        (!counters.is_empty()).then(|| counters.iter().map(|c| of(c) as f64).sum::<f64>() / counters.len() as f64)
+    };
+    AlgorithmResult {
+        algorithm: measured.contestant.info.id.clone(),
+        name: measured.contestant.info.name.clone(),
+        outcome: measured.outcome.clone().unwrap_or_else(completed),
+        n: records.len() as u32,
+        of: measured.of as u32,
+        budget_limited: measured.budget_limited,
+        time: time_summary(measured),
+        verdicts: verdicts(measured),
+        wrong: records.iter().filter(|r| r.verdict.is_wrong()).count() as u32,
+        bv_tests_mean: mean(|c| c.bv_tests),
+        primitive_tests_mean: mean(|c| c.primitive_tests),
+        build_ms: Statistic::Median.of(&mut measured.build_ns.clone()).map(|ns| ns / 1e6),
+        memory_bytes: measured.memory_bytes,
+    }
+}
+
+fn time_summary(measured: &Measured) -> Option<TimeSummary> {
+    let mut times: Vec<f64> = measured.records.iter().map(|r| r.time_ns).collect();
+    if times.is_empty() {
+        return None;
+    }
+    times.sort_unstable_by(f64::total_cmp);
+    let mean = |values: &mut [f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let of = |value: f64, (lo, hi): (f64, f64)| Estimated { value, lo, hi };
+    let at = |q: f64| of(quantile(&times, q), quantile_interval(&times, q));
+    Some(TimeSummary {
+        mean_ns: of(mean(&mut times.clone()), bootstrap_interval(&times, mean, SEED)),
+        median_ns: at(0.5),
+        p95_ns: at(0.95),
+        max_ns: of(times[times.len() - 1], maximum_interval(&times)),
+        below_resolution: measured.records.iter().filter(|r| r.below_resolution).count() as u32,
+    })
+}
+
+fn verdicts(measured: &Measured) -> Vec<VerdictCount> {
+    use Verdict::*;
+    let all = [
+        Correct,
+        FalseNegative,
+        FalsePositive,
+        DistanceOver,
+        DistanceUnder,
+        WrongWitness,
+        Invalid,
+        Undecidable,
+        GaveUp,
+        Unsupported,
+    ];
+    let count = |verdict| measured.records.iter().filter(|r| r.verdict == verdict).count() as u32;
+    all.into_iter().map(|verdict| VerdictCount { verdict, count: count(verdict) }).filter(|v| v.count > 0).collect()
+}
+
+/// The machine and its clock while all this was measured; absent when no runner came as far as its clock.
+pub fn environment(machine: &Machine, all: &[Measured]) -> Option<Environment> {
+    let clocks: Vec<_> = all.iter().flat_map(|m| &m.clocks).collect();
+    let median = |of: fn(&ocb_sandbox::ClockFacts) -> f64| {
+        Statistic::Median.of(&mut clocks.iter().map(|c| of(c)).collect::<Vec<_>>())
+    };
+    Some(Environment {
+        cpu: machine.cpu.clone(),
+        cpus: machine.allowed.len() as u32,
+        memory_bytes: machine.memory_bytes,
+        kernel: machine.kernel.clone(),
+        hardware_class: machine.hardware_class.clone(),
+        clock: clocks.first()?.kind.as_str().to_owned(),
+        null_ns: Estimated {
+            value: median(|c| c.null_median_ns)?,
+            lo: median(|c| c.null_p05_ns)?,
+            hi: median(|c| c.null_p95_ns)?,
+        },
+        disturbed: all.iter().map(|m| m.disturbed).sum(),
+        jail: all.iter().find(|m| !m.layers.is_empty()).map(|m| m.layers.clone()).unwrap_or_default(),
+        version: env!("CARGO_PKG_VERSION").into(),
+    })
+}

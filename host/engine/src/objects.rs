@@ -1,0 +1,258 @@
+//! Objects: made on demand, shipped with the service, or added by somebody.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use nalgebra::Point3;
+use ocb_core::mesh::{Mesh, obj};
+use ocb_core::stock;
+
+use crate::blobs::Blobs;
+use crate::cache::Cache;
+use crate::model::ObjectInfo;
+use crate::store::{Store, now_us};
+use crate::{EngineError, Result};
+
+/// Files of `stock_dir` that become stock objects when they are there.
+const SHIPPED: [&str; 2] = ["bunny", "dragon"];
+/// Longest display name in characters.
+const MAX_NAME: usize = 120;
+
+/// All objects of one engine.
+pub struct Objects {
+    store: Store,
+    blobs: Blobs,
+    stock_dir: Option<PathBuf>,
+    meshes: Cache<Mesh>,
+    stock_infos: Mutex<HashMap<String, ObjectInfo>>,
+}
+
+impl Objects {
+    /// Over this store; shipped objects are looked for in `stock_dir`.
+    pub fn new(store: Store, blobs: Blobs, stock_dir: Option<PathBuf>) -> Self {
+        Self { store, blobs, stock_dir, meshes: Cache::new(8), stock_infos: Mutex::new(HashMap::new()) }
+    }
+
+    /// Stock objects, then those of the viewer, newest first.
+    pub async fn list(&self, viewer: Option<&str>) -> Result<Vec<ObjectInfo>> {
+        let shipped = SHIPPED.iter().filter(|name| self.shipped_file(name).is_some());
+        let ids = shipped
+            .map(|name| format!("stock:{name}"))
+            .chain(stock::list().iter().map(|o| format!("stock:{}@{}", o.name, o.default_triangles)));
+        let mut all = Vec::new();
+        for id in ids {
+            all.push(self.info(&id).await?);
+        }
+        if let Some(viewer) = viewer {
+            all.extend(self.store.objects_of(viewer).await?);
+        }
+        Ok(all)
+    }
+
+    /// One object. The id in the answer is the canonical one: `stock:castle` has become `stock:castle@<default>`.
+    pub async fn info(&self, id: &str) -> Result<ObjectInfo> {
+        let id = canonical(id);
+        if !id.starts_with("stock:") {
+            return Ok(self.store.object(&id).await?.ok_or_else(|| unknown(&id))?.0);
+        }
+        let known = self.stock_infos.lock().unwrap_or_else(PoisonError::into_inner).get(&id).cloned();
+        match known {
+            Some(info) => Ok(info),
+            None => Ok(self.make_stock(&id).await?.1),
+        }
+    }
+
+    /// The mesh of an object.
+    pub async fn mesh(&self, id: &str) -> Result<Arc<Mesh>> {
+        let id = canonical(id);
+        if let Some(mesh) = self.meshes.get(&id) {
+            return Ok(mesh);
+        }
+        if id.starts_with("stock:") {
+            return Ok(self.make_stock(&id).await?.0);
+        }
+        let (_, blob) = self.store.object(&id).await?.ok_or_else(|| unknown(&id))?;
+        let bytes = self.blobs.get(&blob).await?;
+        let mesh = blocking(move || from_bytes(&bytes)).await?;
+        Ok(self.meshes.put(&id, mesh))
+    }
+
+    /// Makes or reads a stock object and remembers what there is to say of it.
+    async fn make_stock(&self, id: &str) -> Result<(Arc<Mesh>, ObjectInfo)> {
+        let name = id.trim_start_matches("stock:").to_owned();
+        let file = self.shipped_file(&name);
+        let for_id = id.to_owned();
+        let (mesh, info) = blocking(move || match file {
+            Some(file) => read_shipped(&for_id, &name, &file),
+            None => make_stock(&for_id, &name),
+        })
+        .await?;
+        self.stock_infos.lock().unwrap_or_else(PoisonError::into_inner).insert(id.to_owned(), info.clone());
+        Ok((self.meshes.put(id, mesh), info))
+    }
+
+    /// Reads an OBJ file and keeps its mesh. Everything is checked before anything is kept.
+    pub async fn add(&self, name: &str, bytes: Vec<u8>, owner: Option<&str>) -> Result<ObjectInfo> {
+        let name = clean_name(name);
+        let shown = name.clone();
+        let (mesh, warnings) = blocking(move || {
+            let bad = |e: &dyn std::fmt::Display| EngineError::Invalid(format!("{shown:?} cannot be used: {e}."));
+            let read = obj::read(&bytes).map_err(|e| bad(&e))?;
+            let mut warnings = read.warnings;
+            let exact = read.mesh.clone();
+            let mesh = read.mesh.to_f32_representable().map_err(|e| bad(&e))?;
+            if mesh != exact {
+                warnings.push(
+                    "Coordinates were rounded to single precision, so that algorithms of either precision see the same \
+                     object."
+                        .into(),
+                );
+            }
+            Ok((mesh, warnings))
+        })
+        .await?;
+        let mut info = describe(&mesh, &uuid::Uuid::now_v7().to_string(), &name, "Added by its owner.", warnings);
+        info.created_us = now_us();
+        if let Some(known) = self.store.object_with_mesh(&info.sha256, owner).await? {
+            return Ok(known);
+        }
+        let bytes = to_bytes(&mesh);
+        let length = bytes.len();
+        let blob = self.blobs.put(bytes).await?;
+        self.store.add_blob(&blob, length, "application/octet-stream").await?;
+        self.store.add_object(&info, owner, &blob).await?;
+        self.meshes.put(&info.id, mesh);
+        Ok(info)
+    }
+
+    fn shipped_file(&self, name: &str) -> Option<PathBuf> {
+        let known = SHIPPED.contains(&name);
+        self.stock_dir.as_ref().filter(|_| known).map(|dir| dir.join(format!("{name}.obj"))).filter(|f| f.is_file())
+    }
+}
+
+fn unknown(id: &str) -> EngineError {
+    EngineError::NotFound(format!(
+        "There is no object {id:?}; `ocb object list` and GET /api/v1/objects name those there are."
+    ))
+}
+
+/// `stock:castle` means castle with its default number of triangles.
+fn canonical(id: &str) -> String {
+    let default = id.strip_prefix("stock:").and_then(|name| stock::list().iter().find(|o| o.name == name));
+    default.map_or_else(|| id.to_owned(), |o| format!("stock:{}@{}", o.name, o.default_triangles))
+}
+
+fn make_stock(id: &str, name: &str) -> Result<(Mesh, ObjectInfo)> {
+    let (name, triangles) = name.split_once('@').ok_or_else(|| unknown(id))?;
+    let object = stock::list().iter().find(|o| o.name == name).ok_or_else(|| unknown(id))?;
+    let mesh = triangles.parse().ok().and_then(|n| stock::generate(name, n)).ok_or_else(|| {
+        EngineError::Invalid(format!(
+            "The stock object {name:?} is made of {} to {} triangles, not of {triangles}.",
+            object.lowest_triangles,
+            stock::MAX_TRIANGLES
+        ))
+    })?;
+    let terms = format!("{} Made by OpenCollBench; free to use without any condition.", object.description);
+    let mut info = describe(&mesh, id, object.name, &terms, Vec::new());
+    info.stock = true;
+    Ok((mesh, info))
+}
+
+fn read_shipped(id: &str, name: &str, file: &std::path::Path) -> Result<(Mesh, ObjectInfo)> {
+    let fault =
+        |e: &dyn std::fmt::Display| EngineError::Fault(format!("The stock file {name}.obj cannot be used: {e}."));
+    let bytes = std::fs::read(file).map_err(|e| fault(&e))?;
+    let read = obj::read(&bytes).map_err(|e| fault(&e))?;
+    let mesh = read.mesh.to_f32_representable().map_err(|e| fault(&e))?;
+    let terms =
+        std::fs::read_to_string(file.with_extension("terms")).map_err(|e| fault(&format!("its .terms file: {e}")))?;
+    let mut info = describe(&mesh, id, name, terms.trim(), read.warnings);
+    info.stock = true;
+    Ok((mesh, info))
+}
+
+fn describe(mesh: &Mesh, id: &str, name: &str, terms: &str, warnings: Vec<String>) -> ObjectInfo {
+    let bounds = mesh.bounds();
+    let (lo, hi) = (bounds.min, bounds.max);
+    ObjectInfo {
+        id: id.to_owned(),
+        name: name.to_owned(),
+        triangles: mesh.triangles().len() as u32,
+        vertices: mesh.positions().len() as u32,
+        bounds: [lo.x, lo.y, lo.z, hi.x, hi.y, hi.z],
+        sha256: mesh.sha256(),
+        terms: terms.to_owned(),
+        stock: false,
+        closed: mesh.is_closed(),
+        warnings,
+        created_us: 0,
+    }
+}
+
+/// The file's name without folder, ending and control characters.
+fn clean_name(name: &str) -> String {
+    let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    let lower = base.to_ascii_lowercase();
+    let stem = if lower.ends_with(".obj") { &base[..base.len() - 4] } else { base };
+    let clean: String = stem.chars().filter(|c| !c.is_control()).take(MAX_NAME).collect();
+    if clean.trim().is_empty() { "object".into() } else { clean.trim().into() }
+}
+
+const MAGIC: &[u8; 8] = b"OCBMESH1";
+
+/// The mesh as it is stored: magic, counts (u32), coordinates (f64), indices (u32), all little-endian.
+fn to_bytes(mesh: &Mesh) -> Vec<u8> {
+    let mut bytes = MAGIC.to_vec();
+    bytes.extend((mesh.positions().len() as u32).to_le_bytes());
+    bytes.extend((mesh.triangles().len() as u32).to_le_bytes());
+    bytes.extend(
+        mesh.positions().iter().flat_map(|p| p.coords.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<_>>()),
+    );
+    bytes.extend(mesh.triangles().iter().flatten().flat_map(|i| i.to_le_bytes()));
+    bytes
+}
+
+fn from_bytes(bytes: &[u8]) -> Result<Mesh> {
+    let damaged = || EngineError::Fault("A stored mesh is damaged; restore the blobs from a backup.".into());
+    let rest = bytes.strip_prefix(MAGIC).ok_or_else(damaged)?;
+    let (vertices, rest) = rest.split_first_chunk::<4>().ok_or_else(damaged)?;
+    let (triangles, rest) = rest.split_first_chunk::<4>().ok_or_else(damaged)?;
+    let (vertices, triangles) = (u32::from_le_bytes(*vertices) as usize, u32::from_le_bytes(*triangles) as usize);
+    if rest.len() != vertices * 24 + triangles * 12 {
+        return Err(damaged());
+    }
+    let (positions, indices) = rest.split_at(vertices * 24);
+    let coordinate = |c: &[u8]| f64::from_le_bytes(c.try_into().expect("eight bytes"));
+    let index = |c: &[u8]| u32::from_le_bytes(c.try_into().expect("four bytes"));
+    let point = |c: &[u8]| Point3::new(coordinate(&c[..8]), coordinate(&c[8..16]), coordinate(&c[16..]));
+    let corners = |c: &[u8]| [index(&c[..4]), index(&c[4..8]), index(&c[8..])];
+    Mesh::new(positions.chunks_exact(24).map(point).collect(), indices.chunks_exact(12).map(corners).collect())
+        .map_err(|_| damaged())
+}
+
+/// Work that would block the runtime's threads.
+pub async fn blocking<T: Send + 'static>(work: impl FnOnce() -> Result<T> + Send + 'static) -> Result<T> {
+    tokio::task::spawn_blocking(work).await.map_err(|e| EngineError::fault("A worker thread ended", e))?
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mesh_comes_back_bit_for_bit() {
+        let mesh = stock::generate("box", 500).unwrap();
+        assert_eq!(from_bytes(&to_bytes(&mesh)).unwrap(), mesh);
+        assert!(from_bytes(&to_bytes(&mesh)[1..]).is_err());
+    }
+
+    #[test]
+    fn names_lose_what_does_not_belong_into_a_name() {
+        assert_eq!(clean_name("/home/x/Bunny.OBJ"), "Bunny");
+        assert_eq!(clean_name("C:\\a\u{7}b.obj"), "ab");
+        assert_eq!(clean_name(".obj"), "object");
+        assert_eq!(clean_name("ü.obj"), "ü");
+    }
+}

@@ -1,0 +1,183 @@
+//! Which algorithms there are. A plugin is only ever loaded by the jailed runner, also to read its name.
+
+mod check;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use ocb_sandbox::{Descriptor, Launcher, Policy};
+
+use crate::blobs::sha256_hex;
+use crate::model::{AlgorithmInfo, ParameterInfo};
+use crate::objects::blocking;
+use crate::store::Store;
+use crate::{EngineConfig, EngineError, Result};
+
+pub use check::check_plugin;
+
+/// Largest plugin file that is looked at, bytes.
+const MAX_PLUGIN_BYTES: u64 = 64 << 20;
+
+/// One algorithm and the file that holds it.
+#[derive(Clone, Debug)]
+pub struct Contestant {
+    /// What it says of itself.
+    pub info: AlgorithmInfo,
+    /// The plugin file.
+    pub file: PathBuf,
+    /// Built from our own sources, beside the runner.
+    pub trusted: bool,
+}
+
+/// The known plugins.
+pub struct Registry {
+    runner: PathBuf,
+    contestants: Vec<Arc<Contestant>>,
+    problems: Vec<String>,
+}
+
+impl Registry {
+    /// Looks through the configured files and folders. A file that was described before is not loaded again; one that
+    /// cannot be described is a problem of its own and keeps no other from being offered.
+    pub async fn open(config: &EngineConfig, store: &Store) -> Result<Self> {
+        let mut registry = Self { runner: config.runner.clone(), contestants: Vec::new(), problems: Vec::new() };
+        if !config.runner.is_file() {
+            registry.problems.push(format!(
+                "The runner {} is missing, so nothing can be measured; build it or name it with --runner.",
+                config.runner.display()
+            ));
+            return Ok(registry);
+        }
+        let mut all: Vec<Arc<Contestant>> = Vec::new();
+        for file in plugin_files(&config.plugins) {
+            match registry.describe(&file, store).await {
+                Ok(found) => {
+                    for contestant in found {
+                        if let Some(twin) = all.iter().find(|c| c.info.id == contestant.info.id) {
+                            registry.problems.push(format!(
+                                "The algorithm {:?} is in {} and in {}; only the first is offered.",
+                                contestant.info.id,
+                                twin.file.display(),
+                                file.display()
+                            ));
+                        } else {
+                            all.push(Arc::new(contestant));
+                        }
+                    }
+                }
+                Err(e) => registry.problems.push(format!("The plugin {} is not offered: {e}", file.display())),
+            }
+        }
+        all.sort_by(|x, y| x.info.id.cmp(&y.info.id));
+        registry.problems.iter().for_each(|problem| tracing::warn!("{problem}"));
+        registry.contestants = all;
+        Ok(registry)
+    }
+
+    /// All algorithms by id.
+    pub fn algorithms(&self) -> Vec<AlgorithmInfo> {
+        self.contestants.iter().map(|c| c.info.clone()).collect()
+    }
+
+    /// What keeps something from being offered.
+    pub fn problems(&self) -> &[String] {
+        &self.problems
+    }
+
+    /// The algorithm with this id.
+    pub fn contestant(&self, id: &str) -> Option<Arc<Contestant>> {
+        self.contestants.iter().find(|c| c.info.id == id).cloned()
+    }
+
+    /// A launcher for this plugin under the given policy; only our own plugins may run under a weaker jail.
+    pub fn launcher(&self, contestant: &Contestant, policy: Policy) -> Launcher {
+        Launcher::new(self.runner.clone(), Policy { trusted: contestant.trusted, ..policy })
+    }
+
+    async fn describe(&self, file: &Path, store: &Store) -> Result<Vec<Contestant>> {
+        let path = file.to_owned();
+        let sha256 = blocking(move || plugin_hash(&path)).await?;
+        let trusted = file.parent().is_some_and(|folder| Some(folder) == self.runner.parent());
+        // A row that an older version wrote may lack a field; then the plugin is described again.
+        let algorithms = match store.described(&sha256).await {
+            Ok(Some(known)) => known,
+            _ => {
+                let launcher = Launcher::new(self.runner.clone(), Policy { trusted, ..Policy::default() });
+                let (path, hash) = (file.to_owned(), sha256.clone());
+                let described = blocking(move || {
+                    let descriptors = launcher.describe(&path).map_err(|end| EngineError::Invalid(end.to_string()))?;
+                    Ok(descriptors.into_iter().map(|d| info(d, &hash)).collect::<Vec<_>>())
+                })
+                .await?;
+                store.keep_description(&sha256, &described).await?;
+                described
+            }
+        };
+        let contestant = |info| Contestant { info, file: file.to_owned(), trusted };
+        Ok(algorithms.into_iter().map(contestant).collect())
+    }
+}
+
+/// SHA-256 of a plugin file as it is now.
+pub fn plugin_hash(file: &Path) -> Result<String> {
+    Ok(sha256_hex(&read_plugin(file)?))
+}
+
+/// The bytes of a plugin file that is at least an ELF file.
+fn read_plugin(file: &Path) -> Result<Vec<u8>> {
+    let shown = file.display();
+    let bad = |why: String| EngineError::Invalid(format!("{shown} is no plugin: {why}."));
+    let length = fs::metadata(file).map_err(|e| bad(format!("it cannot be read ({e})")))?.len();
+    if length > MAX_PLUGIN_BYTES {
+        return Err(bad(format!("it has {length} bytes, more than {MAX_PLUGIN_BYTES}")));
+    }
+    let bytes = fs::read(file).map_err(|e| bad(format!("it cannot be read ({e})")))?;
+    if !bytes.starts_with(b"\x7fELF") {
+        return Err(bad("it is no ELF file; build a shared library (.so) for Linux".into()));
+    }
+    Ok(bytes)
+}
+
+/// The named files, and the `*.so` of the named folders, by name.
+fn plugin_files(places: &[PathBuf]) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for place in places {
+        if place.is_dir() {
+            let entries = fs::read_dir(place).into_iter().flatten().flatten().map(|entry| entry.path());
+            let mut here: Vec<PathBuf> =
+                entries.filter(|path| path.is_file() && path.extension().is_some_and(|e| e == "so")).collect();
+            here.sort();
+            files.extend(here);
+        } else {
+            files.push(place.clone());
+        }
+    }
+    files
+}
+
+fn info(d: Descriptor, plugin_sha256: &str) -> AlgorithmInfo {
+    let parameter = |p: ocb_sandbox::Parameter| ParameterInfo {
+        name: p.name,
+        description: p.description,
+        minimum: p.minimum,
+        maximum: p.maximum,
+        default: p.default,
+        integer: p.integer,
+    };
+    AlgorithmInfo {
+        id: d.id,
+        name: d.name,
+        version: d.version,
+        authors: d.authors,
+        license: d.license,
+        url: d.url,
+        paper: d.paper,
+        queries: d.queries,
+        counters: d.counters,
+        witness_points: d.witness_points,
+        single_precision: d.single_precision,
+        parameters: d.parameters.into_iter().map(parameter).collect(),
+        plugin_sha256: plugin_sha256.to_owned(),
+    }
+}

@@ -1,0 +1,216 @@
+//! Checking one plugin file: the report that an author sees before anybody else runs the plugin.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use ocb_core::configuration::{Placed, Sampling};
+use ocb_core::oracle::{Pair, Shape};
+use ocb_core::query::Query;
+use ocb_core::record::Verdict;
+use ocb_core::sampling::sphere::Plan;
+use ocb_core::stock;
+use ocb_core::validation::{Precision, judge};
+use ocb_sandbox::{Launcher, Outcome, Policy, Trial};
+
+use super::{info, read_plugin};
+use crate::blobs::sha256_hex;
+use crate::model::{AlgorithmInfo, CheckLine, CheckVerdict, PluginReport};
+use crate::{EngineError, Result};
+
+/// Placements per relative distance.
+const RAYS: u32 = 24;
+/// Triangles of the smoke object: small enough for the slowest algorithm.
+const TRIANGLES: u32 = 500;
+/// Apart, close, and in the place of A, where everything touches everything.
+const DISTANCES: [f64; 3] = [0.2, 0.01, 0.0];
+
+/// Makes the report. Blocks, so it wants a thread of its own.
+pub fn check_plugin(runner: &Path, file: &Path) -> Result<PluginReport> {
+    let mut report = PluginReport {
+        file: file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
+        sha256: None,
+        passed: false,
+        lines: Vec::new(),
+        algorithms: Vec::new(),
+    };
+    if !file.exists() {
+        return Err(EngineError::Invalid(format!("There is no file {}.", file.display())));
+    }
+    match read_plugin(file) {
+        Ok(bytes) => {
+            report.line("file format", CheckVerdict::Pass, format!("An ELF file of {} bytes.", bytes.len()), None);
+            report.sha256 = Some(sha256_hex(&bytes));
+        }
+        Err(e) => {
+            let hint = "Build a shared library, e.g. cc -shared -fPIC plugin.c -o plugin.so.";
+            report.line("file format", CheckVerdict::Fail, e.to_string(), Some(hint));
+            return Ok(report);
+        }
+    }
+    // Our time limits for strangers' first try: a smoke query takes microseconds.
+    let policy = Policy { build_seconds: 20.0, query_seconds: 5.0, trial_seconds: 60.0, ..Policy::default() };
+    let launcher = Launcher::new(runner.to_owned(), policy);
+    match launcher.describe(file) {
+        Ok(descriptors) => {
+            let hash = report.sha256.clone().unwrap_or_default();
+            report.algorithms = descriptors.into_iter().map(|d| info(d, &hash)).collect();
+            let names: Vec<&str> = report.algorithms.iter().map(|a| a.id.as_str()).collect();
+            let evidence = format!("Loads in the jail and describes {}.", names.join(", "));
+            report.line("load and describe", CheckVerdict::Pass, evidence, None);
+        }
+        Err(ending) if ending.outcome.ours() => return Err(EngineError::Fault(ending.to_string())),
+        Err(ending) => {
+            let hint = hint_for(&ending.outcome);
+            report.line(
+                "load and describe",
+                CheckVerdict::Fail,
+                with_output(&ending.to_string(), &ending.stderr),
+                hint,
+            );
+            return Ok(report);
+        }
+    }
+    for algorithm in report.algorithms.clone() {
+        report.descriptor(&algorithm);
+        for query in [Query::CollisionFirst, Query::CollisionAll, Query::Proximity] {
+            if algorithm.queries.contains(&query) {
+                report.smoke(&launcher, file, &algorithm, query)?;
+            }
+        }
+    }
+    report.passed = report.lines.iter().all(|line| line.verdict != CheckVerdict::Fail);
+    Ok(report)
+}
+
+impl PluginReport {
+    fn line(&mut self, check: impl Into<String>, verdict: CheckVerdict, evidence: String, hint: Option<&str>) {
+        self.lines.push(CheckLine { check: check.into(), verdict, evidence, hint: hint.map(str::to_owned) });
+    }
+
+    /// What the descriptor owes the reader of a table.
+    fn descriptor(&mut self, algorithm: &AlgorithmInfo) {
+        let check = format!("{}: descriptor", algorithm.id);
+        let empty: Vec<&str> = [
+            ("authors", &algorithm.authors),
+            ("licence", &algorithm.license),
+            ("version", &algorithm.version),
+            ("URL", &algorithm.url),
+        ]
+        .iter()
+        .filter(|(_, text)| text.is_empty())
+        .map(|(name, _)| *name)
+        .collect();
+        if algorithm.queries.is_empty() {
+            let hint = "Offer at least the collision query.";
+            self.line(check, CheckVerdict::Fail, "It answers no question.".into(), Some(hint));
+        } else if empty.is_empty() {
+            let evidence = format!("{} {}, {}.", algorithm.name, algorithm.version, algorithm.license);
+            self.line(check, CheckVerdict::Pass, evidence, None);
+        } else {
+            let evidence = format!("Nothing is said about: {}.", empty.join(", "));
+            self.line(check, CheckVerdict::Note, evidence, Some("Fill the descriptor before you publish the plugin."));
+        }
+    }
+
+    /// A few certified configurations of a small object.
+    fn smoke(&mut self, launcher: &Launcher, file: &Path, algorithm: &AlgorithmInfo, query: Query) -> Result<()> {
+        let check = format!("{}: {}", algorithm.id, query_name(query));
+        let mesh = stock::generate("torus-knot", TRIANGLES)
+            .ok_or_else(|| EngineError::Fault("The smoke object cannot be made.".into()))?;
+        let shape = Shape::new(Arc::new(mesh));
+        let placed = smoke_configurations(&shape)?;
+        let trial =
+            Trial { plugin: file, algorithm: &algorithm.id, mesh_a: shape.mesh(), mesh_b: None, parameters: &[] };
+        let mut session = match launcher.start(&trial) {
+            Ok(session) => session,
+            Err(ending) if ending.outcome.ours() => return Err(EngineError::Fault(ending.to_string())),
+            Err(ending) => {
+                let evidence = with_output(&ending.to_string(), &ending.stderr);
+                self.line(check, CheckVerdict::Fail, evidence, hint_for(&ending.outcome));
+                return Ok(());
+            }
+        };
+        let pair = Pair::new(&shape, &shape);
+        let precision = if algorithm.single_precision { Precision::Single } else { Precision::Double };
+        let mut wrong: Vec<(usize, Verdict)> = Vec::new();
+        let mut silent = 0;
+        for (i, placed) in placed.iter().enumerate() {
+            let Ok(sample) = session.query(query, &placed.configuration) else { break };
+            match judge(&pair, placed, query, &sample.answer, precision) {
+                verdict if verdict.is_wrong() => wrong.push((i, verdict)),
+                Verdict::Unsupported | Verdict::GaveUp => silent += 1,
+                _ => {}
+            }
+        }
+        let ending = session.finish();
+        if ending.outcome != Outcome::Completed {
+            if ending.outcome.ours() {
+                return Err(EngineError::Fault(ending.to_string()));
+            }
+            let evidence = with_output(&ending.to_string(), &ending.stderr);
+            self.line(check, CheckVerdict::Fail, evidence, hint_for(&ending.outcome));
+        } else if let Some((first, verdict)) = wrong.first() {
+            let evidence = format!(
+                "{} of {} answers are wrong, the first ({verdict:?}) on configuration {first}.",
+                wrong.len(),
+                placed.len()
+            );
+            let hint = "Compare with brute-force; triangles are closed sets, so touching counts as a collision.";
+            self.line(check, CheckVerdict::Fail, evidence, Some(hint));
+        } else if silent > 0 {
+            let evidence = format!("No answer on {silent} of {} configurations, the others are right.", placed.len());
+            let hint = "An algorithm that offers a question should answer it.";
+            self.line(check, CheckVerdict::Note, evidence, Some(hint));
+        } else {
+            let evidence = format!("All {} answers agree with the reference.", placed.len());
+            self.line(check, CheckVerdict::Pass, evidence, None);
+        }
+        Ok(())
+    }
+}
+
+fn smoke_configurations(shape: &Shape) -> Result<Vec<Placed>> {
+    let mut all = Vec::new();
+    let pair = Pair::new(shape, shape);
+    for distance in DISTANCES {
+        let sampling = Sampling::Count { count: RAYS };
+        let plan = Plan::new(shape, shape, &sampling, distance, 1)
+            .map_err(|e| EngineError::fault("Placing the smoke configurations failed", e))?;
+        for placed in (0..plan.len()).filter_map(|i| plan.place(i)) {
+            all.push(placed);
+            // Half the way to A's centre: a certain collision, which the sphere method alone never gives.
+            let mut configuration = placed.configuration;
+            configuration.pose_b.translation *= 0.5;
+            all.push(Placed { configuration, truth: pair.truth(&configuration), root_index: 0 });
+        }
+    }
+    Ok(all)
+}
+
+fn query_name(query: Query) -> &'static str {
+    match query {
+        Query::CollisionFirst => "first contact",
+        Query::CollisionAll => "all contacts",
+        Query::Proximity => "distance",
+    }
+}
+
+/// The last lines that the plugin wrote are often the whole explanation.
+fn with_output(sentence: &str, stderr: &str) -> String {
+    let tail: Vec<&str> = stderr.lines().rev().filter(|line| !line.trim().is_empty()).take(3).collect();
+    if tail.is_empty() {
+        return sentence.to_owned();
+    }
+    format!("{sentence} It wrote: {}", tail.into_iter().rev().collect::<Vec<_>>().join(" / "))
+}
+
+fn hint_for(outcome: &Outcome) -> Option<&'static str> {
+    match outcome {
+        Outcome::LoadError { .. } => Some("Check the exported entry symbol, the version and the linked libraries."),
+        Outcome::SyscallDenied { .. } => Some("A plugin computes; it opens no files, no sockets and no processes."),
+        Outcome::TimedOut { .. } => Some("Look for an endless loop: the smoke objects have 500 triangles."),
+        Outcome::OutOfMemory { .. } => Some("Look for a leak: the smoke objects have 500 triangles."),
+        Outcome::Signaled { .. } => Some("Run the plugin under a debugger or a sanitizer with a small object."),
+        _ => None,
+    }
+}

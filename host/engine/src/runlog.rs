@@ -1,0 +1,191 @@
+//! What a run tells while it is under way: its lanes in the database, its events for whoever follows.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use tokio::runtime::Handle;
+use tokio::sync::broadcast;
+
+use crate::Result;
+use crate::model::{AlgorithmResult, RunEvent, Stage, StageKind, State};
+use crate::store::{Store, now_us};
+
+/// So often a page learns of progress.
+const TELL_EVERY: Duration = Duration::from_millis(200);
+
+/// Wakes those who follow runs: the id of a run that has a new event.
+#[derive(Clone)]
+pub struct Bell {
+    sender: broadcast::Sender<Arc<str>>,
+}
+
+impl Bell {
+    /// With room for a burst; whoever misses some rings reads the events from the database anyway.
+    pub fn new() -> Self {
+        Self { sender: broadcast::Sender::new(256) }
+    }
+
+    /// Hears of every run from now on.
+    pub fn listen(&self) -> broadcast::Receiver<Arc<str>> {
+        self.sender.subscribe()
+    }
+
+    /// Writes an event and rings.
+    pub async fn tell(&self, store: &Store, run: &str, mut event: RunEvent) -> Result<()> {
+        event.at_us = now_us();
+        store.add_event(run, &mut event).await?;
+        // Nobody listening is no error.
+        let _ = self.sender.send(run.into());
+        Ok(())
+    }
+}
+
+/// An event without lane and result.
+pub fn plain_event(state: State, runs_ahead: u32) -> RunEvent {
+    RunEvent { seq: 0, at_us: 0, state, runs_ahead, stage: None, result: None }
+}
+
+/// The lanes of a run that waits for its turn.
+pub fn fresh_stages(algorithms: &[String]) -> Vec<Stage> {
+    let stage = |kind, algorithm: Option<&String>| Stage {
+        kind,
+        algorithm: algorithm.cloned(),
+        state: State::Queued,
+        done: 0,
+        total: 0,
+        rate: 0.0,
+        seconds_left: None,
+        message: None,
+    };
+    let mut stages = vec![stage(StageKind::Object, None), stage(StageKind::Configurations, None)];
+    stages.extend(algorithms.iter().map(|a| stage(StageKind::Measuring, Some(a))));
+    stages.push(stage(StageKind::Heatmap, None));
+    stages
+}
+
+/// The run under way. Lives on the run's own thread, so its database calls may block.
+pub struct RunLog {
+    run: String,
+    store: Store,
+    bell: Bell,
+    handle: Handle,
+    stages: Vec<Stage>,
+    meters: Vec<Meter>,
+}
+
+impl RunLog {
+    /// All lanes begin anew: what an earlier attempt left is found again in the store, quickly.
+    pub fn begin(run: &str, algorithms: &[String], store: Store, bell: Bell, handle: Handle) -> Result<Self> {
+        let stages = fresh_stages(algorithms);
+        let meters = stages.iter().map(|_| Meter::new()).collect();
+        let log = Self { run: run.to_owned(), store, bell, handle, stages, meters };
+        for lane in 0..log.stages.len() {
+            log.write(lane)?;
+        }
+        log.handle.block_on(log.bell.tell(&log.store, &log.run, plain_event(State::Running, 0)))?;
+        Ok(log)
+    }
+
+    /// Waits for a database call.
+    pub fn wait<T>(&self, call: impl Future<Output = T>) -> T {
+        self.handle.block_on(call)
+    }
+
+    /// A lane starts to work.
+    pub fn start(&mut self, lane: usize, total: u64) -> Result<()> {
+        self.meters[lane] = Meter::new();
+        let stage = &mut self.stages[lane];
+        (stage.state, stage.done, stage.total) = (State::Running, 0, total);
+        self.tell(lane, None)
+    }
+
+    /// A lane has come further. The caller keeps it to about five times a second.
+    pub fn progress(&mut self, lane: usize, done: u64, total: u64) -> Result<()> {
+        let rate = self.meters[lane].rate(done);
+        let stage = &mut self.stages[lane];
+        stage.state = State::Running;
+        (stage.done, stage.total, stage.rate) = (done, total, rate);
+        stage.seconds_left = (rate > 0.0).then(|| total.saturating_sub(done) as f64 / rate);
+        self.tell(lane, None)
+    }
+
+    /// As [`RunLog::progress`], but at most five times a second however often it is called.
+    pub fn progress_slowly(&mut self, lane: usize, done: u64, total: u64) -> Result<()> {
+        if self.meters[lane].told.elapsed() < TELL_EVERY {
+            return Ok(());
+        }
+        self.meters[lane].told = Instant::now();
+        self.progress(lane, done, total)
+    }
+
+    /// Says something about a lane.
+    pub fn note(&mut self, lane: usize, message: Option<&str>) -> Result<()> {
+        self.stages[lane].message = message.map(str::to_owned);
+        self.tell(lane, None)
+    }
+
+    /// A lane has ended.
+    pub fn end(
+        &mut self,
+        lane: usize,
+        state: State,
+        message: Option<String>,
+        result: Option<AlgorithmResult>,
+    ) -> Result<()> {
+        let stage = &mut self.stages[lane];
+        if state == State::Done {
+            stage.total = stage.done;
+        }
+        (stage.state, stage.message, stage.seconds_left) = (state, message, None);
+        self.tell(lane, result)
+    }
+
+    /// Whatever was at work ends so.
+    pub fn end_open(&mut self, state: State, message: Option<&str>) -> Result<()> {
+        for lane in 0..self.stages.len() {
+            match self.stages[lane].state {
+                State::Running => self.end(lane, state, message.map(str::to_owned), None)?,
+                State::Queued if state == State::Cancelled => self.end(lane, state, None, None)?,
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn tell(&self, lane: usize, result: Option<AlgorithmResult>) -> Result<()> {
+        self.write(lane)?;
+        let stage = Some(self.stages[lane].clone());
+        let event = RunEvent { stage, result, ..plain_event(State::Running, 0) };
+        self.handle.block_on(self.bell.tell(&self.store, &self.run, event))
+    }
+
+    fn write(&self, lane: usize) -> Result<()> {
+        self.handle.block_on(self.store.put_stage(&self.run, lane, &self.stages[lane]))
+    }
+}
+
+/// Items per second lately.
+struct Meter {
+    at: Instant,
+    told: Instant,
+    done: u64,
+    rate: f64,
+}
+
+impl Meter {
+    fn new() -> Self {
+        Self { at: Instant::now(), told: Instant::now(), done: 0, rate: 0.0 }
+    }
+
+    /// Smoothed over about two seconds. A lane that waits for its turn keeps its last rate.
+    fn rate(&mut self, done: u64) -> f64 {
+        let seconds = self.at.elapsed().as_secs_f64();
+        if done > self.done && seconds > 0.05 {
+            let now = (done - self.done) as f64 / seconds;
+            let weight = if self.rate == 0.0 { 1.0 } else { 1.0 - (-seconds / 2.0).exp() };
+            self.rate += weight * (now - self.rate);
+            (self.at, self.done) = (Instant::now(), done);
+        }
+        self.rate
+    }
+}

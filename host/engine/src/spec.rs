@@ -1,0 +1,123 @@
+//! The one place where a request for a run is checked, for API and command line alike.
+
+use std::sync::Arc;
+
+use ocb_core::configuration::Method;
+use ocb_core::query::Query;
+use ocb_core::sampling::sphere;
+
+use crate::blobs::Blobs;
+use crate::configurations;
+use crate::model::{ObjectInfo, RunSpec};
+use crate::objects::Objects;
+use crate::registry::{Contestant, Registry};
+use crate::store::Store;
+use crate::{EngineError, Result};
+
+/// Timed passes at most: more shows nothing new and only takes the machine from others.
+const MAX_PASSES: u32 = 99;
+/// Measuring time per algorithm at most: a day.
+const MAX_BUDGET_SECONDS: f64 = 86_400.0;
+/// Beyond this the objects are specks to each other.
+const MAX_RELATIVE_DISTANCE: f64 = 1000.0;
+
+/// A request that can be carried out.
+pub struct Checked {
+    /// With canonical ids and all algorithms named.
+    pub spec: RunSpec,
+    /// Object A.
+    pub object_a: ObjectInfo,
+    /// Object B.
+    pub object_b: ObjectInfo,
+    /// The algorithms in the order of the spec.
+    pub contestants: Vec<Arc<Contestant>>,
+    /// Number of configurations (rays, before any is missed).
+    pub configurations: u64,
+}
+
+/// Checks everything that can be known before any work.
+pub async fn check(
+    spec: &RunSpec,
+    objects: &Objects,
+    registry: &Registry,
+    store: &Store,
+    blobs: &Blobs,
+) -> Result<Checked> {
+    let invalid = |sentence: String| Err(EngineError::Invalid(sentence));
+    let distance = spec.relative_distance;
+    // Written so that NaN fails.
+    if !(0.0..=MAX_RELATIVE_DISTANCE).contains(&distance) {
+        return invalid(format!(
+            "The relative distance must be a number from 0 to {MAX_RELATIVE_DISTANCE}, not {distance}."
+        ));
+    }
+    if !(1..=MAX_PASSES).contains(&spec.passes) {
+        return invalid(format!("The number of passes must be from 1 to {MAX_PASSES}, not {}.", spec.passes));
+    }
+    if !(spec.budget_seconds > 0.0 && spec.budget_seconds <= MAX_BUDGET_SECONDS) {
+        return invalid(format!(
+            "The measuring time per algorithm must be more than 0 and at most {MAX_BUDGET_SECONDS} seconds, not {}.",
+            spec.budget_seconds
+        ));
+    }
+    let configurations = match &spec.method {
+        Method::Sphere { sampling, .. } => sphere::count(sampling)
+            .map_err(|e| EngineError::Invalid(format!("These configurations are not possible: {e}.")))?,
+        Method::File { sha256 } => {
+            if store.blob_bytes(sha256).await?.is_none() {
+                return invalid(format!("There is no stored file of configurations {sha256:?}; add it first."));
+            }
+            configurations::read_file(&blobs.get(sha256).await?)?.len() as u64
+        }
+    };
+    let contestants = contestants(spec, registry)?;
+    let object_a = objects.info(&spec.object_a).await?;
+    let object_b = match &spec.object_b {
+        Some(id) => objects.info(id).await?,
+        None => object_a.clone(),
+    };
+    let mut spec = spec.clone();
+    spec.object_a = object_a.id.clone();
+    spec.object_b = Some(object_b.id.clone()).filter(|id| *id != object_a.id);
+    spec.algorithms = contestants.iter().map(|c| c.info.id.clone()).collect();
+    Ok(Checked { spec, object_a, object_b, contestants, configurations })
+}
+
+/// The named algorithms, each once, or all that answer the question.
+fn contestants(spec: &RunSpec, registry: &Registry) -> Result<Vec<Arc<Contestant>>> {
+    let question = question_name(spec.query);
+    let known = registry.algorithms();
+    let fitting: Vec<&str> = known.iter().filter(|a| a.queries.contains(&spec.query)).map(|a| a.id.as_str()).collect();
+    let mut names: Vec<&str> = spec.algorithms.iter().map(String::as_str).collect();
+    if names.is_empty() {
+        names.clone_from(&fitting);
+    }
+    if names.is_empty() {
+        return Err(EngineError::Invalid(format!("No installed algorithm answers {question}.")));
+    }
+    let mut chosen: Vec<Arc<Contestant>> = Vec::new();
+    for name in names {
+        let there_are = || fitting.join(", ");
+        let contestant = registry.contestant(name).ok_or_else(|| {
+            EngineError::Invalid(format!("There is no algorithm {name:?}; for {question} there are: {}.", there_are()))
+        })?;
+        if !contestant.info.queries.contains(&spec.query) {
+            return Err(EngineError::Invalid(format!(
+                "The algorithm {name:?} does not answer {question}; these do: {}.",
+                there_are()
+            )));
+        }
+        if chosen.iter().all(|c| c.info.id != contestant.info.id) {
+            chosen.push(contestant);
+        }
+    }
+    Ok(chosen)
+}
+
+fn question_name(query: Query) -> &'static str {
+    match query {
+        Query::CollisionFirst => "the collision query (first contact)",
+        Query::CollisionAll => "the collision query (all contacts)",
+        Query::Proximity => "the proximity query",
+    }
+}

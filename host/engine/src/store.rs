@@ -1,0 +1,114 @@
+//! The database: one SQL text for SQLite and PostgreSQL.
+//!
+//! `sqlx::Any` checks nothing at compile time; the contract tests run every function here on both databases instead.
+//! The subset that works on both: `$1` placeholders, TEXT, BIGINT, DOUBLE PRECISION, `ON CONFLICT`, `RETURNING`.
+
+mod blobs;
+mod objects;
+mod plugins;
+mod queue;
+mod results;
+mod runs;
+mod sets;
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use sqlx::any::{AnyConnectOptions, AnyPoolOptions};
+use sqlx::migrate::{Migration, MigrationType, Migrator};
+use sqlx::{AnyPool, Executor, SqlSafeStr};
+
+use crate::{EngineError, Result};
+
+pub use results::StoredResult;
+pub use runs::RunRow;
+
+/// All tables of one data folder.
+#[derive(Clone)]
+pub struct Store {
+    pool: AnyPool,
+}
+
+impl Store {
+    /// Connects and migrates. Without a URL the database is `opencollbench.sqlite` in the data folder.
+    pub async fn open(data: &Path, url: Option<&str>) -> Result<Self> {
+        sqlx::any::install_default_drivers();
+        let options = match url {
+            Some(url) => url.parse::<AnyConnectOptions>()?,
+            None => sqlite_url(data)?,
+        };
+        let sqlite = options.database_url.scheme() == "sqlite";
+        let pool = AnyPoolOptions::new()
+            // One process owns the file and SQLite has one writer anyway; more connections only wait for each other.
+            .max_connections(if sqlite { 4 } else { 8 })
+            .after_connect(move |connection, _| {
+                Box::pin(async move {
+                    if sqlite {
+                        // Write-ahead logging survives SIGKILL at any point; FULL also survives a power cut.
+                        connection
+                            .execute(
+                                "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; \
+                                 PRAGMA foreign_keys = ON; PRAGMA busy_timeout = 10000",
+                            )
+                            .await?;
+                    }
+                    Ok(())
+                })
+            })
+            .connect_with(options)
+            .await
+            .map_err(|e| EngineError::fault("Opening the database failed", e))?;
+        migrations().run(&pool).await.map_err(|e| EngineError::fault("Migrating the database failed", e))?;
+        Ok(Self { pool })
+    }
+
+    /// Closes all connections; what was written is on disk.
+    pub async fn close(&self) {
+        self.pool.close().await;
+    }
+}
+
+/// The SQL files, compiled in.
+fn migrations() -> Migrator {
+    Migrator::with_migrations(vec![Migration::new(
+        1,
+        "first".into(),
+        MigrationType::Simple,
+        include_str!("../migrations/0001_first.sql").into_sql_str(),
+        false,
+    )])
+}
+
+/// Any path works as SQLite URL when its bytes are percent-encoded.
+fn sqlite_url(data: &Path) -> Result<AnyConnectOptions> {
+    let file = std::path::absolute(data.join("opencollbench.sqlite"))
+        .map_err(|e| EngineError::fault("Resolving the data folder failed", e))?;
+    let mut url = String::from("sqlite://");
+    for byte in file.to_string_lossy().bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'-' | b'_' | b'.' | b'~' => url.push(byte as char),
+            _ => url.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    url.push_str("?mode=rwc");
+    url.parse().map_err(|e| EngineError::fault("Naming the database failed", e))
+}
+
+/// Microseconds since the Unix epoch, UTC.
+pub fn now_us() -> i64 {
+    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |d| d.as_micros() as i64)
+}
+
+/// To a JSON column.
+fn to_json(value: &impl Serialize) -> Result<String> {
+    serde_json::to_string(value).map_err(|e| EngineError::fault("Writing a JSON column failed", e))
+}
+
+/// From a JSON column. Rows are written by this program only; a row that does not parse is damage, not input.
+fn from_json<T: DeserializeOwned>(text: &str) -> Result<T> {
+    serde_json::from_str(text).map_err(|e| EngineError::fault("Reading a JSON column failed", e))
+}

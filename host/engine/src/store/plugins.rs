@@ -1,0 +1,30 @@
+//! Plugins as the jailed runner described them.
+
+use super::{Store, from_json, now_us, to_json};
+use crate::Result;
+use crate::model::AlgorithmInfo;
+
+impl Store {
+    /// What the plugin file with this hash described, when it was described before.
+    pub async fn described(&self, plugin_sha256: &str) -> Result<Option<Vec<AlgorithmInfo>>> {
+        let row: Option<String> = sqlx::query_scalar("SELECT algorithms FROM plugins WHERE sha256 = $1")
+            .bind(plugin_sha256)
+            .fetch_optional(&self.pool)
+            .await?;
+        row.map(|text| from_json(&text)).transpose()
+    }
+
+    /// Keeps what a plugin file described.
+    pub async fn keep_description(&self, plugin_sha256: &str, algorithms: &[AlgorithmInfo]) -> Result<()> {
+        sqlx::query(
+            "INSERT INTO plugins (sha256, algorithms, created_us) VALUES ($1, $2, $3) \
+             ON CONFLICT (sha256) DO UPDATE SET algorithms = excluded.algorithms",
+        )
+        .bind(plugin_sha256)
+        .bind(to_json(&algorithms)?)
+        .bind(now_us())
+        .execute(&self.pool)
+        .await?;
+        Ok(())
+    }
+}

@@ -1,0 +1,248 @@
+//! Runs, their lanes and their events.
+
+use sqlx::Row;
+use sqlx::any::AnyRow;
+
+use super::{Store, from_json, now_us, to_json};
+use crate::model::{Environment, RunEvent, RunSpec, SetInfo, Stage, State};
+use crate::{EngineError, Result};
+
+/// One row of the table of runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunRow {
+    /// UUIDv7.
+    pub id: String,
+    /// Who asked; absent for runs of the service itself.
+    pub owner: Option<String>,
+    /// May be shown on the start page.
+    pub featured: bool,
+    /// Smaller is served first.
+    pub priority: i64,
+    /// State.
+    pub state: State,
+    /// How often it was started.
+    pub attempts: u32,
+    /// Why it failed.
+    pub message: Option<String>,
+    /// What was asked, defaults filled in.
+    pub spec: RunSpec,
+    /// Name of object A when the run was asked for.
+    pub object_a_name: String,
+    /// Name of object B.
+    pub object_b_name: String,
+    /// The configuration set, once known.
+    pub set: Option<SetInfo>,
+    /// Blob of the set.
+    pub set_blob: Option<String>,
+    /// The machine, once measured.
+    pub environment: Option<Environment>,
+    /// What it was expected to take when it was asked for.
+    pub expected_seconds: f64,
+    /// When it was asked for.
+    pub created_us: i64,
+    /// When it ended.
+    pub finished_us: Option<i64>,
+}
+
+/// All columns of [`RunRow`], in any order: they are read by name.
+macro_rules! select_runs {
+    ($rest:literal) => {
+        concat!(
+            "SELECT id, owner, featured, priority, state, attempts, message, spec, object_a_name, object_b_name, ",
+            "set_info, set_blob, environment, expected_seconds, created_us, finished_us FROM runs ",
+            $rest
+        )
+    };
+}
+
+impl Store {
+    /// Queues a run with its lanes.
+    pub async fn add_run(&self, run: &RunRow, stages: &[Stage]) -> Result<()> {
+        let mut transaction = self.pool.begin().await?;
+        sqlx::query(
+            "INSERT INTO runs (id, owner, featured, priority, state, attempts, spec, object_a_name, object_b_name, \
+             expected_seconds, created_us) VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10)",
+        )
+        .bind(&run.id)
+        .bind(run.owner.as_deref())
+        .bind(i64::from(run.featured))
+        .bind(run.priority)
+        .bind(state_name(run.state))
+        .bind(to_json(&run.spec)?)
+        .bind(&run.object_a_name)
+        .bind(&run.object_b_name)
+        .bind(run.expected_seconds)
+        .bind(run.created_us)
+        .execute(&mut *transaction)
+        .await?;
+        for (position, stage) in stages.iter().enumerate() {
+            sqlx::query("INSERT INTO run_stages (run_id, position, stage) VALUES ($1, $2, $3)")
+                .bind(&run.id)
+                .bind(position as i64)
+                .bind(to_json(stage)?)
+                .execute(&mut *transaction)
+                .await?;
+        }
+        transaction.commit().await?;
+        Ok(())
+    }
+
+    /// One run.
+    pub async fn run(&self, id: &str) -> Result<Option<RunRow>> {
+        let row = sqlx::query(select_runs!("WHERE id = $1")).bind(id).fetch_optional(&self.pool).await?;
+        row.as_ref().map(read_run).transpose()
+    }
+
+    /// The owner's runs, newest first, at most `limit`.
+    pub async fn runs_of(&self, owner: &str, limit: i64) -> Result<Vec<RunRow>> {
+        let rows = sqlx::query(select_runs!("WHERE owner = $1 ORDER BY created_us DESC, id DESC LIMIT $2"))
+            .bind(owner)
+            .bind(limit)
+            .fetch_all(&self.pool)
+            .await?;
+        rows.iter().map(read_run).collect()
+    }
+
+    /// The newest finished run for the start page.
+    pub async fn newest_featured(&self) -> Result<Option<RunRow>> {
+        let row = sqlx::query(select_runs!(
+            "WHERE featured = 1 AND state = 'done' ORDER BY finished_us DESC, id DESC LIMIT 1"
+        ))
+        .fetch_optional(&self.pool)
+        .await?;
+        row.as_ref().map(read_run).transpose()
+    }
+
+    /// How many runs for the start page are queued, under way or done.
+    pub async fn featured_count(&self) -> Result<i64> {
+        Ok(sqlx::query_scalar(
+            "SELECT COUNT(*) FROM runs WHERE featured = 1 AND state IN ('queued', 'running', 'done')",
+        )
+        .fetch_one(&self.pool)
+        .await?)
+    }
+
+    /// Ends a run that is in state `from`; false when it was not.
+    pub async fn end_run(&self, id: &str, from: State, to: State, message: Option<&str>) -> Result<bool> {
+        let done =
+            sqlx::query("UPDATE runs SET state = $1, message = $2, finished_us = $3 WHERE id = $4 AND state = $5")
+                .bind(state_name(to))
+                .bind(message)
+                .bind(now_us())
+                .bind(id)
+                .bind(state_name(from))
+                .execute(&self.pool)
+                .await?;
+        Ok(done.rows_affected() == 1)
+    }
+
+    /// Notes the run's configuration set.
+    pub async fn set_of_run(&self, id: &str, info: &SetInfo, blob: &str) -> Result<()> {
+        sqlx::query("UPDATE runs SET set_info = $1, set_blob = $2 WHERE id = $3")
+            .bind(to_json(info)?)
+            .bind(blob)
+            .bind(id)
+            .execute(&self.pool)
+            .await?;
+        Ok(())
+    }
+
+    /// Notes the machine that measured the run.
+    pub async fn environment_of_run(&self, id: &str, environment: &Environment) -> Result<()> {
+        sqlx::query("UPDATE runs SET environment = $1 WHERE id = $2")
+            .bind(to_json(environment)?)
+            .bind(id)
+            .execute(&self.pool)
+            .await?;
+        Ok(())
+    }
+
+    /// The run's lanes in order.
+    pub async fn stages(&self, id: &str) -> Result<Vec<Stage>> {
+        let rows: Vec<String> = sqlx::query_scalar("SELECT stage FROM run_stages WHERE run_id = $1 ORDER BY position")
+            .bind(id)
+            .fetch_all(&self.pool)
+            .await?;
+        rows.iter().map(|stage| from_json(stage)).collect()
+    }
+
+    /// Writes one lane.
+    pub async fn put_stage(&self, id: &str, position: usize, stage: &Stage) -> Result<()> {
+        sqlx::query("UPDATE run_stages SET stage = $1 WHERE run_id = $2 AND position = $3")
+            .bind(to_json(stage)?)
+            .bind(id)
+            .bind(position as i64)
+            .execute(&self.pool)
+            .await?;
+        Ok(())
+    }
+
+    /// Appends an event and gives it its number.
+    pub async fn add_event(&self, id: &str, event: &mut RunEvent) -> Result<()> {
+        event.seq = sqlx::query_scalar(
+            "INSERT INTO run_events (run_id, seq, event) \
+             SELECT $1, COALESCE(MAX(seq), 0) + 1, $2 FROM run_events WHERE run_id = $3 RETURNING seq",
+        )
+        .bind(id)
+        .bind(to_json(event)?)
+        .bind(id)
+        .fetch_one(&self.pool)
+        .await?;
+        Ok(())
+    }
+
+    /// The events behind `after_seq`, oldest first.
+    pub async fn events(&self, id: &str, after_seq: i64) -> Result<Vec<RunEvent>> {
+        let rows: Vec<(i64, String)> =
+            sqlx::query_as("SELECT seq, event FROM run_events WHERE run_id = $1 AND seq > $2 ORDER BY seq")
+                .bind(id)
+                .bind(after_seq)
+                .fetch_all(&self.pool)
+                .await?;
+        rows.iter().map(|(seq, event)| Ok(RunEvent { seq: *seq, ..from_json(event)? })).collect()
+    }
+}
+
+fn read_run(row: &AnyRow) -> Result<RunRow> {
+    let set: Option<String> = row.try_get("set_info")?;
+    let environment: Option<String> = row.try_get("environment")?;
+    Ok(RunRow {
+        id: row.try_get("id")?,
+        owner: row.try_get("owner")?,
+        featured: row.try_get::<i64, _>("featured")? != 0,
+        priority: row.try_get("priority")?,
+        state: named_state(row.try_get("state")?)?,
+        attempts: row.try_get::<i64, _>("attempts")? as u32,
+        message: row.try_get("message")?,
+        spec: from_json(row.try_get("spec")?)?,
+        object_a_name: row.try_get("object_a_name")?,
+        object_b_name: row.try_get("object_b_name")?,
+        set: set.map(|text| from_json(&text)).transpose()?,
+        set_blob: row.try_get("set_blob")?,
+        environment: environment.map(|text| from_json(&text)).transpose()?,
+        expected_seconds: row.try_get("expected_seconds")?,
+        created_us: row.try_get("created_us")?,
+        finished_us: row.try_get("finished_us")?,
+    })
+}
+
+fn state_name(state: State) -> &'static str {
+    match state {
+        State::Queued => "queued",
+        State::Running => "running",
+        State::Done => "done",
+        State::Failed => "failed",
+        State::Cancelled => "cancelled",
+    }
+}
+
+fn named_state(name: &str) -> Result<State> {
+    match name {
+        "queued" => Ok(State::Queued),
+        "running" => Ok(State::Running),
+        "done" => Ok(State::Done),
+        "failed" => Ok(State::Failed),
+        "cancelled" => Ok(State::Cancelled),
+        other => Err(EngineError::Fault(format!("The database holds a run in the unknown state {other:?}."))),
+    }
+}

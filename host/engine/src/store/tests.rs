@@ -1,0 +1,361 @@
+//! The contract of the store: every function, on SQLite and on PostgreSQL.
+
+use ocb_core::configuration::Class;
+use ocb_core::query::Query;
+
+use super::*;
+use crate::blobs::tests::from_harness;
+use crate::model::{
+    AlgorithmInfo, AlgorithmResult, ClassCount, Environment, Estimated, ObjectInfo, OutcomeInfo, RunSpec, SetInfo,
+    State,
+};
+use crate::runlog::{fresh_stages, plain_event};
+
+/// How many rows there are of blobs, objects, sets, runs and results.
+pub(crate) async fn row_counts(store: &Store) -> [i64; 5] {
+    let mut counts = [0; 5];
+    let texts = [
+        "SELECT COUNT(*) FROM blobs",
+        "SELECT COUNT(*) FROM objects",
+        "SELECT COUNT(*) FROM sets",
+        "SELECT COUNT(*) FROM runs",
+        "SELECT COUNT(*) FROM results",
+    ];
+    for (count, text) in counts.iter_mut().zip(texts) {
+        *count = sqlx::query_scalar(text).fetch_one(&store.pool).await.unwrap();
+    }
+    counts
+}
+
+async fn sqlite() -> (Store, tempfile::TempDir) {
+    let folder = tempfile::Builder::new().prefix("ocb 100% é?").tempdir().unwrap();
+    (Store::open(folder.path(), None).await.unwrap(), folder)
+}
+
+/// A fresh schema in the harness's database, so that tests do not see each other.
+async fn postgres() -> Store {
+    let url = from_harness("OCB_TEST_POSTGRES");
+    sqlx::any::install_default_drivers();
+    let schema = format!("test_{}", uuid::Uuid::new_v4().simple());
+    let admin = AnyPoolOptions::new().max_connections(1).connect(&url).await.unwrap();
+    let create = sqlx::AssertSqlSafe(format!("CREATE SCHEMA {schema}"));
+    sqlx::query(create).execute(&admin).await.unwrap();
+    admin.close().await;
+    let join = if url.contains('?') { '&' } else { '?' };
+    let url = format!("{url}{join}options=-c%20search_path%3D{schema}");
+    Store::open(Path::new("/nonexistent"), Some(&url)).await.unwrap()
+}
+
+macro_rules! on_both {
+    ($($name:ident),* $(,)?) => {$(
+        mod $name {
+            #[tokio::test]
+            async fn on_sqlite() {
+                let (store, _folder) = super::sqlite().await;
+                super::contract::$name(store).await;
+            }
+
+            #[tokio::test]
+            async fn on_postgres() {
+                super::contract::$name(super::postgres().await).await;
+            }
+        }
+    )*};
+}
+
+on_both!(
+    blobs_are_noted_once,
+    objects_belong_to_their_owners,
+    descriptions_are_replaced,
+    sets_are_found_by_their_key,
+    a_run_comes_back_as_it_was,
+    events_are_numbered_from_one,
+    the_queue_is_fair,
+    interrupted_runs_are_tried_three_times,
+    results_replace_those_of_an_earlier_attempt,
+    the_newest_finished_featured_run_is_shown,
+    two_workers_never_claim_the_same_run,
+);
+
+fn object(id: &str) -> ObjectInfo {
+    ObjectInfo {
+        id: id.into(),
+        name: "ünïcode 'quoted'".into(),
+        triangles: 12,
+        vertices: 8,
+        bounds: [-0.1, 0.0, 1.0 / 3.0, 1.0, 2.0, 3.0],
+        sha256: format!("mesh of {id}"),
+        terms: String::new(),
+        stock: false,
+        closed: true,
+        warnings: vec!["one".into()],
+        created_us: now_us(),
+    }
+}
+
+fn spec() -> RunSpec {
+    serde_json::from_value(serde_json::json!({
+        "object_a": "stock:box@500", "query": "proximity", "algorithms": ["a", "b"], "relative_distance": 0.1,
+        "method": {"kind": "sphere", "sampling": {"kind": "count", "count": 5}},
+    }))
+    .unwrap()
+}
+
+fn run(id: &str, owner: Option<&str>, priority: i64, created_us: i64) -> RunRow {
+    RunRow {
+        id: id.into(),
+        owner: owner.map(str::to_owned),
+        featured: false,
+        priority,
+        state: State::Queued,
+        attempts: 0,
+        message: None,
+        spec: spec(),
+        object_a_name: "box".into(),
+        object_b_name: "box".into(),
+        set: None,
+        set_blob: None,
+        environment: None,
+        expected_seconds: 1.5,
+        created_us,
+        finished_us: None,
+    }
+}
+
+fn set_info() -> SetInfo {
+    SetInfo {
+        sha256: "s".into(),
+        configurations: 4,
+        missed_rays: 1,
+        longest_side: 0.5,
+        classes: vec![ClassCount { class: Class::Clear, count: 4 }],
+        coverage_a: 0.1,
+        coverage_b: 0.2,
+    }
+}
+
+fn result(algorithm: &str, n: u32) -> StoredResult {
+    StoredResult {
+        result: AlgorithmResult {
+            algorithm: algorithm.into(),
+            name: algorithm.to_uppercase(),
+            outcome: OutcomeInfo { name: "Completed".into(), message: "All.".into(), ours: false },
+            n,
+            of: 5,
+            budget_limited: n < 5,
+            time: None,
+            verdicts: Vec::new(),
+            wrong: 0,
+            bv_tests_mean: Some(1.25),
+            primitive_tests_mean: None,
+            build_ms: None,
+            memory_bytes: Some(u64::from(u32::MAX) + 1),
+        },
+        records: None,
+        plugin_sha256: "p".into(),
+        seconds_per_configuration: Some(1e-6),
+    }
+}
+
+async fn add(store: &Store, run: RunRow) {
+    store.add_run(&run, &fresh_stages(&run.spec.algorithms)).await.unwrap();
+}
+
+mod contract {
+    use super::*;
+
+    pub async fn blobs_are_noted_once(store: Store) {
+        assert_eq!(store.blob_bytes("x").await.unwrap(), None);
+        store.add_blob("x", 10, "text/plain").await.unwrap();
+        store.add_blob("x", 10, "text/plain").await.unwrap();
+        assert_eq!(store.blob_bytes("x").await.unwrap(), Some(10));
+        assert_eq!(row_counts(&store).await, [1, 0, 0, 0, 0]);
+    }
+
+    pub async fn objects_belong_to_their_owners(store: Store) {
+        store.add_blob("m", 1, "x").await.unwrap();
+        let (mine, other, nobodys) = (object("1"), object("2"), object("3"));
+        store.add_object(&mine, Some("me"), "m").await.unwrap();
+        store.add_object(&other, Some("other"), "m").await.unwrap();
+        store.add_object(&nobodys, None, "m").await.unwrap();
+        assert_eq!(store.object("1").await.unwrap(), Some((mine.clone(), "m".into())));
+        assert_eq!(store.object("9").await.unwrap(), None);
+        assert_eq!(store.objects_of("me").await.unwrap(), [mine.clone()]);
+        assert_eq!(store.object_with_mesh(&mine.sha256, Some("me")).await.unwrap(), Some(mine.clone()));
+        assert_eq!(store.object_with_mesh(&mine.sha256, Some("other")).await.unwrap(), None);
+        assert_eq!(store.object_with_mesh(&nobodys.sha256, None).await.unwrap(), Some(nobodys));
+        assert!(store.add_object(&object("4"), None, "no such blob").await.is_err(), "rows never point nowhere");
+    }
+
+    pub async fn descriptions_are_replaced(store: Store) {
+        assert_eq!(store.described("h").await.unwrap(), None);
+        let mut algorithm = AlgorithmInfo {
+            id: "a".into(),
+            name: "A".into(),
+            version: "1".into(),
+            authors: String::new(),
+            license: String::new(),
+            url: String::new(),
+            paper: String::new(),
+            queries: vec![Query::CollisionFirst],
+            counters: true,
+            witness_points: false,
+            single_precision: false,
+            parameters: Vec::new(),
+            plugin_sha256: "h".into(),
+        };
+        store.keep_description("h", std::slice::from_ref(&algorithm)).await.unwrap();
+        algorithm.version = "2".into();
+        store.keep_description("h", std::slice::from_ref(&algorithm)).await.unwrap();
+        assert_eq!(store.described("h").await.unwrap(), Some(vec![algorithm]));
+    }
+
+    pub async fn sets_are_found_by_their_key(store: Store) {
+        store.add_blob("b", 1, "x").await.unwrap();
+        assert!(store.set("k").await.unwrap().is_none());
+        store.keep_set("k", &set_info(), "b", 1000, 2.0).await.unwrap();
+        store.keep_set("k", &set_info(), "b", 1000, 9.0).await.unwrap();
+        let stored = store.set("k").await.unwrap().unwrap();
+        assert_eq!((stored.info, stored.blob.as_str()), (set_info(), "b"));
+        assert_eq!(store.set_rates().await.unwrap(), [(1000, 0.5)]);
+    }
+
+    pub async fn a_run_comes_back_as_it_was(store: Store) {
+        store.add_blob("b", 1, "x").await.unwrap();
+        let mut expected = run("r", Some("me"), 1, 7);
+        add(&store, expected.clone()).await;
+        assert_eq!(store.run("r").await.unwrap(), Some(expected.clone()));
+        assert_eq!(store.run("q").await.unwrap(), None);
+        let environment = Environment {
+            cpu: "c".into(),
+            cpus: 2,
+            memory_bytes: 1 << 40,
+            kernel: "k".into(),
+            hardware_class: "h".into(),
+            clock: "spin".into(),
+            null_ns: Estimated { value: 1.0, lo: 0.5, hi: 2.0 },
+            disturbed: 3,
+            jail: vec!["seccomp".into()],
+            version: "1".into(),
+        };
+        store.set_of_run("r", &set_info(), "b").await.unwrap();
+        store.environment_of_run("r", &environment).await.unwrap();
+        assert_eq!(store.claim().await.unwrap().as_deref(), Some("r"));
+        assert!(!store.end_run("r", State::Queued, State::Cancelled, None).await.unwrap(), "it is not queued any more");
+        assert!(store.end_run("r", State::Running, State::Failed, Some("why")).await.unwrap());
+        let got = store.run("r").await.unwrap().unwrap();
+        assert!(got.finished_us.is_some());
+        (expected.state, expected.attempts, expected.message) = (State::Failed, 1, Some("why".into()));
+        (expected.set, expected.set_blob, expected.environment) =
+            (Some(set_info()), Some("b".into()), Some(environment));
+        expected.finished_us = got.finished_us;
+        assert_eq!(got, expected);
+        let mut stages = store.stages("r").await.unwrap();
+        assert_eq!(stages, fresh_stages(&spec().algorithms));
+        (stages[2].done, stages[2].message) = (3, Some("note".into()));
+        store.put_stage("r", 2, &stages[2]).await.unwrap();
+        assert_eq!(store.stages("r").await.unwrap(), stages);
+        add(&store, run("s", Some("me"), 1, 8)).await;
+        add(&store, run("t", Some("other"), 1, 9)).await;
+        let mine: Vec<String> = store.runs_of("me", 10).await.unwrap().into_iter().map(|r| r.id).collect();
+        assert_eq!(mine, ["s", "r"]);
+        assert_eq!(store.runs_of("me", 1).await.unwrap().len(), 1);
+    }
+
+    pub async fn events_are_numbered_from_one(store: Store) {
+        add(&store, run("r", None, 1, 1)).await;
+        add(&store, run("s", None, 1, 2)).await;
+        for expected in 1..=3 {
+            let mut event = plain_event(State::Running, 0);
+            store.add_event("r", &mut event).await.unwrap();
+            assert_eq!(event.seq, expected);
+        }
+        let mut event = plain_event(State::Queued, 2);
+        store.add_event("s", &mut event).await.unwrap();
+        assert_eq!(event.seq, 1);
+        let seqs: Vec<i64> = store.events("r", 1).await.unwrap().iter().map(|e| e.seq).collect();
+        assert_eq!(seqs, [2, 3]);
+        assert_eq!(store.events("s", 0).await.unwrap(), [event]);
+    }
+
+    pub async fn the_queue_is_fair(store: Store) {
+        add(&store, run("background", None, 5, 1)).await;
+        for (i, id) in ["a1", "a2", "a3"].iter().enumerate() {
+            add(&store, run(id, Some("a"), 1, 2 + i as i64)).await;
+        }
+        add(&store, run("b1", Some("b"), 1, 9)).await;
+        let foretold: Vec<String> = store.queued().await.unwrap().into_iter().map(|r| r.id).collect();
+        let mut served = Vec::new();
+        while let Some(id) = store.claim().await.unwrap() {
+            assert_eq!(store.running().await.unwrap().len(), 1);
+            store.end_run(&id, State::Running, State::Done, None).await.unwrap();
+            served.push(id);
+        }
+        assert_eq!(served, ["a1", "b1", "a2", "a3", "background"]);
+        assert_eq!(foretold, served, "what the pages say about the queue is what happens");
+    }
+
+    pub async fn interrupted_runs_are_tried_three_times(store: Store) {
+        add(&store, run("r", None, 1, 1)).await;
+        for attempt in 1..=2 {
+            assert_eq!(store.claim().await.unwrap().as_deref(), Some("r"));
+            assert_eq!(store.recover(3).await.unwrap(), (vec!["r".to_owned()], vec![]));
+            assert_eq!(store.run("r").await.unwrap().unwrap().attempts, attempt);
+        }
+        store.claim().await.unwrap();
+        store.put_back("r").await.unwrap();
+        assert_eq!(store.run("r").await.unwrap().unwrap().attempts, 2, "a wanted stop is no attempt");
+        store.claim().await.unwrap();
+        assert_eq!(store.recover(3).await.unwrap(), (vec![], vec!["r".to_owned()]));
+        let failed = store.run("r").await.unwrap().unwrap();
+        assert_eq!(failed.state, State::Failed);
+        assert!(failed.message.unwrap().contains("3 times"));
+        assert_eq!(store.claim().await.unwrap(), None);
+    }
+
+    pub async fn results_replace_those_of_an_earlier_attempt(store: Store) {
+        add(&store, run("r", None, 1, 1)).await;
+        store.add_blob("b", 1, "x").await.unwrap();
+        store.keep_result("r", 1, &result("b", 5), 100, Query::Proximity).await.unwrap();
+        store.keep_result("r", 0, &result("a", 2), 100, Query::Proximity).await.unwrap();
+        let again = StoredResult { records: Some("b".into()), ..result("a", 4) };
+        store.keep_result("r", 0, &again, 100, Query::Proximity).await.unwrap();
+        assert_eq!(store.results("r").await.unwrap(), [again, result("b", 5)]);
+        assert_eq!(store.result_rates("a", Query::Proximity).await.unwrap(), [(100, 1e-6)]);
+        assert_eq!(store.result_rates("a", Query::CollisionFirst).await.unwrap(), []);
+    }
+
+    pub async fn the_newest_finished_featured_run_is_shown(store: Store) {
+        for (id, featured) in [("old", true), ("new", true), ("plain", false), ("waiting", true)] {
+            add(&store, RunRow { featured, ..run(id, None, 1, if id == "waiting" { 9 } else { 1 }) }).await;
+        }
+        assert_eq!(store.newest_featured().await.unwrap(), None);
+        for id in ["old", "new", "plain"] {
+            assert!(store.end_run(id, State::Queued, State::Done, None).await.unwrap());
+            tokio::time::sleep(std::time::Duration::from_millis(2)).await;
+        }
+        assert_eq!(store.newest_featured().await.unwrap().unwrap().id, "new");
+        assert_eq!(store.featured_count().await.unwrap(), 3);
+    }
+
+    pub async fn two_workers_never_claim_the_same_run(store: Store) {
+        for i in 0..20 {
+            add(&store, run(&format!("r{i:02}"), None, 1, i)).await;
+        }
+        let worker = |store: Store| async move {
+            let mut claimed = Vec::new();
+            while let Ok(Some(id)) = store.claim().await {
+                claimed.push(id);
+            }
+            claimed
+        };
+        let (first, second) = tokio::join!(tokio::spawn(worker(store.clone())), tokio::spawn(worker(store.clone())));
+        let mut all = [first.unwrap(), second.unwrap()].concat();
+        all.sort();
+        // On PostgreSQL the loser of a race may see nothing and stop early, but no run is ever given twice.
+        let before = all.len();
+        all.dedup();
+        assert_eq!(all.len(), before);
+        assert_eq!(before + store.queued().await.unwrap().len(), 20);
+    }
+}

@@ -1,0 +1,56 @@
+//! What the tests of the whole engine share.
+#![allow(dead_code, reason = "each test binary uses its own part")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use ocb_engine::model::{RunEvent, RunInfo, RunSpec};
+use ocb_engine::{Engine, EngineConfig};
+
+/// The folder where cargo puts binaries and plugins; test binaries lie in `deps` below it.
+fn built() -> PathBuf {
+    let exe = std::env::current_exe().expect("a test knows its own file");
+    exe.ancestors().nth(2).expect("target/release").to_path_buf()
+}
+
+/// An engine over this folder with the plugins that ship with the service.
+pub fn config(data: &Path) -> EngineConfig {
+    let built = built();
+    let plugins = ["brute_force", "box_tree", "parry"].map(|name| built.join(format!("libocb_{name}.so")));
+    for file in plugins.iter().chain([&built.join("ocb-runner")]) {
+        assert!(file.is_file(), "{} is missing: run `make test`, or `cargo build --release` first", file.display());
+    }
+    EngineConfig {
+        runner: built.join("ocb-runner"),
+        plugins: plugins.to_vec(),
+        ..EngineConfig::beside_executable(data)
+    }
+}
+
+/// An engine that offers no algorithm and measures nothing.
+pub fn idle_config(data: &Path) -> EngineConfig {
+    EngineConfig { plugins: Vec::new(), dispatch: false, ..EngineConfig::beside_executable(data) }
+}
+
+/// A small run: `count` configurations of a torus knot of 600 triangles against itself.
+pub fn spec(query: &str, count: u32, seed: u64) -> RunSpec {
+    serde_json::from_value(serde_json::json!({
+        "object_a": "stock:torus-knot@600", "query": query, "passes": 2, "budget_seconds": 20.0,
+        "method": {"kind": "sphere", "seed": seed, "sampling": {"kind": "count", "count": count}},
+    }))
+    .expect("a spec")
+}
+
+/// Follows the run to its end.
+pub async fn finish(engine: &Engine, id: &str) -> (RunInfo, Vec<RunEvent>) {
+    use futures::StreamExt;
+    let events = engine.follow(id, 0).await.expect("the run is there");
+    let events: Vec<RunEvent> = events.map(|e| e.expect("an event")).collect().await;
+    (engine.run(id, None).await.expect("the run is there"), events)
+}
+
+/// Files below a folder.
+pub fn files(folder: &Path) -> usize {
+    let Ok(entries) = fs::read_dir(folder) else { return 0 };
+    entries.flatten().map(|e| if e.path().is_dir() { files(&e.path()) } else { 1 }).sum()
+}

@@ -1,0 +1,174 @@
+//! Whole runs with the real runner and the plugins that ship with the service.
+
+mod common;
+
+use ocb_core::configuration::{Class, Method};
+use ocb_core::statistics::{Outliers, Statistic};
+use ocb_engine::model::{HeatmapRequest, Measure, RunSpec, Side, StageKind, State};
+use ocb_engine::{Engine, EngineConfig, EngineError};
+
+fn request(algorithm: &str, measure: Measure, statistic: Statistic) -> HeatmapRequest {
+    HeatmapRequest { algorithm: algorithm.into(), side: Side::A, measure, statistic, outliers: Outliers::Keep }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_run_goes_from_object_to_heatmap() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(common::config(data.path())).await.unwrap();
+    assert_eq!(engine.status().await.unwrap().problems, Vec::<String>::new());
+    let estimate = engine.estimate(&common::spec("proximity", 60, 1)).await.unwrap();
+    assert_eq!((estimate.configurations, estimate.configurations_stored, estimate.runs_ahead), (60, false, 0));
+    let run = engine.submit(common::spec("proximity", 60, 1), Some("guest")).await.unwrap();
+    let (run, events) = common::finish(&engine, &run.id).await;
+    assert_eq!(run.state, State::Done, "{:?}", run.message);
+
+    // The log is complete, in order, and ends with the end.
+    assert_eq!(events.iter().map(|e| e.seq).collect::<Vec<_>>(), (1..=events.len() as i64).collect::<Vec<_>>());
+    assert_eq!(events.last().unwrap().state, State::Done);
+    assert_eq!(events.iter().filter(|e| e.result.is_some()).count(), 3);
+    assert_eq!(engine.events(&run.id, 3).await.unwrap().first().unwrap().seq, 4);
+    let kinds: Vec<StageKind> = run.stages.iter().map(|s| s.kind).collect();
+    use StageKind::*;
+    assert_eq!(kinds, [Object, Configurations, Measuring, Measuring, Measuring, Heatmap]);
+    assert!(run.stages.iter().all(|s| s.state == State::Done && s.done == s.total), "{:?}", run.stages);
+
+    let set = run.set.clone().unwrap();
+    assert_eq!(set.configurations + set.missed_rays, 60);
+    assert_eq!(set.classes.iter().map(|c| c.count).sum::<u32>(), set.configurations);
+    assert!(set.classes.iter().all(|c| c.class == Class::Clear), "relative distance 0 is placed just clear");
+    let environment = run.environment.clone().unwrap();
+    assert!(environment.null_ns.value > 0.0 && !environment.jail.is_empty());
+    assert_eq!(environment.hardware_class, engine.status().await.unwrap().hardware_class);
+    for result in &run.results {
+        assert_eq!(result.outcome.name, "Completed", "{}: {}", result.algorithm, result.outcome.message);
+        assert_eq!((result.n, result.of, result.wrong), (set.configurations, set.configurations, 0));
+        let time = result.time.unwrap();
+        assert!(0.0 < time.median_ns.value && time.median_ns.value <= time.max_ns.value);
+        assert!(time.mean_ns.lo <= time.mean_ns.value && time.mean_ns.value <= time.mean_ns.hi);
+        assert!(result.build_ms.unwrap() > 0.0 && result.primitive_tests_mean.unwrap() > 0.0);
+    }
+
+    // The map's numbers follow from the records.
+    let density = engine.heatmap(&run.id, &request("", Measure::Density, Statistic::Mean)).await.unwrap();
+    assert_eq!(density.values.iter().flatten().sum::<f64>(), 3.0 * f64::from(set.configurations));
+    let csv = String::from_utf8(engine.records_csv(&run.id, "box-tree").await.unwrap()).unwrap();
+    let times: Vec<f64> = csv.lines().skip(1).map(|l| l.split(',').nth(1).unwrap().parse().unwrap()).collect();
+    assert_eq!(times.len() as u32, set.configurations);
+    let longest = engine.heatmap(&run.id, &request("box-tree", Measure::Time, Statistic::Max)).await.unwrap();
+    assert_eq!(longest.range.unwrap()[1], times.iter().copied().fold(0.0, f64::max));
+    assert_eq!(longest.values.len(), engine.mesh(&run.spec.object_a).await.unwrap().positions().len());
+    assert_eq!((longest.n, longest.unit.as_str()), (set.configurations, "ns"));
+    let ecdf = engine.ecdf(&run.id, "parry").await.unwrap();
+    assert_eq!((ecdf.n, ecdf.share.last().copied()), (set.configurations, Some(1.0)));
+    assert!(engine.records_parquet(&run.id, "parry").await.unwrap().starts_with(b"PAR1"));
+    let map = request("parry", Measure::BvTests, Statistic::Mean);
+    let glb = engine.heatmap_glb(&run.id, &map, Default::default(), Default::default()).await.unwrap();
+    assert!(glb.starts_with(b"glTF"));
+    let absent = engine.ecdf(&run.id, "quantum").await.unwrap_err().to_string();
+    assert!(absent.contains("box-tree, brute-force, parry"), "{absent}");
+
+    // The same set is found again, and its file may be brought back as a file of configurations.
+    let again = RunSpec { algorithms: vec!["box-tree".into()], ..common::spec("proximity", 60, 1) };
+    assert!(engine.estimate(&again).await.unwrap().configurations_stored);
+    let again = engine.submit(again, Some("guest")).await.unwrap();
+    let (again, _) = common::finish(&engine, &again.id).await;
+    assert_eq!(again.set.as_ref().map(|s| &s.sha256), Some(&set.sha256));
+    assert!(again.stages[1].message.as_deref().is_some_and(|m| m.contains("Saved positions")));
+    let file = engine.configurations_parquet(&run.id).await.unwrap();
+    let method = engine.add_configurations(file).await.unwrap();
+    let brought = RunSpec { method, algorithms: vec!["parry".into()], ..common::spec("collision_first", 1, 0) };
+    let brought = engine.submit(brought, Some("guest")).await.unwrap();
+    let (brought, _) = common::finish(&engine, &brought.id).await;
+    assert_eq!(brought.results[0].n, set.configurations);
+    assert_eq!(brought.results[0].wrong, 0);
+    assert_eq!(engine.runs("guest").await.unwrap().len(), 3);
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_small_budget_measures_the_same_prefix_and_says_so() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(common::config(data.path())).await.unwrap();
+    let mut spec = common::spec("collision_first", 4000, 2);
+    spec.algorithms = vec!["brute-force".into()];
+    spec.relative_distance = 0.05;
+    spec.budget_seconds = 0.05;
+    let run = engine.submit(spec, Some("guest")).await.unwrap();
+    let (run, _) = common::finish(&engine, &run.id).await;
+    let result = &run.results[0];
+    assert!(result.budget_limited && 0 < result.n && result.n < result.of, "{} of {}", result.n, result.of);
+    assert!(run.stages[2].message.as_deref().is_some_and(|m| m.contains(&format!("{} of {}", result.n, result.of))));
+    assert_eq!(run.state, State::Done);
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn only_the_owner_cancels_and_the_next_run_goes_on() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(common::config(data.path())).await.unwrap();
+    let long = engine.submit(common::spec("proximity", 2_000_000, 3), Some("guest")).await.unwrap();
+    let waiting = engine.submit(common::spec("proximity", 2_000_000, 4), Some("other")).await.unwrap();
+    let next = engine.submit(common::spec("collision_first", 20, 5), Some("guest")).await.unwrap();
+    assert!(waiting.runs_ahead >= 1 && next.runs_ahead > waiting.runs_ahead);
+    for stranger in [None, Some("other")] {
+        assert!(matches!(engine.cancel(&long.id, stranger).await, Err(EngineError::Forbidden(_))));
+    }
+    assert_eq!(engine.cancel(&waiting.id, Some("other")).await.unwrap().state, State::Cancelled);
+    assert_eq!(engine.cancel(&long.id, Some("guest")).await.unwrap().state, State::Cancelled);
+    let (next, _) = common::finish(&engine, &next.id).await;
+    assert_eq!(next.state, State::Done, "{:?}", next.message);
+    let (long, events) = common::finish(&engine, &long.id).await;
+    assert!(long.stages.iter().skip(1).all(|s| s.state == State::Cancelled), "{:?}", long.stages);
+    assert_eq!(events.last().unwrap().state, State::Cancelled);
+    assert!(matches!(engine.cancel("no such run", Some("guest")).await, Err(EngineError::NotFound(_))));
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_start_page_has_a_measured_run_without_being_asked() {
+    let data = tempfile::tempdir().unwrap();
+    let config = EngineConfig { featured: true, ..common::config(data.path()) };
+    let engine = Engine::open(config.clone()).await.unwrap();
+    let started = std::time::Instant::now();
+    let featured = loop {
+        match engine.featured().await.unwrap() {
+            Some(run) => break run,
+            None => assert!(started.elapsed().as_secs() < 120, "{:?}", engine.status().await),
+        }
+        tokio::time::sleep(std::time::Duration::from_millis(200)).await;
+    };
+    assert_eq!((featured.state, featured.mine), (State::Done, false));
+    assert!(featured.results.iter().any(|r| r.n > 0));
+    engine.shutdown().await;
+    drop(engine);
+    let engine = Engine::open(config).await.unwrap();
+    assert_eq!(engine.featured().await.unwrap().map(|run| run.id), Some(featured.id), "it is made once");
+    assert_eq!(engine.status().await.unwrap().queued, 0);
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn our_own_plugins_pass_the_check() {
+    let data = tempfile::tempdir().unwrap();
+    let config = EngineConfig { dispatch: false, ..common::config(data.path()) };
+    let engine = Engine::open(config.clone()).await.unwrap();
+    for file in &config.plugins {
+        let report = engine.check_plugin(file).await.unwrap();
+        assert!(report.passed, "{report:#?}");
+        assert!(report.lines.len() >= 4, "{report:#?}");
+    }
+    // An ELF file that is no plugin: the runner's own program.
+    let report = engine.check_plugin(&config.runner).await.unwrap();
+    assert!(!report.passed);
+    assert_eq!(report.lines.len(), 2, "{report:#?}");
+}
+
+#[test]
+fn a_spec_needs_little() {
+    let spec: RunSpec = serde_json::from_str(
+        r#"{"object_a": "x", "query": "proximity", "method": {"kind": "sphere", "sampling": {"kind": "count", "count": 3}}}"#,
+    )
+    .unwrap();
+    assert_eq!((spec.passes, spec.relative_distance), (3, 0.0));
+    assert!(matches!(spec.method, Method::Sphere { seed: 0, .. }));
+}
