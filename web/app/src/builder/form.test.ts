@@ -72,7 +72,7 @@ describe('objects', () => {
   })
 
   it('have a slider from the fewest to the most', () => {
-    expect([sliderToTriangles(0), sliderToTriangles(1000)]).toEqual([100, 500_000])
+    expect([sliderToTriangles(0), sliderToTriangles(1000)]).toEqual([500, 500_000])
     expect(sliderToTriangles(trianglesToSlider(20_000))).toBe(20_000)
   })
 })

@@ -4,7 +4,7 @@ import type { ObjectInfo } from '../api/types'
 const PROCEDURAL = /^stock:([^@]+)@(\d+)$/
 
 /** Bounds of the slider for procedural objects. */
-export const TRIANGLES = { least: 100, most: 500_000 } as const
+export const TRIANGLES = { least: 500, most: 500_000 } as const
 
 /** The number of triangles of a procedural id; null for all other objects, whose number is fixed. */
 export function proceduralTriangles(id: string): number | null {
