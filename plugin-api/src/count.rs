@@ -6,6 +6,9 @@ pub trait Count {
     fn bv_tests(&mut self, tests: u64);
     /// One test between triangle `a` of A and triangle `b` of B.
     fn primitive_test(&mut self, a: u32, b: u32);
+    /// Whether anybody listens. For algorithms around a library that cannot count: they call the library when nobody
+    /// does, and a written-out copy of what it does otherwise.
+    fn is_counting(&self) -> bool;
 }
 
 /// Counts nothing; for timed queries.
@@ -17,6 +20,10 @@ impl Count for Uncounted {
     fn bv_tests(&mut self, _tests: u64) {}
     #[inline(always)]
     fn primitive_test(&mut self, _a: u32, _b: u32) {}
+    #[inline(always)]
+    fn is_counting(&self) -> bool {
+        false
+    }
 }
 
 /// Counts; for the untimed pass of `ocb.counters/1`.
@@ -44,5 +51,8 @@ impl Count for Counts<'_> {
                 *count = count.saturating_add(1);
             }
         }
+    }
+    fn is_counting(&self) -> bool {
+        true
     }
 }
