@@ -1,6 +1,7 @@
 //! Files that other programs read. Vertex and triangle order is always the mesh's own.
 
 pub mod glb;
+pub mod ply;
 
 use crate::colormap::{Colormap, Scale};
 

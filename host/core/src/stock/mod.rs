@@ -6,8 +6,14 @@
 //! machine.
 
 mod builder;
+mod castle;
+mod chair;
+mod lustre;
+mod pipes;
 mod round;
 mod solids;
+mod sponge;
+mod wreath;
 
 use builder::{Detail, Soup, Vector};
 use nalgebra::Point3;
@@ -33,11 +39,60 @@ pub const MAX_TRIANGLES: u32 = 1_000_000;
 
 const OBJECTS: &[StockObject] = &[
     StockObject {
+        name: "castle",
+        description: "Walls, towers with cone roofs, a gatehouse and a keep: large flat parts beside many small ones.",
+        default_triangles: 20_000,
+        lowest_triangles: 500,
+        make: castle::castle,
+    },
+    StockObject {
+        name: "sponge",
+        description: "A rounded block full of pores that run into each other: far more surface inside than outside.",
+        default_triangles: 30_000,
+        lowest_triangles: 500,
+        make: sponge::sponge,
+    },
+    StockObject {
+        name: "pipes",
+        description: "A maze of winding pipes that never meet: long thin parts side by side.",
+        default_triangles: 30_000,
+        lowest_triangles: 500,
+        make: pipes::pipes,
+    },
+    StockObject {
+        name: "lustre",
+        description: "A chandelier with arms, candles, drops and strings of beads: extremely concave.",
+        default_triangles: 30_000,
+        lowest_triangles: 500,
+        make: lustre::lustre,
+    },
+    StockObject {
+        name: "chair",
+        description: "A turned wooden chair: sticks around a seat, with wide openings.",
+        default_triangles: 20_000,
+        lowest_triangles: 500,
+        make: chair::chair,
+    },
+    StockObject {
+        name: "wreath",
+        description: "Twigs, leaves and berries on a ring: hundreds of small parts in each other's way.",
+        default_triangles: 30_000,
+        lowest_triangles: 500,
+        make: wreath::wreath,
+    },
+    StockObject {
         name: "torus-knot",
         description: "A tube in the shape of the (2, 5) torus knot: smooth, and concave everywhere.",
         default_triangles: 20_000,
         lowest_triangles: 500,
         make: round::torus_knot,
+    },
+    StockObject {
+        name: "gear",
+        description: "A spur gear with 16 teeth, hub and bore: a machine part that meshes with itself.",
+        default_triangles: 15_000,
+        lowest_triangles: 500,
+        make: round::gear,
     },
     StockObject {
         name: "sphere",
@@ -74,3 +129,6 @@ fn cuboid(detail: Detail) -> Soup {
     soup.add(solids::cuboid(detail, Point3::origin(), Vector::new(0.5, 0.4, 0.3)));
     soup
 }
+
+#[cfg(test)]
+mod tests;

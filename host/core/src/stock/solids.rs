@@ -179,3 +179,20 @@ pub fn tube(centers: &[Point], radius: impl Fn(usize) -> f64, sides: usize) -> S
     }
     soup
 }
+
+/// A tube along the spline through `points`; `radius` is given by the place from 0 to 1, `thick` is about its size.
+pub fn bent_tube(detail: Detail, points: &[Point], thick: f64, radius: impl Fn(f64) -> f64) -> Soup {
+    let n = detail.steps(length(points), points.len().min(4));
+    let centers: Vec<Point> = (0..=n).map(|i| spline(points, i as f64 / n as f64)).collect();
+    tube(&centers, |i| radius(i as f64 / n as f64), detail.steps(TAU * thick, 3))
+}
+
+/// A torus about the z axis.
+pub fn torus(detail: Detail, radius: f64, thick: f64) -> Soup {
+    torus_grid(detail.steps(TAU * radius, 5), detail.steps(TAU * thick, 3), |u, v| {
+        let (sin_u, cos_u) = (TAU * u).sin_cos();
+        let (sin_v, cos_v) = (TAU * v).sin_cos();
+        let r = radius + thick * cos_v;
+        Point::new(r * cos_u, r * sin_u, thick * sin_v)
+    })
+}
