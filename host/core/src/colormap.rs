@@ -64,3 +64,6 @@ impl Colormap {
 pub fn color(map: Colormap, scale: Scale, value: Option<f64>, range: [f64; 2]) -> [u8; 3] {
     value.map_or(NO_DATA, |x| map.at(scale.position(x, range)))
 }
+
+#[cfg(test)]
+mod tests;

@@ -134,3 +134,6 @@ fn own_fence(values: &mut [f64], outliers: Outliers) -> Option<Fence> {
 fn distinct([a, b, c]: [u32; 3]) -> impl Iterator<Item = u32> {
     [Some(a), (b != a).then_some(b), (c != a && c != b).then_some(c)].into_iter().flatten()
 }
+
+#[cfg(test)]
+mod tests;

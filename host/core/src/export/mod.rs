@@ -29,3 +29,6 @@ pub struct Legend {
     /// Configurations that went in.
     pub n: u64,
 }
+
+#[cfg(test)]
+mod tests;
