@@ -1,9 +1,11 @@
 use super::*;
 
 #[test]
-fn turbo_runs_from_dark_blue_over_green_to_dark_red() {
+fn turbo_runs_from_dark_over_blue_green_and_yellow_to_dark_red() {
     let [low, middle, high] = [0.0, 0.5, 1.0].map(|t| Colormap::Turbo.at(t));
-    assert!(low[2] > low[0] && low.iter().all(|&c| c < 110), "{low:?}");
+    assert!(low.iter().all(|&c| c < 110), "{low:?}");
+    let blue = Colormap::Turbo.at(0.15);
+    assert!(blue[2] > 200 && blue[2] > blue[0] && blue[2] > blue[1], "{blue:?}");
     assert!(middle[1] > 200 && middle[1] > middle[0] && middle[1] > middle[2], "{middle:?}");
     assert!(high[0] > 100 && high[1] < 40 && high[2] < 40, "{high:?}");
 }
@@ -11,7 +13,8 @@ fn turbo_runs_from_dark_blue_over_green_to_dark_red() {
 #[test]
 fn viridis_and_cividis_grow_brighter() {
     for map in [Colormap::Viridis, Colormap::Cividis] {
-        let light = |t: f64| map.at(t).iter().zip([0.2126, 0.7152, 0.0722]).map(|(&c, w)| f64::from(c) * w).sum::<f64>();
+        let light =
+            |t: f64| map.at(t).iter().zip([0.2126, 0.7152, 0.0722]).map(|(&c, w)| f64::from(c) * w).sum::<f64>();
         assert!((0..20).all(|i| light(f64::from(i) / 20.0) < light(f64::from(i + 1) / 20.0)), "{map:?}");
     }
 }

@@ -51,7 +51,7 @@ fn open(glb: &[u8]) -> (Root, Vec<u8>) {
     root.validate(&root, gltf_json::Path::new, &mut |path, error| faults.push((path().to_string(), error)));
     assert!(faults.is_empty(), "{faults:?}");
     for view in &root.buffer_views {
-        let (offset, length) = (view.byte_offset.unwrap().value(), view.byte_length.value());
+        let (offset, length) = (view.byte_offset.unwrap().0, view.byte_length.0);
         assert_eq!(offset % 4, 0);
         assert!((offset + length) as usize <= bytes.len());
     }
@@ -67,8 +67,8 @@ fn data<'a>(root: &'a Root, bytes: &'a [u8], name: &str) -> (&'a gltf_json::Acce
     };
     let accessor = &root.accessors[index.value()];
     let view = &root.buffer_views[accessor.buffer_view.unwrap().value()];
-    let start = view.byte_offset.unwrap().value() as usize;
-    (accessor, &bytes[start..start + view.byte_length.value() as usize])
+    let start = view.byte_offset.unwrap().0 as usize;
+    (accessor, &bytes[start..start + view.byte_length.0 as usize])
 }
 
 fn floats(bytes: &[u8]) -> Vec<f32> {
@@ -135,7 +135,7 @@ fn ply_has_the_legend_in_its_header_and_srgb_colors() {
     let mut hostile = legend();
     hostile.algorithm = "x\nend_header".into();
     let file = ply::heatmap(&mesh(), &values(), &hostile);
-    let end = file.windows(11).position(|w| w == b"end_header\n").unwrap() + 11;
+    let end = file.windows(12).position(|w| w == b"\nend_header\n").unwrap() + 12;
     let header = std::str::from_utf8(&file[..end]).unwrap();
     insta::assert_snapshot!(header.replace(env!("CARGO_PKG_VERSION"), "VERSION"), @r"
     ply

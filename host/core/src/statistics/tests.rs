@@ -93,7 +93,8 @@ fn quantile_intervals_cover_as_promised() {
     let mut state = 1;
     let covered = (0..2_000)
         .filter(|_| {
-            let mut sample: Vec<f64> = (0..61).map(|_| below(&mut state, 1 << 40) as f64 / (1u64 << 40) as f64).collect();
+            let mut sample: Vec<f64> =
+                (0..61).map(|_| below(&mut state, 1 << 40) as f64 / (1u64 << 40) as f64).collect();
             sample.sort_unstable_by(f64::total_cmp);
             let (lo, hi) = quantile_interval(&sample, 0.5);
             lo <= 0.5 && 0.5 <= hi

@@ -85,38 +85,46 @@ impl Detail {
 
 /// Makes the object at the density whose triangle count is nearest to `triangles`.
 ///
-/// The count grows about with the square of the density, and not quite evenly, so this walks by that rule first and
-/// then halves the bracket.
+/// The count grows about with the square of the density, so this walks by that rule first and then halves the bracket.
+/// It does not grow evenly, though: a coarse object jumps, and may even lose triangles where its shape changes. What
+/// the bracket misses there, a look at the densities around finds.
 pub fn fit(triangles: u32, make: impl Fn(Detail) -> Soup) -> Soup {
+    /// Half a percent is near enough.
+    const NEAR: f64 = 0.005;
     let wish = f64::from(triangles);
-    let at = |density: f64| make(Detail { density, triangles, phase: 0.0 });
-    let miss = |soup: &Soup| (soup.triangles.len() as f64 / wish).ln();
+    let mut best = (f64::INFINITY, 0.0, Soup::default());
+    let mut try_density = |density: f64, best: &mut (f64, f64, Soup)| {
+        let soup = make(Detail { density, triangles, phase: 0.0 });
+        let miss = (soup.triangles.len() as f64 / wish).ln();
+        if miss.abs() < best.0 {
+            *best = (miss.abs(), density, soup);
+        }
+        miss
+    };
     let mut density = 10.0;
-    let mut best = at(density);
-    let (mut too_few, mut too_many) = (None::<f64>, None::<f64>);
-    let mut soup_miss = miss(&best);
+    let (mut too_few, mut too_many) = (0.0f64, f64::INFINITY);
     for _ in 0..40 {
-        // Half a percent is near enough.
-        if miss(&best).abs() < 0.005 {
+        let miss = try_density(density, &mut best);
+        if best.0 < NEAR || density < 1e-3 || too_many / too_few < 1.0001 {
             break;
         }
-        if soup_miss < 0.0 {
-            too_few = Some(too_few.map_or(density, |d| d.max(density)));
+        if miss < 0.0 {
+            too_few = too_few.max(density);
         } else {
-            too_many = Some(too_many.map_or(density, |d| d.min(density)));
+            too_many = too_many.min(density);
         }
-        density = match (too_few, too_many) {
-            (Some(few), Some(many)) => (few * many).sqrt(),
-            _ => density * (-0.5 * soup_miss).exp().clamp(0.25, 4.0),
+        density = if too_few > 0.0 && too_many.is_finite() {
+            (too_few * too_many).sqrt()
+        } else {
+            density * (-0.5 * miss).exp().clamp(0.25, 4.0)
         };
-        if density < 1e-3 {
+    }
+    let around = best.1;
+    for k in (1..=40).flat_map(|k| [k, -k]) {
+        if best.0 < 10.0 * NEAR {
             break;
         }
-        let soup = at(density);
-        soup_miss = miss(&soup);
-        if soup_miss.abs() < miss(&best).abs() {
-            best = soup;
-        }
+        try_density(around * 1.01f64.powi(k), &mut best);
     }
-    best
+    best.2
 }

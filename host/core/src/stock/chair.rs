@@ -89,6 +89,10 @@ fn rail(soup: &mut Soup, detail: &mut Detail) {
         let bow = 0.06 * (1.0 - u.x * u.x);
         let crest = 0.05 * (1.0 - u.x * u.x);
         let top = 0.5 + 0.5 * u.z;
-        Point::new(0.47 * u.x, 0.515 + bow + 0.03 * u.y * (1.0 - 0.3 * u.z * u.z) + 0.02 * top, 1.66 + 0.11 * u.z + crest * top)
+        Point::new(
+            0.47 * u.x,
+            0.515 + bow + 0.03 * u.y * (1.0 - 0.3 * u.z * u.z) + 0.02 * top,
+            1.66 + 0.11 * u.z + crest * top,
+        )
     }));
 }

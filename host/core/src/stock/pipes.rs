@@ -16,8 +16,9 @@ type Cell = [i32; 3];
 /// Pipes that wind through a cube without meeting, with flanges at their ends; few in a coarse object.
 pub fn pipes(mut detail: Detail) -> Soup {
     let mut soup = Soup::default();
-    let wanted = (detail.triangles / 150).clamp(3, 14) as usize;
-    for path in walks(wanted) {
+    let wanted = (detail.triangles / 250).clamp(2, 14) as usize;
+    let longest = (detail.triangles / 100).clamp(7, 18) as usize;
+    for path in walks(wanted, longest) {
         let detail = detail.part();
         let centers = center_line(&path, detail);
         let sides = detail.steps(TAU * RADIUS, 4);
@@ -32,8 +33,8 @@ pub fn pipes(mut detail: Detail) -> Soup {
     soup
 }
 
-/// Self-avoiding walks on the lattice, none meeting another; always the same ones.
-fn walks(wanted: usize) -> Vec<Vec<Cell>> {
+/// Self-avoiding walks on the lattice of at most so many points, none meeting another; always the same ones.
+fn walks(wanted: usize, longest: usize) -> Vec<Vec<Cell>> {
     let mut random = Random(0x5eed);
     let mut taken = [false; (SIDE * SIDE * SIDE) as usize];
     let index = |c: Cell| ((c[0] * SIDE + c[1]) * SIDE + c[2]) as usize;
@@ -47,7 +48,7 @@ fn walks(wanted: usize) -> Vec<Vec<Cell>> {
         let mut mine = taken;
         mine[index(start)] = true;
         let mut direction = [0; 3];
-        while path.len() < 18 {
+        while path.len() < longest {
             let here = path[path.len() - 1];
             let free: Vec<Cell> = DIRECTIONS
                 .into_iter()

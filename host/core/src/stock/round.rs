@@ -58,7 +58,6 @@ pub fn gear(mut detail: Detail) -> Soup {
         (0.38, 0.3),
         (0.2, 0.3),
     ];
-    let detail = detail.part();
     let section: &[(f64, f64)] = if detail.triangles < 3_000 { &PLAIN } else { &HUBBED };
     let (root, tip) = (0.86, 1.08);
 
@@ -69,7 +68,7 @@ pub fn gear(mut detail: Detail) -> Soup {
         let corners = [(0.0, root), (0.34, root), (0.46, tip), (0.88, tip), (1.0, root)];
         for pair in corners.windows(2) {
             let ((f0, r0), (f1, r1)) = (pair[0], pair[1]);
-            let n = detail.steps((pitch * (f1 - f0)).hypot(r1 - r0), 1);
+            let n = detail.part().steps((pitch * (f1 - f0)).hypot(r1 - r0), 1);
             around.extend((0..n).map(|i| {
                 let t = i as f64 / n as f64;
                 (pitch * (tooth as f64 + f0 + t * (f1 - f0)), r0 + t * (r1 - r0))
@@ -80,7 +79,7 @@ pub fn gear(mut detail: Detail) -> Soup {
     let mut outline = Vec::new();
     for (i, &(r0, z0)) in section.iter().enumerate() {
         let (r1, z1) = section[(i + 1) % section.len()];
-        let n = detail.steps((r1 - r0).hypot(z1 - z0), 1);
+        let n = detail.part().steps((r1 - r0).hypot(z1 - z0), 1);
         outline.extend((0..n).map(|k| (r0 + k as f64 / n as f64 * (r1 - r0), z0 + k as f64 / n as f64 * (z1 - z0))));
     }
     let rim = section.iter().map(|p| p.0).filter(|&r| r < 1.0).fold(0.0, f64::max);

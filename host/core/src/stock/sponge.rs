@@ -14,9 +14,12 @@ const PORE_PITCH: f64 = 0.42;
 /// A rounded block full of pores that run into each other: one closed surface with very much inside.
 pub fn sponge(detail: Detail) -> Soup {
     let step = detail.density().recip();
-    // The grid reaches one step beyond the block on all sides, so the surface is closed.
-    let cells = HALF.map(|h| (2.0 * h / step).ceil() as usize + 2);
-    let origin = Vector::from([0, 1, 2].map(|k| -0.5 * step * cells[k] as f64));
+    // The grid reaches at least a step beyond the block on all sides, so the surface is closed. It is shifted by a
+    // fraction of a step that changes fast with the density: coarse grids jump in their triangle count, and this lets
+    // nearly equal densities give different counts.
+    let cells = HALF.map(|h| (2.0 * h / step).ceil() as usize + 3);
+    let shift = (97.0 * detail.density()).fract() - 0.5;
+    let origin = Vector::from([0, 1, 2].map(|k| step * (shift - 0.5 * cells[k] as f64)));
     let place = |at: [usize; 3]| Point::from(origin + step * Vector::from(at.map(|i| i as f64)));
     let points = cells.map(|n| n + 1);
     let number = |[x, y, z]: [usize; 3]| (z * points[1] + y) * points[0] + x;
@@ -40,16 +43,21 @@ pub fn sponge(detail: Detail) -> Soup {
                 }
                 for path in TETRAHEDRA {
                     let tetrahedron = path.map(corner);
-                    march(tetrahedron, &mut soup, |soup, a, b| {
-                        let (i, j) = (number(a), number(b));
-                        *cut.entry((i.min(j), i.max(j))).or_insert_with(|| {
-                            let (fa, fb) = (field[i], field[j]);
-                            // Kept off the grid points: there, several cuts would meet in triangles without area.
-                            let t = (fa / (fa - fb)).clamp(0.12, 0.88);
-                            soup.positions.push(place(a) + t * (place(b) - place(a)));
-                            soup.positions.len() as u32 - 1
-                        })
-                    }, |at| field[number(at)] < 0.0);
+                    march(
+                        tetrahedron,
+                        &mut soup,
+                        |soup, a, b| {
+                            let (i, j) = (number(a), number(b));
+                            *cut.entry((i.min(j), i.max(j))).or_insert_with(|| {
+                                let (fa, fb) = (field[i], field[j]);
+                                // Kept off the grid points: there, several cuts would meet in triangles without area.
+                                let t = (fa / (fa - fb)).clamp(0.12, 0.88);
+                                soup.positions.push(place(a) + t * (place(b) - place(a)));
+                                soup.positions.len() as u32 - 1
+                            })
+                        },
+                        |at| field[number(at)] < 0.0,
+                    );
                 }
             }
         }
@@ -59,7 +67,8 @@ pub fn sponge(detail: Detail) -> Soup {
 
 /// The six tetrahedra of a cell, each along a path of three edges from corner 0 to corner 7; odd paths are mirrored.
 /// Neighbouring cells agree on the diagonals of their common face.
-const TETRAHEDRA: [[usize; 4]; 6] = [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
+const TETRAHEDRA: [[usize; 4]; 6] =
+    [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
 
 /// The surface within one tetrahedron: nothing, a triangle around one corner, or a quadrilateral between two and two.
 fn march(

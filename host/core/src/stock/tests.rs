@@ -12,7 +12,10 @@ fn check(object: &StockObject, wish: u32) {
     assert_eq!(mesh.degenerate_triangles(), 0, "{what}: degenerate triangles");
     assert!((mesh.bounds().diagonal() - 1.0).abs() < 1e-6, "{what}: size");
     assert!(mesh.bounds().center().coords.amax() < 1e-6, "{what}: not centred");
-    assert!(mesh.positions().iter().flat_map(|p| p.coords.iter()).all(|&x| x == f64::from(x as f32)), "{what}: not f32");
+    assert!(
+        mesh.positions().iter().flat_map(|p| p.coords.iter()).all(|&x| x == f64::from(x as f32)),
+        "{what}: not f32"
+    );
     assert!(every_vertex_used(&mesh), "{what}: unused vertices");
     assert!(wound_alike(&mesh), "{what}: winding");
 }
@@ -42,8 +45,8 @@ fn counts_shape_and_winding_hold_over_the_whole_range() {
 #[test]
 fn counts_between_the_steps_are_met_too() {
     for object in list() {
-        for k in 0..40 {
-            let wish = (500.0 * 1.07f64.powi(k)) as u32;
+        for k in 0..80 {
+            let wish = (500.0 * 1.04f64.powi(k)) as u32;
             let got = generate(object.name, wish).unwrap().triangles().len() as f64;
             assert!((got / f64::from(wish) - 1.0).abs() <= 0.1, "{}@{wish}: {got}", object.name);
         }

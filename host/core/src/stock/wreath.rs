@@ -77,6 +77,7 @@ fn berry(soup: &mut Soup, detail: &mut Detail, i: u32, of: u32) {
     let angle = (f64::from(i) + 0.2) / f64::from(of);
     let (at, _) = around(angle, 0.125 + (f64::from(i) * 0.381_966_011_250_105_1).fract() * 0.25, 0.13);
     let r = 0.045;
-    let ball = lathe(part, &smooth(part, &[(0.0, -r), (0.71 * r, -0.71 * r), (r, 0.0), (0.71 * r, 0.71 * r), (0.0, r)], 2), 4);
+    let ball =
+        lathe(part, &smooth(part, &[(0.0, -r), (0.71 * r, -0.71 * r), (r, 0.0), (0.71 * r, 0.71 * r), (0.0, r)], 2), 4);
     soup.add_at(ball, |p| at + p.coords);
 }

@@ -164,7 +164,10 @@ fn warnings_stay_short_whatever_the_file_says() {
 fn files_that_are_no_object() {
     assert_eq!(error(""), "the file is empty; export the object again");
     assert_eq!(error(" \n\n"), "the file is empty; export the object again");
-    assert_eq!(error(b"\x7fELF\x02\0\0\0"), "line 1: this is not text (it holds a NUL byte); an OBJ file is plain text in UTF-8 or Latin-1");
+    assert_eq!(
+        error(b"\x7fELF\x02\0\0\0"),
+        "line 1: this is not text (it holds a NUL byte); an OBJ file is plain text in UTF-8 or Latin-1"
+    );
     let no_faces = "the file has no faces (lines that start with 'f'); make sure it is an OBJ file with a polygon mesh";
     assert_eq!(error(TRIANGLE), no_faces);
     assert_eq!(error("solid x\nfacet normal 0 0 1\n"), no_faces);
@@ -247,7 +250,10 @@ fn tiny_and_huge_faces_are_cut_alike() {
         let l = [(2, 1), (2, 2), (0, 2), (0, 0), (1, 0), (1, 1)];
         let mut text: String = l.iter().map(|(x, y)| format!("v {x}{scale} {y}{scale} 0\n")).collect();
         text += "f 4 5 6 1 2 3\n";
-        assert_eq!(clean(text).triangles(), clean("v 2 1 0\nv 2 2 0\nv 0 2 0\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 4 5 6 1 2 3").triangles());
+        assert_eq!(
+            clean(text).triangles(),
+            clean("v 2 1 0\nv 2 2 0\nv 0 2 0\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 4 5 6 1 2 3").triangles()
+        );
     }
 }
 
