@@ -35,8 +35,8 @@ pub fn block(n: [usize; 3], point: impl Fn(Vector) -> Point) -> Soup {
 }
 
 /// An axis-aligned box around `center` with half sides `half`.
-pub fn cuboid(detail: Detail, center: Point, half: Vector) -> Soup {
-    let n = [0, 1, 2].map(|k| detail.steps(2.0 * half[k], 1));
+pub fn cuboid(mut detail: Detail, center: Point, half: Vector) -> Soup {
+    let n = [0, 1, 2].map(|k| detail.part().steps(2.0 * half[k], 1));
     block(n, |u| center + half.component_mul(&u))
 }
 
