@@ -25,6 +25,7 @@ use crate::measure::Stop;
 use crate::model::{AlgorithmInfo, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, PluginReport, RunSpec, Status};
 use crate::objects::{Objects, blocking};
 use crate::registry::{Registry, check_plugin};
+use crate::results::Format;
 use crate::runlog::Bell;
 use crate::store::Store;
 use crate::{EngineConfig, EngineError, Result, configurations, dispatcher, estimate, spec};
@@ -210,7 +211,18 @@ impl Engine {
         map: Colormap,
         scale: Scale,
     ) -> Result<Vec<u8>> {
-        self.inner.export(run, request, map, scale).await
+        self.inner.export(run, request, map, scale, Format::Glb).await
+    }
+
+    /// The coloured object as PLY, with the raw values.
+    pub async fn heatmap_ply(
+        &self,
+        run: &str,
+        request: &HeatmapRequest,
+        map: Colormap,
+        scale: Scale,
+    ) -> Result<Vec<u8>> {
+        self.inner.export(run, request, map, scale, Format::Ply).await
     }
 
     /// Distribution of the time per query of one algorithm.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use ocb_core::colormap::{Colormap, Scale};
 use ocb_core::configuration::ConfigurationSet;
-use ocb_core::export::{Legend, glb};
+use ocb_core::export::{Legend, glb, ply};
 use ocb_core::heatmap::{VertexMap, VertexValues};
 use ocb_core::mesh::Mesh;
 use ocb_core::statistics::{self, Outliers, Statistic};
@@ -173,6 +173,7 @@ impl Inner {
         request: &HeatmapRequest,
         colormap: Colormap,
         scale: Scale,
+        format: Format,
     ) -> Result<Vec<u8>> {
         let (heatmap, mesh) = self.values(run, request).await?;
         let legend = Legend {
@@ -189,7 +190,10 @@ impl Inner {
         };
         let values = VertexValues { values: heatmap.values, counts: heatmap.counts, dropped: heatmap.dropped };
         blocking(move || {
-            Ok(glb::heatmap(&mesh, &values, &legend))
+            Ok(match format {
+                Format::Glb => glb::heatmap(&mesh, &values, &legend),
+                Format::Ply => ply::heatmap(&mesh, &values, &legend),
+            })
         })
         .await
     }
@@ -199,6 +203,15 @@ impl Inner {
         let row = self.store.run(run).await?;
         row.ok_or_else(|| EngineError::NotFound(format!("There is no run {run:?}; check the link.")))
     }
+}
+
+/// Which file.
+#[derive(Clone, Copy, Debug)]
+pub enum Format {
+    /// glTF binary.
+    Glb,
+    /// Polygon file, binary.
+    Ply,
 }
 
 fn aggregate(map: &VertexMap, values: Option<&[f64]>, request: HeatmapRequest, configurations: usize) -> Heatmap {

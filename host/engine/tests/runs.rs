@@ -64,6 +64,8 @@ async fn a_run_goes_from_object_to_heatmap() {
     let map = request("parry", Measure::BvTests, Statistic::Mean);
     let glb = engine.heatmap_glb(&run.id, &map, Default::default(), Default::default()).await.unwrap();
     assert!(glb.starts_with(b"glTF"));
+    let ply = engine.heatmap_ply(&run.id, &map, Default::default(), Default::default()).await.unwrap();
+    assert!(ply.starts_with(b"ply"));
     let absent = engine.ecdf(&run.id, "quantum").await.unwrap_err().to_string();
     assert!(absent.contains("box-tree, brute-force, parry"), "{absent}");
 
