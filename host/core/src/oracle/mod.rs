@@ -28,24 +28,36 @@
 //! to exact integers ([`exact`]). No code is shared with any plugin.
 
 mod closest;
+mod contacts;
 mod exact;
 mod exact_vector;
+mod filter;
+mod margin;
+mod nearest;
 mod rational;
+mod scene;
 mod triangle;
 
 use std::sync::Arc;
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
+use crate::bvh::Tree;
 use crate::configuration::{Class, Configuration, Truth, Witness};
 use crate::mesh::Mesh;
-use exact::ExactPair;
-use triangle::Triangle;
+use nearest::{Effort, Nearest};
+use scene::Scene;
+
+/// Unit roundoff of f64.
+pub const U64: f64 = 1.0 / (1u64 << 53) as f64;
+/// Unit roundoff of f32.
+pub const U32: f64 = 1.0 / (1u64 << 24) as f64;
 
 /// A mesh made ready for the oracle; built once per object.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Shape {
     mesh: Arc<Mesh>,
+    tree: Tree,
     /// Largest absolute coordinate.
     largest: f64,
 }
@@ -54,12 +66,17 @@ impl Shape {
     /// Builds the hierarchy.
     pub fn new(mesh: Arc<Mesh>) -> Self {
         let largest = mesh.positions().iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
-        Self { mesh, largest }
+        let tree = Tree::new(mesh.positions(), mesh.triangles());
+        Self { mesh, tree, largest }
     }
 
     /// The mesh.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
+    }
+
+    pub(crate) fn tree(&self) -> &Tree {
+        &self.tree
     }
 
     fn corners(&self, triangle: u32) -> [Point3<f64>; 3] {
@@ -104,55 +121,99 @@ impl<'a> Pair<'a> {
 
     /// Do the surfaces meet?
     pub fn hit(&self, configuration: &Configuration) -> bool {
-        self.all_pairs().any(|pair| self.exact(configuration, pair).hit())
-    }
-
-    /// Everything the oracle knows about one configuration.
-    pub fn truth(&self, configuration: &Configuration) -> Truth {
-        let (mut lo, mut hi, mut witness) = (f64::INFINITY, f64::INFINITY, None);
-        for pair in self.all_pairs() {
-            let (l, h) = self.exact(configuration, pair).distance();
-            lo = lo.min(l);
-            if h < hi {
-                hi = h;
-                witness = Some(pair);
-            }
-        }
-        let [triangle_a, triangle_b] = witness.expect("a mesh has at least one triangle");
-        let near = closest::closest(
-            &Triangle::mapped(&configuration.pose_a, &self.a.corners(triangle_a), 1.0),
-            &Triangle::mapped(&configuration.pose_b, &self.b.corners(triangle_b), 1.0),
-        );
-        let class = |u: f64| if lo > self.tau(configuration, u) { Class::Clear } else { Class::Grazing };
-        Truth {
-            hit: hi == 0.0,
-            distance_lo: lo,
-            distance_hi: hi,
-            margin: 0.0,
-            class64: class(U64),
-            class32: class(U32),
-            witness: Witness { point_a: near.point_a.into(), point_b: near.point_b.into(), triangle_a, triangle_b },
-            exact_used: true,
-        }
+        Scene::with(self, configuration, |scene| {
+            let mut hit = false;
+            contacts::each(scene, |_, _, _, _| {
+                hit = true;
+                false
+            });
+            hit
+        })
     }
 
     /// All pairs of triangles (A, B) that meet, in ascending order.
     pub fn contacts(&self, configuration: &Configuration) -> Vec<[u32; 2]> {
-        self.all_pairs().filter(|&pair| self.exact(configuration, pair).hit()).collect()
+        let mut pairs = Vec::new();
+        Scene::with(self, configuration, |scene| {
+            contacts::each(scene, |pair, _, _, _| {
+                pairs.push(pair);
+                true
+            });
+        });
+        pairs.sort_unstable();
+        pairs
     }
 
-    fn exact(&self, configuration: &Configuration, [i, j]: [u32; 2]) -> ExactPair {
-        ExactPair::new(&configuration.pose_a, &self.a.corners(i), &configuration.pose_b, &self.b.corners(j))
+    /// Everything the oracle knows about one configuration; the interval is some ten `u S` wide.
+    pub fn truth(&self, configuration: &Configuration) -> Truth {
+        self.truth_near(configuration, None)
     }
 
-    fn all_pairs(&self) -> impl Iterator<Item = [u32; 2]> {
-        let count = |s: &Shape| s.mesh.triangles().len() as u32;
-        let (n, m) = (count(self.a), count(self.b));
-        (0..n).flat_map(move |i| (0..m).map(move |j| [i, j]))
+    /// The same, when a pair of triangles is known to be near.
+    pub(crate) fn truth_near(&self, configuration: &Configuration, start: Option<[u32; 2]>) -> Truth {
+        Scene::with(self, configuration, |scene| self.describe(scene, nearest::nearest(scene, start, Effort::Enough)))
+    }
+
+    /// As [`Pair::truth`], with the distance between neighbouring f64 numbers, always by exact arithmetic.
+    pub fn tightest_truth(&self, configuration: &Configuration) -> Truth {
+        Scene::with(self, configuration, |scene| self.describe(scene, nearest::nearest(scene, None, Effort::Tightest)))
+    }
+
+    fn describe(&self, scene: &Scene, found: Nearest) -> Truth {
+        let (witness, margin, exact_used) = if found.hit {
+            deepest_crossing(scene, &found)
+        } else {
+            let (a, b) = scene.triangles(found.pair);
+            let near = closest::closest(&a, &b);
+            (witness(scene, found.pair, near.point_a, near.point_b), 0.0, found.exact_used)
+        };
+        let (lo, hi) = (found.lo * scene.unit, found.hi * scene.unit);
+        let class = |unit_roundoff: f64| {
+            let tau = self.tau(scene.configuration, unit_roundoff);
+            if !found.hit && lo > tau {
+                Class::Clear
+            } else if found.hit && margin > tau {
+                Class::Colliding
+            } else {
+                Class::Grazing
+            }
+        };
+        Truth {
+            hit: found.hit,
+            distance_lo: lo,
+            distance_hi: hi,
+            margin,
+            class64: class(U64),
+            class32: class(U32),
+            witness,
+            exact_used,
+        }
     }
 }
 
-/// Unit roundoff of f64.
-pub const U64: f64 = 1.0 / (1u64 << 53) as f64;
-/// Unit roundoff of f32.
-pub const U32: f64 = 1.0 / (1u64 << 24) as f64;
+/// The meeting pair with the largest margin, that margin, and whether any contact needed exact arithmetic.
+fn deepest_crossing(scene: &Scene, found: &Nearest) -> (Witness, f64, bool) {
+    let mut best: (f64, [u32; 2], Option<Vector3<f64>>) = (0.0, found.pair, None);
+    let mut exact_used = found.exact_used;
+    contacts::each(scene, |pair, a, b, exact| {
+        exact_used |= exact;
+        if let Some(c) = margin::crossing(a, b)
+            // Equal margins: the first pair in order, so that the answer does not depend on the hierarchy.
+            && (c.margin > best.0 || (c.margin == best.0 && pair < best.1))
+        {
+            best = (c.margin, pair, Some(c.point));
+        }
+        true
+    });
+    let (margin, pair, point) = best;
+    let point = point.unwrap_or_else(|| {
+        let (a, b) = scene.triangles(pair);
+        let near = closest::closest(&a, &b);
+        (near.point_a + near.point_b) / 2.0
+    });
+    (witness(scene, pair, point, point), margin * scene.unit, exact_used)
+}
+
+fn witness(scene: &Scene, [triangle_a, triangle_b]: [u32; 2], a: Vector3<f64>, b: Vector3<f64>) -> Witness {
+    Witness { point_a: (a * scene.unit).into(), point_b: (b * scene.unit).into(), triangle_a, triangle_b }
+}

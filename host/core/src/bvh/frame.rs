@@ -1,0 +1,216 @@
+//! Two trees in one configuration: where the boxes stand to each other, and lower bounds of their distance.
+
+use nalgebra::{Matrix3, Vector3};
+use wide::f32x8;
+
+use super::obb::Obb;
+use super::wide_node::{LANES, Projections, Slot, WideNode};
+use super::{Tree, power_of_two_above};
+use crate::pose::Pose;
+
+/// Poses further than this from a rotation (largest entry of `M^T M - 1`) have no frame.
+const MOST_DEVIATION: f64 = 1e-6;
+
+/// Two trees and where one stands seen from the other.
+///
+/// Lengths are in the frame's `unit`, a power of two that brings all numbers below 4.
+#[derive(Clone, Debug)]
+pub(crate) struct Frame<'t> {
+    a: &'t Tree,
+    b: &'t Tree,
+    /// Tree coordinates times this are lengths in the unit; powers of two, at most 1.
+    scale_a: f32,
+    scale_b: f32,
+    /// From B's coordinates to A's: `rotation * x + translation`.
+    rotation: [[f32; 3]; 3],
+    translation: [f32; 3],
+    /// One unit in the objects' lengths.
+    pub(crate) unit: f64,
+    /// What all roundings together may add to a lower bound, generously.
+    slack: f32,
+}
+
+/// B moves in a straight line; positions are told by the way it has gone.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ray {
+    /// Velocity of B in A's frame; a unit vector.
+    in_a: [f32; 3],
+    /// The same in B's frame.
+    in_b: [f32; 3],
+    /// The distance that is looked for.
+    target: f32,
+}
+
+impl<'t> Frame<'t> {
+    /// `None` when a pose is so far from a rotation that the trees' frames mean nothing.
+    ///
+    /// `size` bounds the absolute coordinates of both mapped objects.
+    pub(crate) fn new(a: &'t Tree, pose_a: &Pose, b: &'t Tree, pose_b: &Pose, size: f64) -> Option<Self> {
+        let deviation = deviation(&pose_a.linear).max(deviation(&pose_b.linear));
+        // Written so that NaN fails, too.
+        if !(deviation <= MOST_DEVIATION) {
+            return None;
+        }
+        let between = pose_b.apply(&b.origin) - pose_a.apply(&a.origin);
+        let translation = pose_a.linear.transpose() * between;
+        let rotation = pose_a.linear.transpose() * pose_b.linear;
+        let unit = a.unit.max(b.unit).max(power_of_two_above(translation.amax()));
+        let (scale_a, scale_b) = (a.unit / unit, b.unit / unit);
+        let translation = translation / unit;
+        // Every box is computed from these lengths in a few dozen operations; 64 roundings are more than all of them.
+        let lengths = 1.75 * (scale_a + scale_b) + translation.norm();
+        let single = f64::from(f32::EPSILON) / 2.0;
+        let double = f64::EPSILON / 2.0;
+        let slack = 64.0 * single * lengths + 16.0 * deviation * lengths + 64.0 * double * (size / unit);
+        Some(Self {
+            a,
+            b,
+            scale_a: scale_a as f32,
+            scale_b: scale_b as f32,
+            rotation: std::array::from_fn(|i| std::array::from_fn(|k| rotation[(i, k)] as f32)),
+            translation: [translation.x as f32, translation.y as f32, translation.z as f32],
+            unit,
+            slack: (slack as f32).next_up(),
+        })
+    }
+
+    /// A ray along which B moves in this frame's world; `target` is the distance looked for, in units.
+    pub(crate) fn ray(&self, pose_a: &Pose, pose_b: &Pose, direction: &Vector3<f64>, target: f64) -> Ray {
+        let seen = |m: &Matrix3<f64>| {
+            let v = m.transpose() * direction;
+            [v.x as f32, v.y as f32, v.z as f32]
+        };
+        Ray { in_a: seen(&pose_a.linear), in_b: seen(&pose_b.linear), target: (target as f32).next_up() }
+    }
+
+    /// The slots of both roots.
+    pub(crate) fn roots(&self) -> (Slot, Slot) {
+        (self.a.root(), self.b.root())
+    }
+
+    /// Both slots' triangles, when both hold one.
+    pub(crate) fn triangles(&self, a: Slot, b: Slot) -> Option<[u32; 2]> {
+        Some([self.a.triangle(a)?, self.b.triangle(b)?])
+    }
+
+    /// Opens the larger of two boxes; for each child paired with the other box: a certain lower bound of their distance
+    /// in units.
+    pub(crate) fn expand(&self, a: Slot, b: Slot, mut visit: impl FnMut(Slot, Slot, f32)) {
+        self.open(a, b, |node, number, opened_a, projections| {
+            let bounds = self.distance_bounds(projections).to_array();
+            for (lane, &bound) in bounds.iter().enumerate().take(node.len()) {
+                let child = Slot::new(number, lane);
+                let (a, b) = if opened_a { (child, b) } else { (a, child) };
+                visit(a, b, bound);
+            }
+        });
+    }
+
+    /// The same for B moving along a ray: a certain lower bound of the way after which they are within the target
+    /// distance; children that never are, are not visited.
+    pub(crate) fn expand_along(&self, ray: &Ray, a: Slot, b: Slot, mut visit: impl FnMut(Slot, Slot, f32)) {
+        let other = |opened_a: bool| if opened_a { self.b_seen_from_a(b) } else { self.a_seen_from_b(a) };
+        self.open(a, b, |node, number, opened_a, projections| {
+            // Relative velocity of the opened node's boxes against the other box.
+            let velocity = if opened_a { ray.in_a.map(|v| -v) } else { ray.in_b };
+            let axes = other(opened_a).axes;
+            let speeds = axes.map(|axis| f32x8::splat((0..3).map(|k| axis[k] * velocity[k]).sum()));
+            let own_speeds = node.along(&velocity);
+            let (enter, leave) = self.way_bounds(projections, &speeds, &own_speeds, ray.target);
+            let (enter, leave) = (enter.to_array(), leave.to_array());
+            for lane in 0..node.len() {
+                if enter[lane] <= leave[lane] {
+                    let child = Slot::new(number, lane);
+                    let (a, b) = if opened_a { (child, b) } else { (a, child) };
+                    visit(a, b, enter[lane]);
+                }
+            }
+        });
+    }
+
+    fn open(&self, a: Slot, b: Slot, visit: impl FnOnce(&WideNode, u32, bool, &Projections)) {
+        let (node_a, node_b) = (&self.a.nodes[a.node()], &self.b.nodes[b.node()]);
+        let open_a = match (self.a.triangle(a), self.b.triangle(b)) {
+            (Some(_), None) => false,
+            (None, Some(_)) => true,
+            (None, None) => node_a.size(a.lane()) * self.scale_a >= node_b.size(b.lane()) * self.scale_b,
+            (Some(_), Some(_)) => unreachable!("two triangles are compared, not opened"),
+        };
+        if open_a {
+            let number = node_a.node(a.lane());
+            let node = &self.a.nodes[number as usize];
+            visit(node, number, true, &node.project(&self.b_seen_from_a(b), self.scale_a));
+        } else {
+            let number = node_b.node(b.lane());
+            let node = &self.b.nodes[number as usize];
+            visit(node, number, false, &node.project(&self.a_seen_from_b(a), self.scale_b));
+        }
+    }
+
+    fn b_seen_from_a(&self, slot: Slot) -> Obb {
+        let b = scaled(self.b.nodes[slot.node()].get(slot.lane()), self.scale_b);
+        let r = &self.rotation;
+        let turn = |x: &[f32; 3]| -> [f32; 3] { std::array::from_fn(|i| r[i][0] * x[0] + r[i][1] * x[1] + r[i][2] * x[2]) };
+        let c = turn(&b.centre);
+        Obb { centre: std::array::from_fn(|i| c[i] + self.translation[i]), axes: b.axes.map(|x| turn(&x)), half: b.half }
+    }
+
+    fn a_seen_from_b(&self, slot: Slot) -> Obb {
+        let a = scaled(self.a.nodes[slot.node()].get(slot.lane()), self.scale_a);
+        let r = &self.rotation;
+        let turn = |x: &[f32; 3]| -> [f32; 3] { std::array::from_fn(|i| r[0][i] * x[0] + r[1][i] * x[1] + r[2][i] * x[2]) };
+        let c: [f32; 3] = std::array::from_fn(|i| a.centre[i] - self.translation[i]);
+        Obb { centre: turn(&c), axes: a.axes.map(|x| turn(&x)), half: a.half }
+    }
+
+    /// Per axis the boxes are at least `|distance| - extent` apart; three perpendicular gaps add up as in Pythagoras.
+    fn distance_bounds(&self, p: &Projections) -> f32x8 {
+        let zero = f32x8::splat(0.0);
+        let squared = |axes: &[(f32x8, f32x8); 3]| {
+            let gap = axes.map(|(distance, extent)| (distance.abs() - extent).max(zero));
+            gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2]
+        };
+        let bound = squared(&p.other).max(squared(&p.own)).sqrt();
+        // The axes are perpendicular and of length 1 only up to their rounding and the poses' deviation.
+        (bound * f32x8::splat(1.0 - 1e-5) - f32x8::splat(self.slack)).max(zero)
+    }
+
+    /// When the boxes come within the target along all six axes, and when they have left it along one.
+    fn way_bounds(
+        &self,
+        p: &Projections,
+        speeds: &[f32x8; 3],
+        own_speeds: &[f32x8; 3],
+        target: f32,
+    ) -> (f32x8, f32x8) {
+        // The way itself is up to some units long and the speeds are rounded: four times the slack of a distance.
+        let spare = f32x8::splat(target * (1.0 + 1e-5) + 4.0 * self.slack);
+        let mut enter = f32x8::splat(0.0);
+        let mut leave = f32x8::splat(f32::INFINITY);
+        for (axes, speeds) in [(&p.other, speeds), (&p.own, own_speeds)] {
+            for ((distance, extent), speed) in axes.iter().zip(speeds) {
+                // A speed of 0 becomes one so small that it decides nothing but whether the axis separates for ever.
+                let size = speed.abs().max(f32x8::splat(1e-12));
+                let sign = speed.simd_lt(f32x8::splat(0.0)).blend(f32x8::splat(-1.0), f32x8::splat(1.0));
+                let toward = *distance * sign;
+                let reach = *extent + spare;
+                enter = enter.max((-toward - reach) / size);
+                leave = leave.min((reach - toward) / size);
+            }
+        }
+        (enter, leave)
+    }
+}
+
+fn scaled(b: Obb, scale: f32) -> Obb {
+    Obb { centre: b.centre.map(|x| x * scale), axes: b.axes, half: b.half.map(|x| x * scale) }
+}
+
+/// Largest entry of `M^T M - 1`.
+fn deviation(m: &Matrix3<f64>) -> f64 {
+    let d = m.transpose() * m - Matrix3::identity();
+    // `amax` of NaN entries would be silent.
+    if d.iter().any(|x| x.is_nan()) { f64::INFINITY } else { d.amax() }
+}
+
+const _: () = assert!(LANES == 8, "f32x8 holds one node");
