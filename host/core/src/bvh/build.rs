@@ -52,10 +52,10 @@ impl Builder<'_> {
         let middle = (groups / 2) * size;
         let axes = obb::principal_axes(self.triangles, ids);
         let spread = |axis: &Vector3<f64>| {
-            let (lo, hi) = ids.iter().map(|&t| axis.dot(&self.centroids[t as usize])).fold(
-                (f64::INFINITY, f64::NEG_INFINITY),
-                |(lo, hi), x| (lo.min(x), hi.max(x)),
-            );
+            let (lo, hi) = ids
+                .iter()
+                .map(|&t| axis.dot(&self.centroids[t as usize]))
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), x| (lo.min(x), hi.max(x)));
             hi - lo
         };
         let rows: [Vector3<f64>; 3] = std::array::from_fn(|i| axes.row(i).transpose());

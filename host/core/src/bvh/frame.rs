@@ -32,7 +32,7 @@ pub(crate) struct Frame<'t> {
 
 /// B moves in a straight line; positions are told by the way it has gone.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ray {
+pub(crate) struct Aim {
     /// Velocity of B in A's frame; a unit vector.
     in_a: [f32; 3],
     /// The same in B's frame.
@@ -74,13 +74,13 @@ impl<'t> Frame<'t> {
         })
     }
 
-    /// A ray along which B moves in this frame's world; `target` is the distance looked for, in units.
-    pub(crate) fn ray(&self, pose_a: &Pose, pose_b: &Pose, direction: &Vector3<f64>, target: f64) -> Ray {
+    /// A straight motion of B in the world; `target` is the distance looked for, in units.
+    pub(crate) fn aim(&self, pose_a: &Pose, pose_b: &Pose, direction: &Vector3<f64>, target: f64) -> Aim {
         let seen = |m: &Matrix3<f64>| {
             let v = m.transpose() * direction;
             [v.x as f32, v.y as f32, v.z as f32]
         };
-        Ray { in_a: seen(&pose_a.linear), in_b: seen(&pose_b.linear), target: (target as f32).next_up() }
+        Aim { in_a: seen(&pose_a.linear), in_b: seen(&pose_b.linear), target: (target as f32).next_up() }
     }
 
     /// The slots of both roots.
@@ -108,15 +108,15 @@ impl<'t> Frame<'t> {
 
     /// The same for B moving along a ray: a certain lower bound of the way after which they are within the target
     /// distance; children that never are, are not visited.
-    pub(crate) fn expand_along(&self, ray: &Ray, a: Slot, b: Slot, mut visit: impl FnMut(Slot, Slot, f32)) {
+    pub(crate) fn expand_along(&self, aim: &Aim, a: Slot, b: Slot, mut visit: impl FnMut(Slot, Slot, f32)) {
         let other = |opened_a: bool| if opened_a { self.b_seen_from_a(b) } else { self.a_seen_from_b(a) };
         self.open(a, b, |node, number, opened_a, projections| {
             // Relative velocity of the opened node's boxes against the other box.
-            let velocity = if opened_a { ray.in_a.map(|v| -v) } else { ray.in_b };
+            let velocity = if opened_a { aim.in_a.map(|v| -v) } else { aim.in_b };
             let axes = other(opened_a).axes;
             let speeds = axes.map(|axis| f32x8::splat((0..3).map(|k| axis[k] * velocity[k]).sum()));
             let own_speeds = node.along(&velocity);
-            let (enter, leave) = self.way_bounds(projections, &speeds, &own_speeds, ray.target);
+            let (enter, leave) = self.way_bounds(projections, &speeds, &own_speeds, aim.target);
             let (enter, leave) = (enter.to_array(), leave.to_array());
             for lane in 0..node.len() {
                 if enter[lane] <= leave[lane] {
@@ -150,15 +150,21 @@ impl<'t> Frame<'t> {
     fn b_seen_from_a(&self, slot: Slot) -> Obb {
         let b = scaled(self.b.nodes[slot.node()].get(slot.lane()), self.scale_b);
         let r = &self.rotation;
-        let turn = |x: &[f32; 3]| -> [f32; 3] { std::array::from_fn(|i| r[i][0] * x[0] + r[i][1] * x[1] + r[i][2] * x[2]) };
+        let turn =
+            |x: &[f32; 3]| -> [f32; 3] { std::array::from_fn(|i| r[i][0] * x[0] + r[i][1] * x[1] + r[i][2] * x[2]) };
         let c = turn(&b.centre);
-        Obb { centre: std::array::from_fn(|i| c[i] + self.translation[i]), axes: b.axes.map(|x| turn(&x)), half: b.half }
+        Obb {
+            centre: std::array::from_fn(|i| c[i] + self.translation[i]),
+            axes: b.axes.map(|x| turn(&x)),
+            half: b.half,
+        }
     }
 
     fn a_seen_from_b(&self, slot: Slot) -> Obb {
         let a = scaled(self.a.nodes[slot.node()].get(slot.lane()), self.scale_a);
         let r = &self.rotation;
-        let turn = |x: &[f32; 3]| -> [f32; 3] { std::array::from_fn(|i| r[0][i] * x[0] + r[1][i] * x[1] + r[2][i] * x[2]) };
+        let turn =
+            |x: &[f32; 3]| -> [f32; 3] { std::array::from_fn(|i| r[0][i] * x[0] + r[1][i] * x[1] + r[2][i] * x[2]) };
         let c: [f32; 3] = std::array::from_fn(|i| a.centre[i] - self.translation[i]);
         Obb { centre: turn(&c), axes: a.axes.map(|x| turn(&x)), half: a.half }
     }
@@ -176,13 +182,7 @@ impl<'t> Frame<'t> {
     }
 
     /// When the boxes come within the target along all six axes, and when they have left it along one.
-    fn way_bounds(
-        &self,
-        p: &Projections,
-        speeds: &[f32x8; 3],
-        own_speeds: &[f32x8; 3],
-        target: f32,
-    ) -> (f32x8, f32x8) {
+    fn way_bounds(&self, p: &Projections, speeds: &[f32x8; 3], own_speeds: &[f32x8; 3], target: f32) -> (f32x8, f32x8) {
         // The way itself is up to some units long and the speeds are rounded: four times the slack of a distance.
         let spare = f32x8::splat(target * (1.0 + 1e-5) + 4.0 * self.slack);
         let mut enter = f32x8::splat(0.0);
@@ -191,7 +191,7 @@ impl<'t> Frame<'t> {
             for ((distance, extent), speed) in axes.iter().zip(speeds) {
                 // A speed of 0 becomes one so small that it decides nothing but whether the axis separates for ever.
                 let size = speed.abs().max(f32x8::splat(1e-12));
-                let sign = speed.simd_lt(f32x8::splat(0.0)).blend(f32x8::splat(-1.0), f32x8::splat(1.0));
+                let sign = speed.simd_lt(f32x8::splat(0.0)).select(f32x8::splat(-1.0), f32x8::splat(1.0));
                 let toward = *distance * sign;
                 let reach = *extent + spare;
                 enter = enter.max((-toward - reach) / size);

@@ -7,12 +7,14 @@
 //! Coordinates inside a tree are relative to the centre of the object's bounding box and scaled by a power of two into
 //! [-1, 1]; an object far from the origin, or a thousand times smaller than its partner, loses nothing.
 
+mod best_first;
 mod build;
 mod frame;
 mod obb;
 mod wide_node;
 
-pub(crate) use frame::{Frame, Ray};
+pub(crate) use best_first::BestFirst;
+pub(crate) use frame::Frame;
 pub(crate) use wide_node::Slot;
 
 use nalgebra::{Point3, Vector3};
@@ -32,10 +34,12 @@ pub(crate) struct Tree {
 impl Tree {
     /// Builds the hierarchy; positions must be finite.
     pub(crate) fn new(positions: &[Point3<f64>], triangles: &[[u32; 3]]) -> Self {
-        let (lo, hi) = triangles.iter().flatten().fold(
-            (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY)),
-            |(lo, hi), &v| (lo.inf(&positions[v as usize].coords), hi.sup(&positions[v as usize].coords)),
-        );
+        let (lo, hi) = triangles
+            .iter()
+            .flatten()
+            .fold((Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY)), |(lo, hi), &v| {
+                (lo.inf(&positions[v as usize].coords), hi.sup(&positions[v as usize].coords))
+            });
         let origin = Point3::from(lo * 0.5 + hi * 0.5);
         let extent = (hi * 0.5 - lo * 0.5).amax();
         let unit = power_of_two_above(extent);

@@ -51,7 +51,7 @@ pub(crate) fn closest(a: &Triangle, b: &Triangle) -> Closest {
     Closest { point_a: pa + origin, point_b: pb + origin, lo, hi }
 }
 
-fn closest_points(a: &[Vector3<f64>; 3], b: &[Vector3<f64>; 3]) -> (Vector3<f64>, Vector3<f64>) {
+pub(crate) fn closest_points(a: &[Vector3<f64>; 3], b: &[Vector3<f64>; 3]) -> (Vector3<f64>, Vector3<f64>) {
     let mut best = (f64::INFINITY, a[0], b[0]);
     let mut offer = |pa: Vector3<f64>, pb: Vector3<f64>| {
         let d2 = (pb - pa).norm_squared();
@@ -94,7 +94,7 @@ fn foot_in_triangle(p: &Vector3<f64>, t: &[Vector3<f64>; 3]) -> Option<Vector3<f
 }
 
 /// Closest points of two segments, parameters clamped (Ericson, Real-Time Collision Detection, 5.1.9).
-pub(crate) fn segment_segment(
+fn segment_segment(
     p1: &Vector3<f64>,
     q1: &Vector3<f64>,
     p2: &Vector3<f64>,

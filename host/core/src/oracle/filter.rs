@@ -88,7 +88,13 @@ fn sign(p: &Vector3<f64>, q: &Vector3<f64>, r: &Vector3<f64>, s: &Vector3<f64>, 
 }
 
 /// `det(p - s, q - s, r - s)` and a bound of its error.
-pub(super) fn orientation(p: &Vector3<f64>, q: &Vector3<f64>, r: &Vector3<f64>, s: &Vector3<f64>, error: f64) -> (f64, f64) {
+pub(super) fn orientation(
+    p: &Vector3<f64>,
+    q: &Vector3<f64>,
+    r: &Vector3<f64>,
+    s: &Vector3<f64>,
+    error: f64,
+) -> (f64, f64) {
     let (x, y, z) = (p - s, q - s, r - s);
     let term = |i: usize, j: usize, k: usize| {
         let (m1, m2) = (y[j] * z[k], y[k] * z[j]);

@@ -45,6 +45,7 @@ use nalgebra::{Point3, Vector3};
 use crate::bvh::Tree;
 use crate::configuration::{Class, Configuration, Truth, Witness};
 use crate::mesh::Mesh;
+pub(crate) use closest::closest_points;
 use nearest::{Effort, Nearest};
 use scene::Scene;
 
@@ -53,34 +54,72 @@ pub const U64: f64 = 1.0 / (1u64 << 53) as f64;
 /// Unit roundoff of f32.
 pub const U32: f64 = 1.0 / (1u64 << 24) as f64;
 
-/// A mesh made ready for the oracle; built once per object.
+/// Triangles made ready for the oracle; built once per object.
 #[derive(Clone, Debug)]
 pub struct Shape {
-    mesh: Arc<Mesh>,
+    soup: Soup,
     tree: Tree,
     /// Largest absolute coordinate.
     largest: f64,
 }
 
+/// A mesh, or triangles that need not be one.
+#[derive(Clone, Debug)]
+enum Soup {
+    Mesh(Arc<Mesh>),
+    Loose { positions: Vec<Point3<f64>>, triangles: Vec<[u32; 3]> },
+}
+
 impl Shape {
-    /// Builds the hierarchy.
+    /// Builds the hierarchy over a mesh.
     pub fn new(mesh: Arc<Mesh>) -> Self {
-        let largest = mesh.positions().iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
-        let tree = Tree::new(mesh.positions(), mesh.triangles());
-        Self { mesh, tree, largest }
+        Self::of(Soup::Mesh(mesh))
     }
 
-    /// The mesh.
-    pub fn mesh(&self) -> &Mesh {
-        &self.mesh
+    /// Builds the hierarchy over single triangles, which may all be without area (no [`Mesh`] is).
+    ///
+    /// # Panics
+    /// When there is none, or a coordinate is not finite.
+    pub fn from_triangles(triangles: &[[Point3<f64>; 3]]) -> Self {
+        assert!(!triangles.is_empty(), "a shape needs a triangle");
+        let positions: Vec<Point3<f64>> = triangles.iter().flatten().copied().collect();
+        assert!(positions.iter().all(|p| p.iter().all(|x| x.is_finite())), "coordinates must be finite");
+        let triangles = (0..triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        Self::of(Soup::Loose { positions, triangles })
+    }
+
+    fn of(soup: Soup) -> Self {
+        let (positions, triangles) = soup.parts();
+        let largest = positions.iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
+        let tree = Tree::new(positions, triangles);
+        Self { soup, tree, largest }
+    }
+
+    /// Vertex coordinates.
+    pub fn positions(&self) -> &[Point3<f64>] {
+        self.soup.parts().0
+    }
+
+    /// Vertex indices per triangle.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        self.soup.parts().1
     }
 
     pub(crate) fn tree(&self) -> &Tree {
         &self.tree
     }
 
-    fn corners(&self, triangle: u32) -> [Point3<f64>; 3] {
-        self.mesh.triangles()[triangle as usize].map(|v| self.mesh.positions()[v as usize])
+    pub(crate) fn corners(&self, triangle: u32) -> [Point3<f64>; 3] {
+        self.triangles()[triangle as usize].map(|v| self.positions()[v as usize])
+    }
+}
+
+impl Soup {
+    fn parts(&self) -> (&[Point3<f64>], &[[u32; 3]]) {
+        match self {
+            Soup::Mesh(mesh) => (mesh.positions(), mesh.triangles()),
+            Soup::Loose { positions, triangles } => (positions, triangles),
+        }
     }
 }
 

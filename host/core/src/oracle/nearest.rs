@@ -1,12 +1,9 @@
 //! The certified distance: best-first search with a feasible bound above and separating directions below.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-
 use super::closest::{Closest, closest};
 use super::filter;
 use super::scene::Scene;
-use crate::bvh::Slot;
+use crate::bvh::BestFirst;
 
 /// Distances in the scene's unit; the true one is in `[lo, hi]`.
 #[derive(Clone, Copy, Debug)]
@@ -67,17 +64,9 @@ impl Search<'_, '_> {
             return Some(pair);
         }
         let (root_a, root_b) = frame.roots();
-        let mut queue = BinaryHeap::new();
-        // Among equal bounds the latest first: deeply overlapping objects are searched depth-first.
-        let mut latest = u32::MAX;
-        let key = |bound: f32, latest: &mut u32| {
-            *latest = latest.wrapping_sub(1);
-            u64::from(bound.to_bits()) << 32 | u64::from(*latest)
-        };
-        queue.push(Reverse(Entry { key: key(0.0, &mut latest), a: root_a, b: root_b }));
-        while let Some(Reverse(Entry { key: bound, a, b })) = queue.pop() {
-            // Bounds are not negative, so that their bits are ordered as they are.
-            let bound = f32::from_bits((bound >> 32) as u32);
+        let mut queue = BestFirst::default();
+        queue.push(0.0, root_a, root_b);
+        while let Some((bound, a, b)) = queue.pop() {
             if f64::from(bound) >= self.hi {
                 break;
             }
@@ -89,7 +78,7 @@ impl Search<'_, '_> {
             }
             frame.expand(a, b, |a, b, child_bound| {
                 if f64::from(child_bound) < self.hi {
-                    queue.push(Reverse(Entry { key: key(child_bound.max(bound), &mut latest), a, b }));
+                    queue.push(child_bound.max(bound), a, b);
                 }
             });
         }
@@ -144,31 +133,5 @@ impl Search<'_, '_> {
             }
         }
         Nearest { lo, hi, pair: best, hit: false, exact_used: self.exact_used }
-    }
-}
-
-struct Entry {
-    key: u64,
-    a: Slot,
-    b: Slot,
-}
-
-impl PartialEq for Entry {
-    fn eq(&self, other: &Self) -> bool {
-        self.key == other.key
-    }
-}
-
-impl Eq for Entry {}
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Entry {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.key.cmp(&other.key)
     }
 }

@@ -74,7 +74,7 @@ impl Scene<'_> {
 
     /// Every pair of triangles (A, B).
     pub(super) fn all_pairs(&self) -> impl Iterator<Item = [u32; 2]> {
-        let count = |s: &Shape| s.mesh.triangles().len() as u32;
+        let count = |s: &Shape| s.triangles().len() as u32;
         let (n, m) = (count(self.pair.a), count(self.pair.b));
         (0..n).flat_map(move |i| (0..m).map(move |j| [i, j]))
     }
@@ -92,6 +92,6 @@ fn reach(pose: &Pose, shape: &Shape) -> f64 {
 }
 
 fn mapped_tree(pose: &Pose, shape: &Shape) -> Tree {
-    let positions: Vec<Point3<f64>> = shape.mesh.positions().iter().map(|p| pose.apply(p)).collect();
-    Tree::new(&positions, shape.mesh.triangles())
+    let positions: Vec<Point3<f64>> = shape.positions().iter().map(|p| pose.apply(p)).collect();
+    Tree::new(&positions, shape.triangles())
 }

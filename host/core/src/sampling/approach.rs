@@ -1,13 +1,10 @@
 //! Moving B along a ray until it is the wanted distance from A.
 //!
-//! Not by many distance queries (conservative advancement) but by one search over pairs of boxes ordered by *the way after
-//! which they come within the wanted distance*. For two triangles, the distance along the way is a convex function, so
-//! Newton's iteration from a lower bound runs to its first root without passing it. The position found is then judged
-//! by the oracle like any other; where that does not confirm it, conservative advancement on certified distances
+//! Not by many distance queries (conservative advancement) but by one search over pairs of boxes, ordered by *the way
+//! after which they come within the wanted distance*. For two triangles the distance along the way is a convex function,
+//! so Newton's iteration from a lower bound runs to the first root without passing it. The position found is then
+//! judged by the oracle like any other; where that does not confirm it, conservative advancement on certified distances
 //! decides.
-
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -22,8 +19,178 @@ pub(super) struct Approach<'a> {
     pair: Pair<'a>,
     centre_a: Point3<f64>,
     centre_b: Point3<f64>,
-    /// Distance of the centres at which B starts; the surfaces are then further apart than the target.
+    /// Distance of the centres at which B starts: the surfaces are then further apart than wanted.
     start: f64,
-    /// The wanted distance; `None` for relative distance 0, whose target depends on the precision band.
-    target: Option<f64>,
+    /// The wanted distance; 0 stands for `3 tau32`.
+    distance: f64,
+}
+
+/// A position on the ray.
+struct Root {
+    way: f64,
+    pair: [u32; 2],
+    /// Change of the distance per way there; negative.
+    slope: f64,
+}
+
+/// One ray: B's rotation, and where it stands after a way.
+struct Ray<'r> {
+    direction: &'r Vector3<f64>,
+    rotation: &'r Matrix3<f64>,
+    /// B's translation at the start.
+    from: Vector3<f64>,
+    /// The way after which B has left on the other side.
+    length: f64,
+}
+
+impl Ray<'_> {
+    fn configuration(&self, way: f64) -> Configuration {
+        let pose_b = Pose { linear: *self.rotation, translation: self.from - self.direction * way };
+        Configuration { pose_a: Pose::identity(), pose_b }
+    }
+}
+
+impl<'a> Approach<'a> {
+    pub(super) fn new(a: &'a Shape, b: &'a Shape, relative_distance: f64) -> Self {
+        let (centre_a, radius_a) = ball(a);
+        let (centre_b, radius_b) = ball(b);
+        let bounds = bounds(a);
+        let distance = relative_distance * (bounds.1 - bounds.0).amax();
+        // A little further than needed, so that even the band of f32 is passed on the way.
+        let start = (radius_a + radius_b) * 1.01 + distance;
+        Self { pair: Pair::new(a, b), centre_a, centre_b, start, distance }
+    }
+
+    /// The first position on the ray with the wanted distance, certified; `None` when there is none.
+    pub(super) fn place(&self, direction: &Vector3<f64>, rotation: &Matrix3<f64>) -> Option<Placed> {
+        let from = self.centre_a.coords + direction * self.start - rotation * self.centre_b.coords;
+        let ray = Ray { direction, rotation, from, length: 2.0 * self.start };
+        let mut root = self.first_root(&ray)?;
+        // The matrix is rounded and the wanted distance changes with the way: a correction or two may be needed.
+        for _ in 0..4 {
+            let configuration = ray.configuration(root.way);
+            let truth = self.pair.truth_near(&configuration, Some(root.pair));
+            let (wanted, tau) = self.wanted(&configuration);
+            if within(&truth, wanted, tau) {
+                return Some(Placed { configuration, truth, root_index: 0 });
+            }
+            if truth.distance_lo < wanted - 2.0 * tau {
+                break; // another pair is nearer: not the first root after all
+            }
+            root.way += ((truth.distance_lo + truth.distance_hi) / 2.0 - wanted) / -root.slope;
+        }
+        self.advance(&ray)
+    }
+
+    /// The wanted distance in a configuration, and the half-width of the window around it.
+    fn wanted(&self, configuration: &Configuration) -> (f64, f64) {
+        let tau = self.pair.tau(configuration, U32);
+        if self.distance == 0.0 { (3.0 * tau, tau) } else { (self.distance, tau) }
+    }
+
+    /// The smallest way after which some pair of triangles is the wanted distance apart.
+    fn first_root(&self, ray: &Ray) -> Option<Root> {
+        let (a, b) = (self.pair.a(), self.pair.b());
+        let start = ray.configuration(0.0);
+        let size = self.pair.scene_size(&start).max(self.start) * 4.0;
+        let frame = Frame::new(a.tree(), &start.pose_a, b.tree(), &start.pose_b, size)?;
+        // The band grows with the translation, which is longest at an end of the ray.
+        let widest =
+            [0.0, ray.length].map(|way| self.wanted(&ray.configuration(way)).0).into_iter().fold(0.0, f64::max);
+        let aim = frame.aim(&start.pose_a, &start.pose_b, &-ray.direction, widest / frame.unit);
+        let mut queue = BestFirst::default();
+        let (root_a, root_b) = frame.roots();
+        queue.push(0.0, root_a, root_b);
+        let mut best: Option<Root> = None;
+        let mut limit = ray.length / frame.unit;
+        while let Some((bound, slot_a, slot_b)) = queue.pop() {
+            if f64::from(bound) >= limit {
+                break;
+            }
+            if let Some(pair) = frame.triangles(slot_a, slot_b) {
+                let found = self.root_of_pair(ray, pair, f64::from(bound) * frame.unit, limit * frame.unit);
+                if let Some(root) = found {
+                    limit = root.way / frame.unit;
+                    best = Some(root);
+                }
+                continue;
+            }
+            frame.expand_along(&aim, slot_a, slot_b, |a, b, enter| {
+                if f64::from(enter) < limit {
+                    queue.push(enter.max(bound), a, b);
+                }
+            });
+        }
+        best
+    }
+
+    /// Where two triangles are first the wanted distance apart, after `from` and before `limit`.
+    fn root_of_pair(&self, ray: &Ray, [i, j]: [u32; 2], from: f64, limit: f64) -> Option<Root> {
+        let triangle_a = self.pair.a().corners(i);
+        let origin = triangle_a[0];
+        let a = triangle_a.map(|p| p - origin);
+        let at_start = Pose { linear: *ray.rotation, translation: ray.from - origin.coords };
+        let b = self.pair.b().corners(j).map(|p| at_start.apply(&p).coords);
+        let mut way = from;
+        for _ in 0..60 {
+            let moved = b.map(|v| v - ray.direction * way);
+            let (pa, pb) = closest_points(&a, &moved);
+            let between = pb - pa;
+            let distance = between.norm();
+            let (wanted, tau) = self.wanted(&ray.configuration(way));
+            let excess = distance - wanted;
+            // B moves against the direction.
+            let slope = -between.dot(ray.direction) / distance;
+            if excess.abs() <= 1e-7 * tau {
+                return (slope < 0.0).then_some(Root { way, pair: [i, j], slope });
+            }
+            if !(slope < -1e-9) {
+                return None; // it never comes nearer than this
+            }
+            way -= excess / slope;
+            if way >= limit {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// Conservative advancement: as far as the certified distance allows, again and again.
+    fn advance(&self, ray: &Ray) -> Option<Placed> {
+        let mut way = 0.0;
+        let mut near = None;
+        for _ in 0..2_000 {
+            let configuration = ray.configuration(way);
+            let truth = self.pair.truth_near(&configuration, near);
+            let (wanted, tau) = self.wanted(&configuration);
+            if within(&truth, wanted, tau) {
+                return Some(Placed { configuration, truth, root_index: 0 });
+            }
+            way += truth.distance_lo - wanted;
+            if truth.hit || way > ray.length {
+                return None;
+            }
+            near = Some([truth.witness.triangle_a, truth.witness.triangle_b]);
+        }
+        None
+    }
+}
+
+/// Is the whole certified interval within `(wanted - tau, wanted + tau]`?
+fn within(truth: &Truth, wanted: f64, tau: f64) -> bool {
+    truth.distance_lo > wanted - tau && truth.distance_hi <= wanted + tau
+}
+
+fn bounds(shape: &Shape) -> (Point3<f64>, Point3<f64>) {
+    let first = shape.corners(0)[0];
+    let used = shape.triangles().iter().flatten().map(|&v| shape.positions()[v as usize]);
+    used.fold((first, first), |(lo, hi), p| (lo.inf(&p), hi.sup(&p)))
+}
+
+/// Centre of the bounding box and the largest distance of a vertex from it.
+fn ball(shape: &Shape) -> (Point3<f64>, f64) {
+    let (lo, hi) = bounds(shape);
+    let centre = nalgebra::center(&lo, &hi);
+    let used = shape.triangles().iter().flatten().map(|&v| shape.positions()[v as usize]);
+    (centre, used.map(|p| (p - centre).norm()).fold(0.0, f64::max))
 }

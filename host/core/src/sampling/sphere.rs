@@ -1,11 +1,11 @@
 //! The sphere method: B stands on a sphere around A in some rotation and is moved toward A until the surfaces are the
 //! wanted distance apart [OpenCollBench 2020, 3.1; Trenkel 2007].
 
-use super::approach;
+use super::approach::Approach;
 use super::low_discrepancy::{self, Sample};
 use super::paper_pattern::Pattern;
 use crate::configuration::{Placed, Sampling};
-use crate::oracle::{Pair, Shape};
+use crate::oracle::Shape;
 
 /// No set has more configurations than this.
 pub const MAX_CONFIGURATIONS: u64 = 10_000_000;
@@ -69,10 +69,9 @@ fn check_degrees(name: &'static str, value: f64) -> Result<(), SamplingError> {
 /// What to sample; [`Plan::place`] may be called from many threads.
 #[derive(Clone, Debug)]
 pub struct Plan<'a> {
-    pair: Pair<'a>,
+    approach: Approach<'a>,
     pattern: Option<Pattern>,
     len: u64,
-    relative_distance: f64,
     seed: u64,
 }
 
@@ -93,7 +92,7 @@ impl<'a> Plan<'a> {
             Sampling::PaperCompat { rotate, move_by } => Some(Pattern::new(rotate, move_by)),
             Sampling::Steps { .. } | Sampling::Count { .. } => None,
         };
-        Ok(Self { pair: Pair::new(a, b), pattern, len, relative_distance, seed })
+        Ok(Self { approach: Approach::new(a, b, relative_distance), pattern, len, seed })
     }
 
     /// Number of rays.
@@ -109,8 +108,9 @@ impl<'a> Plan<'a> {
     /// Configuration `index`, a pure function of it; `None` when B never comes that close on its ray.
     ///
     /// A stands where its file puts it; B is rotated about the centre of its bounding box, which moves along a ray through
-    /// the centre of A's. The certified distance is within `2 tau32` of the relative distance times
-    /// L, and for relative distance 0 it lies in `(2 tau32, 4 tau32]` (see [`Pair::tau`]), so that the question is fair
+    /// the centre of A's. The certified distance is within `tau32` of the relative distance times
+    /// L, and for relative distance 0 it lies in `(2 tau32, 4 tau32]` (see
+    /// [`Pair::tau`](crate::oracle::Pair::tau)), so that the question is fair
     /// even to an algorithm that computes in single precision.
     pub fn place(&self, index: u64) -> Option<Placed> {
         assert!(index < self.len, "configuration {index} of {}", self.len);
@@ -118,6 +118,6 @@ impl<'a> Plan<'a> {
             Some(pattern) => pattern.sample(index),
             None => low_discrepancy::sample(index, self.seed),
         };
-        approach::place(&self.pair, &direction, &rotation, self.relative_distance)
+        self.approach.place(&direction, &rotation)
     }
 }

@@ -1,0 +1,95 @@
+//! Data that several tests read.
+#![allow(dead_code, reason = "each test binary uses its own part")]
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use nalgebra::Point3;
+use ocb_core::configuration::Configuration;
+use ocb_core::mesh::{Mesh, obj};
+use ocb_core::pose::Pose;
+
+/// A file of the data shared by the project's checkouts.
+pub fn shared(file: &str) -> Vec<u8> {
+    let folder = std::env::var_os("OCB_SHARED")
+        .map_or_else(|| PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared")), PathBuf::from);
+    let path = folder.join(file);
+    std::fs::read(&path).unwrap_or_else(|e| {
+        panic!("{}: {e}; set OCB_SHARED to the folder with meshes/, stability/ and configurations/", path.display())
+    })
+}
+
+/// One of the shared meshes, with the f32 coordinates for which distances are known.
+pub fn mesh(name: &str) -> Arc<Mesh> {
+    let read = obj::read(&shared(&format!("meshes/{name}.obj"))).expect("a shared mesh is valid");
+    Arc::new(read.mesh.to_f32_representable().expect("a shared mesh fits into f32"))
+}
+
+/// Little-endian f64 numbers.
+pub fn floats(file: &str) -> Vec<f64> {
+    shared(file).as_chunks::<8>().0.iter().map(|&b| f64::from_le_bytes(b)).collect()
+}
+
+/// 4x4 matrices that place B in A's frame.
+pub fn configurations(file: &str) -> Vec<Configuration> {
+    let poses = floats(file);
+    let poses = poses.as_chunks::<16>().0.iter().map(|m| Pose::from_row_major(m).expect("a valid pose"));
+    poses.map(|pose_b| Configuration { pose_a: Pose::identity(), pose_b }).collect()
+}
+
+/// B moves, A does not.
+pub fn placed(pose_b: Pose) -> Configuration {
+    Configuration { pose_a: Pose::identity(), pose_b }
+}
+
+/// A decimal number or a C99 hexadecimal one.
+pub fn number(text: &str) -> f64 {
+    let (sign, digits) = text.strip_prefix('-').map_or((1.0, text), |rest| (-1.0, rest));
+    let Some(hex) = digits.strip_prefix("0x") else { return text.parse().expect("a number") };
+    let (mantissa, exponent) = hex.split_once('p').expect("a binary exponent");
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let value = u64::from_str_radix(&format!("{whole}{fraction}"), 16).expect("hexadecimal digits");
+    let exponent = exponent.parse::<i32>().expect("an exponent") - 4 * fraction.len() as i32;
+    sign * value as f64 * 2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2)
+}
+
+/// Three corners.
+pub type Triangle = [Point3<f64>; 3];
+
+/// Nine numbers per triangle.
+pub fn triangles(numbers: &[f64]) -> Vec<Triangle> {
+    let points: Vec<Point3<f64>> = numbers.as_chunks::<3>().0.iter().map(|&p| Point3::from(p)).collect();
+    points.as_chunks::<3>().0.to_vec()
+}
+
+/// A small deterministic generator (SplitMix64).
+pub struct Random(pub u64);
+
+impl Random {
+    /// Uniform in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Uniform in [-1, 1).
+    pub fn signed(&mut self) -> f64 {
+        2.0 * self.unit() - 1.0
+    }
+
+    /// Uniform below `n`.
+    pub fn below(&mut self, n: usize) -> usize {
+        (self.unit() * n as f64) as usize
+    }
+
+    /// A rotation up to rounding, and a translation in a cube.
+    pub fn pose(&mut self, reach: f64) -> Pose {
+        let q = nalgebra::Quaternion::new(self.signed(), self.signed(), self.signed(), self.signed());
+        let linear = *nalgebra::UnitQuaternion::from_quaternion(q).to_rotation_matrix().matrix();
+        let translation = nalgebra::Vector3::new(self.signed(), self.signed(), self.signed()) * reach;
+        Pose { linear, translation }
+    }
+}
