@@ -111,3 +111,11 @@ pub(super) fn orientation(
     let moved = 6.0 * e * (ey * ez + ex * ez + ex * ey);
     (value, 12.0 * U * permanent + 1.01 * moved + f64::MIN_POSITIVE)
 }
+
+/// Does the segment cross the triangle? `None` when that is not certain. `error` is the error of the segment's ends.
+pub(super) fn certain_crossing(p: &Vector3<f64>, q: &Vector3<f64>, error: f64, face: &Triangle) -> Option<bool> {
+    let [a, b, c] = &face.vertices;
+    let error = error + face.error;
+    let across = [sign(p, q, a, b, error), sign(p, q, b, c, error), sign(p, q, c, a, error)];
+    crosses(sign(a, b, c, p, error), sign(a, b, c, q, error), &across)
+}

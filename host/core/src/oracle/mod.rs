@@ -27,6 +27,7 @@
 //! f64 arithmetic with certified error bounds decides nearly everything ([`closest`], `filter`); what it cannot decide goes
 //! to exact integers ([`exact`]). No code is shared with any plugin.
 
+mod claims;
 mod closest;
 mod contacts;
 mod exact;
@@ -36,6 +37,7 @@ mod margin;
 mod nearest;
 mod rational;
 mod scene;
+mod straddle;
 mod triangle;
 
 use std::sync::Arc;
@@ -45,6 +47,7 @@ use nalgebra::{Point3, Vector3};
 use crate::bvh::Tree;
 use crate::configuration::{Class, Configuration, Truth, Witness};
 use crate::mesh::Mesh;
+pub use claims::Side;
 pub(crate) use closest::closest_points;
 use nearest::{Effort, Nearest};
 use scene::Scene;
@@ -121,6 +124,15 @@ impl Soup {
             Soup::Loose { positions, triangles } => (positions, triangles),
         }
     }
+}
+
+/// A meeting pair of triangles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Triangle of A, triangle of B.
+    pub pair: [u32; 2],
+    /// Every vertex may move so far and the two still cross (certified lower bound); 0 when they only touch.
+    pub margin: f64,
 }
 
 /// Two shapes about which the oracle answers.
@@ -244,7 +256,11 @@ fn deepest_crossing(scene: &Scene, found: &Nearest) -> (Witness, f64, bool) {
         }
         true
     });
-    let (margin, pair, point) = best;
+    let (mut margin, pair, point) = best;
+    // Where no pair of triangles crosses robustly, the meshes still may.
+    if margin * scene.unit <= scene.pair.tau(scene.configuration, U32) {
+        margin = margin.max(straddle::margin(scene));
+    }
     let point = point.unwrap_or_else(|| {
         let (a, b) = scene.triangles(pair);
         let near = closest::closest(&a, &b);
