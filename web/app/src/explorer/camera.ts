@@ -63,6 +63,7 @@ export class CameraRig {
   reset(): void {
     if (!this.sphere) return
     this.wanted = null
+    clearTimeout(this.rest)
     const offset = new Vector3().setFromSpherical(START).multiplyScalar(this.distance())
     this.controls.target.copy(this.sphere.center)
     this.camera.position.copy(this.sphere.center).add(offset)
@@ -108,6 +109,7 @@ export class CameraRig {
     this.camera.position.copy(absolute(px, py, pz))
     this.controls.target.copy(absolute(tx ?? 0, ty ?? 0, tz ?? 0))
     this.controls.update()
+    this.resting = this.view().join()
     this.events.moved()
   }
 
