@@ -1,1 +1,5 @@
-//! Tests that see every floor.
+//! What the tests of the whole house share: where things are, the `ocb` command, a running service.
+
+pub mod place;
+pub mod process;
+pub mod service;

@@ -2,10 +2,16 @@
 //!
 //! Ids are UUIDv7 text, times are microseconds since the Unix epoch (UTC), durations say their unit in their name.
 
+mod heatmap;
+mod plugin;
+
 use ocb_core::configuration::{Class, Method};
 use ocb_core::query::Query;
 use serde::{Deserialize, Serialize};
-use utoipa::{IntoParams, ToSchema};
+use utoipa::ToSchema;
+
+pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
+pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport};
 
 /// An object as the lists show it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -32,54 +38,6 @@ pub struct ObjectInfo {
     pub warnings: Vec<String>,
     /// When it was added.
     pub created_us: i64,
-}
-
-/// One algorithm of one plugin.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct AlgorithmInfo {
-    /// Unique id, e.g. `box-tree`.
-    pub id: String,
-    /// Display name.
-    pub name: String,
-    /// Version as the plugin says it.
-    pub version: String,
-    /// Authors.
-    pub authors: String,
-    /// SPDX licence expression.
-    pub license: String,
-    /// Home page or source.
-    pub url: String,
-    /// The paper the method comes from.
-    pub paper: String,
-    /// The questions it answers.
-    pub queries: Vec<Query>,
-    /// It reports BV and primitive tests.
-    pub counters: bool,
-    /// It reports witness points.
-    pub witness_points: bool,
-    /// It computes in f32: its answers are judged in the wider band.
-    pub single_precision: bool,
-    /// Its parameters.
-    pub parameters: Vec<ParameterInfo>,
-    /// SHA-256 (hex) of the plugin file.
-    pub plugin_sha256: String,
-}
-
-/// A knob of an algorithm.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct ParameterInfo {
-    /// Name.
-    pub name: String,
-    /// What it does.
-    pub description: String,
-    /// Smallest value.
-    pub minimum: f64,
-    /// Largest value.
-    pub maximum: f64,
-    /// Value when nothing is said.
-    pub default: f64,
-    /// Only whole numbers.
-    pub integer: bool,
 }
 
 /// What to measure.
@@ -379,149 +337,6 @@ pub struct RunEvent {
     pub stage: Option<Stage>,
     /// The algorithm's summary, when it has just been finished.
     pub result: Option<AlgorithmResult>,
-}
-
-/// What to colour an object by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Measure {
-    /// Time per query, nanoseconds.
-    Time,
-    /// BV tests per query.
-    BvTests,
-    /// Primitive tests per query.
-    PrimitiveTests,
-    /// How many configurations have their witness point on a triangle of the vertex.
-    Density,
-}
-
-/// Which object of the scene.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Side {
-    /// The fixed object.
-    #[default]
-    A,
-    /// The moving object.
-    B,
-}
-
-/// Which map; the query string of every heatmap route.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema, IntoParams)]
-#[into_params(parameter_in = Query)]
-pub struct HeatmapRequest {
-    /// Algorithm id (ignored for density).
-    pub algorithm: String,
-    /// Which object.
-    #[serde(default)]
-    pub side: Side,
-    /// What to show.
-    pub measure: Measure,
-    /// Which statistic.
-    pub statistic: ocb_core::statistics::Statistic,
-    /// What to do with outliers.
-    pub outliers: ocb_core::statistics::Outliers,
-}
-
-/// Values on the vertices of an object.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct Heatmap {
-    /// What was asked.
-    pub request: HeatmapRequest,
-    /// Unit of the values (`ns`, `tests`, `configurations`).
-    pub unit: String,
-    /// One per vertex, in the object's vertex order; null where there is none.
-    pub values: Vec<Option<f64>>,
-    /// Values that went into each vertex after outlier removal.
-    pub counts: Vec<u32>,
-    /// Values that outlier removal took from each vertex.
-    pub dropped: Vec<u32>,
-    /// Configurations that went in.
-    pub n: u32,
-    /// Smallest and largest value; absent when no vertex has one.
-    pub range: Option<[f64; 2]>,
-}
-
-/// The value at one vertex of a heatmap.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct VertexValue {
-    /// Vertex index, from 0, in the object's order.
-    pub vertex: u32,
-    /// The value; null where there is none.
-    pub value: Option<f64>,
-    /// Values that went into it after outlier removal.
-    pub count: u32,
-    /// Values that outlier removal took from it.
-    pub dropped: u32,
-    /// Unit of the value (`ns`, `tests`, `configurations`).
-    pub unit: String,
-}
-
-impl Heatmap {
-    /// The value at one vertex; none beyond the last vertex.
-    pub fn vertex(&self, vertex: u32) -> Option<VertexValue> {
-        let i = usize::try_from(vertex).ok()?;
-        Some(VertexValue {
-            vertex,
-            value: *self.values.get(i)?,
-            count: *self.counts.get(i)?,
-            dropped: *self.dropped.get(i)?,
-            unit: self.unit.clone(),
-        })
-    }
-}
-
-/// Empirical distribution of the time per query.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct Ecdf {
-    /// Algorithm id.
-    pub algorithm: String,
-    /// Number of values.
-    pub n: u32,
-    /// Times in nanoseconds, ascending, at most 512 points.
-    pub time_ns: Vec<f64>,
-    /// Share of queries at most that long, 0 to 1.
-    pub share: Vec<f64>,
-}
-
-/// What `plugin check` found, line by line.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct PluginReport {
-    /// File name, without its folder.
-    pub file: String,
-    /// SHA-256 (hex) of the file; absent when it could not be read.
-    pub sha256: Option<String>,
-    /// No line failed.
-    pub passed: bool,
-    /// The checks in order; those behind a fatal one are left out.
-    pub lines: Vec<CheckLine>,
-    /// The algorithms that the plugin describes.
-    pub algorithms: Vec<AlgorithmInfo>,
-}
-
-/// One check of a plugin.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct CheckLine {
-    /// What was checked, e.g. `load in the jail`.
-    pub check: String,
-    /// How it ended.
-    pub verdict: CheckVerdict,
-    /// What was seen, one sentence.
-    pub evidence: String,
-    /// How to mend it, when it did not pass.
-    pub hint: Option<String>,
-}
-
-/// How one check ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum CheckVerdict {
-    /// As it must be.
-    Pass,
-    /// Allowed, but the author may want to know.
-    Note,
-    /// Must be mended.
-    Fail,
 }
 
 /// The service at a glance.

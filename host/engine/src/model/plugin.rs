@@ -1,0 +1,93 @@
+//! Algorithms, and what the check of a plugin finds.
+
+use ocb_core::query::Query;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// One algorithm of one plugin.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct AlgorithmInfo {
+    /// Unique id, e.g. `box-tree`.
+    pub id: String,
+    /// Display name.
+    pub name: String,
+    /// Version as the plugin says it.
+    pub version: String,
+    /// Authors.
+    pub authors: String,
+    /// SPDX licence expression.
+    pub license: String,
+    /// Home page or source.
+    pub url: String,
+    /// The paper the method comes from.
+    pub paper: String,
+    /// The questions it answers.
+    pub queries: Vec<Query>,
+    /// It reports BV and primitive tests.
+    pub counters: bool,
+    /// It reports witness points.
+    pub witness_points: bool,
+    /// It computes in f32: its answers are judged in the wider band.
+    pub single_precision: bool,
+    /// Its parameters.
+    pub parameters: Vec<ParameterInfo>,
+    /// SHA-256 (hex) of the plugin file.
+    pub plugin_sha256: String,
+}
+
+/// A knob of an algorithm.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ParameterInfo {
+    /// Name.
+    pub name: String,
+    /// What it does.
+    pub description: String,
+    /// Smallest value.
+    pub minimum: f64,
+    /// Largest value.
+    pub maximum: f64,
+    /// Value when nothing is said.
+    pub default: f64,
+    /// Only whole numbers.
+    pub integer: bool,
+}
+
+/// What `plugin check` found, line by line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PluginReport {
+    /// File name, without its folder.
+    pub file: String,
+    /// SHA-256 (hex) of the file; absent when it could not be read.
+    pub sha256: Option<String>,
+    /// No line failed.
+    pub passed: bool,
+    /// The checks in order; those behind a fatal one are left out.
+    pub lines: Vec<CheckLine>,
+    /// The algorithms that the plugin describes.
+    pub algorithms: Vec<AlgorithmInfo>,
+}
+
+/// One check of a plugin.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct CheckLine {
+    /// What was checked, e.g. `load in the jail`.
+    pub check: String,
+    /// How it ended.
+    pub verdict: CheckVerdict,
+    /// What was seen, one sentence.
+    pub evidence: String,
+    /// How to mend it, when it did not pass.
+    pub hint: Option<String>,
+}
+
+/// How one check ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CheckVerdict {
+    /// As it must be.
+    Pass,
+    /// Allowed, but the author may want to know.
+    Note,
+    /// Must be mended.
+    Fail,
+}

@@ -1,0 +1,36 @@
+// The first look: a measured heatmap before anything is asked.
+import assert from 'node:assert/strict'
+import { test } from 'node:test'
+import { until, visitor } from '../visitor.mjs'
+
+test('the start page shows a measured heatmap of a stock object', async (t) => {
+  const v = await visitor(t)
+  await v.go('/')
+  // On the first start the service is still measuring it; the page says so and then shows it by itself.
+  await v.at('featured-viewer').locator('canvas').waitFor({ timeout: 120_000 })
+  const seen = await until('a coloured object', async () => {
+    const c = await v.colours(v.at('featured-viewer'))
+    return c.hues >= 4 && c
+  })
+  assert.ok(seen.coloured > 2000, `only ${seen.coloured} coloured pixels`)
+  const featured = await v.api('/featured')
+  assert.equal(featured.state, 'done')
+  assert.ok(featured.object_a_name && (await v.page.textContent('main')).includes(featured.object_a_name))
+  await v.picture('start')
+  await v.accessible('the start page')
+})
+
+for (const scheme of ['light', 'dark']) {
+  for (const width of [390, 1440]) {
+    test(`start page and builder are accessible, ${scheme}, ${width} pixels wide`, async (t) => {
+      const v = await visitor(t, { scheme, width })
+      await v.go('/')
+      await v.at('featured-viewer').locator('canvas').waitFor()
+      await v.accessible('the start page')
+      await v.go('/new')
+      await v.at('start').waitFor()
+      await v.accessible('the builder')
+      await v.picture(`builder-${scheme}-${width}`)
+    })
+  }
+}

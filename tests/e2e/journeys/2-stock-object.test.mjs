@@ -1,0 +1,117 @@
+// From a stock object to a picked value: builder, live page, explorer.
+import assert from 'node:assert/strict'
+import { test } from 'node:test'
+import { runId, until, visitor } from '../visitor.mjs'
+
+/** Chooses the torus knot and a set of `count` configurations. */
+async function build(v, count) {
+  await v.go('/new')
+  await v.at('stock-card-torus-knot').click()
+  await v.at('by-count').click()
+  await v.at('count').fill(String(count))
+  await until(`an estimate of ${count} configurations`, async () => (await v.value('estimate-configurations')) === count)
+}
+
+test('the question filters the algorithms, and number and time stand there before Start', async (t) => {
+  const v = await visitor(t)
+  await build(v, 150)
+  const algorithms = await v.api('/algorithms')
+  for (const [button, queries] of [['query-pq', ['proximity']], ['query-cd', ['collision_first', 'collision_all']]]) {
+    await v.at(button).click()
+    for (const a of algorithms) {
+      const fits = a.queries.some((q) => queries.includes(q))
+      assert.equal(await v.at(`algorithm-${a.id}`).isEnabled(), fits, `${a.id} for ${button}`)
+    }
+  }
+  assert.ok((await v.value('estimate-seconds')) > 0)
+  // By the paper's steps instead: a finer step means more configurations.
+  await v.at('by-steps').click()
+  await v.at('rotate').fill('20')
+  await v.at('move').fill('20')
+  const coarse = await until('an estimate by steps', async () => {
+    const n = await v.value('estimate-configurations')
+    return n > 150 && n
+  })
+  await v.at('move').fill('15')
+  await until('more configurations', async () => (await v.value('estimate-configurations')) > coarse)
+})
+
+test('a stock object becomes a heatmap whose picked value is the API\'s', async (t) => {
+  const v = await visitor(t)
+  await build(v, 150)
+  await v.at('query-cd').click()
+  await v.at('contacts-first').click()
+  await v.at('start').click()
+  const id = await runId(v.page)
+
+  const run = await v.api(`/runs/${id}`)
+  for (const lane of ['lane-object', 'lane-configurations', ...run.spec.algorithms.map((a) => `lane-measuring-${a}`), 'lane-heatmap']) {
+    await v.at(lane).waitFor({ state: 'attached' })
+  }
+  await v.picture('live')
+  await v.at('viewer-0').waitFor({ timeout: 120_000 })
+  await until('a coloured object', async () => (await v.colours(v.at('viewer-0'))).hues >= 3)
+  await v.picture('explorer')
+
+  // The table knows all algorithms, and nothing was wrong.
+  const done = await v.api(`/runs/${id}`)
+  assert.equal(done.state, 'done')
+  const table = await v.at('result-table').textContent()
+  for (const r of done.results) {
+    assert.ok(table.includes(r.name), `${r.name} is in the table`)
+    assert.equal(r.wrong, 0, `${r.name} answered wrongly`)
+    assert.equal(r.outcome.name, 'Completed')
+  }
+
+  // Picking in the middle of the object reads the value that the API gives for that vertex.
+  await until('a picked vertex with a value', async () => {
+    const box = await v.at('viewer-0').boundingBox()
+    for (const [x, y] of [[0.5, 0.3], [0.4, 0.4], [0.6, 0.6], [0.35, 0.6], [0.65, 0.4], [0.5, 0.7], [0.3, 0.5], [0.7, 0.5], [0.5, 0.5]]) {
+      await v.page.mouse.click(box.x + x * box.width, box.y + y * box.height)
+      await v.page.waitForTimeout(300)
+      if ((await v.at('pick-n').count()) && Number(await v.at('pick-n').getAttribute('data-n')) > 0) return true
+    }
+    return false
+  })
+  const chosen = (group) => v.at(group).locator('input:checked').inputValue()
+  const [measure, statistic, outliers, side] = await Promise.all(['measure', 'statistic', 'outliers', 'side'].map(chosen))
+  const vertex = await v.at('pick-vertex').getAttribute('data-vertex')
+  const algorithm = await v.at('viewer-0').getAttribute('data-algorithm')
+  const truth = await v.api(`/runs/${id}/vertices/${vertex}?algorithm=${algorithm}&side=${side}&measure=${measure}&statistic=${statistic}&outliers=${outliers}`)
+  assert.equal(Number(await v.at('pick-value').getAttribute('data-value')), truth.value)
+  assert.equal(Number(await v.at('pick-n').getAttribute('data-n')), truth.count)
+  await v.picture('picked')
+})
+
+test('the explorer changes measure, statistic, outliers, map and scale, and downloads everything', async (t) => {
+  const v = await visitor(t)
+  const featured = await v.api('/featured')
+  await v.go(`/r/${featured.id}`)
+  await v.at('viewer-0').waitFor()
+  await v.at('ecdf').waitFor()
+  const choices = {
+    measure: ['bv_tests', 'primitive_tests', 'density', 'time'],
+    statistic: ['median', 'min', 'max', 'standard_deviation', 'mad', 'mean'],
+    outliers: ['keep', 'per_vertex', 'global'],
+    colormap: ['viridis', 'cividis', 'turbo'],
+    scale: ['log', 'linear'],
+  }
+  for (const [control, values] of Object.entries(choices)) {
+    for (const value of values) {
+      await v.at(control).locator(`input[value="${value}"]`).check({ force: true })
+      await v.at('legend').first().waitFor()
+    }
+  }
+  for (const scheme of ['light', 'dark']) {
+    await v.page.emulateMedia({ colorScheme: scheme })
+    await v.accessible(`the explorer, ${scheme}`)
+    await v.picture(`explorer-${scheme}`)
+  }
+  const starts = { csv: /^configuration|^#/, parquet: /^PAR1/, glb: /^glTF/, ply: /^ply/, png: /^\x89PNG/, svg: /^<(\?xml|svg)/ }
+  for (const [kind, start] of Object.entries(starts)) {
+    const [download] = await Promise.all([v.page.waitForEvent('download'), v.at(`download-${kind}`).click()])
+    const chunks = []
+    for await (const chunk of await download.createReadStream()) chunks.push(chunk)
+    assert.match(Buffer.concat(chunks).subarray(0, 40).toString('latin1'), start, `the ${kind} download`)
+  }
+})

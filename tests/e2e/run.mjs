@@ -1,0 +1,70 @@
+// Starts the built service on a data folder of its own, walks all journeys against it, and stops it by its process id.
+//
+// OCB_E2E_URL walks against a running service instead; further arguments choose journeys (file names).
+import { spawn } from 'node:child_process'
+import { mkdtempSync, readdirSync, rmSync } from 'node:fs'
+import { createServer } from 'node:net'
+import { tmpdir } from 'node:os'
+import { dirname, join, resolve } from 'node:path'
+import { fileURLToPath } from 'node:url'
+
+const here = dirname(fileURLToPath(import.meta.url))
+const root = resolve(here, '../..')
+const target = resolve(root, process.env.CARGO_TARGET_DIR ?? 'target')
+
+function freePort() {
+  return new Promise((done) => {
+    const server = createServer().listen(0, '127.0.0.1', () => {
+      const { port } = server.address()
+      server.close(() => done(port))
+    })
+  })
+}
+
+async function ready(url, alive) {
+  for (let i = 0; i < 300 && alive(); i++) {
+    const answer = await fetch(`${url}/api/v1/status`).catch(() => null)
+    if (answer?.ok) return
+    await new Promise((next) => setTimeout(next, 100))
+  }
+  throw new Error(`the service did not answer on ${url}`)
+}
+
+async function startService() {
+  const url = `http://127.0.0.1:${await freePort()}`
+  const data = mkdtempSync(join(tmpdir(), 'ocb-e2e-'))
+  const options = ['serve', '--data', data, '--listen', url.slice('http://'.length), '--stock-dir', join(root, 'target/stock')]
+  const service = spawn(join(target, 'release/ocb'), options, { cwd: root, stdio: ['ignore', 'inherit', 'inherit'] })
+  const ended = new Promise((done) => service.once('exit', (code, signal) => done(signal ?? code)))
+  let running = true
+  ended.then(() => { running = false })
+  const stop = async () => {
+    const early = !running
+    service.kill('SIGTERM')
+    const how = await ended
+    rmSync(data, { recursive: true, force: true })
+    if (early) throw new Error(`the service ended by itself during the journeys (${how})`)
+  }
+  try {
+    await ready(url, () => running)
+  } catch (error) {
+    await stop().catch(() => {})
+    throw error
+  }
+  return { url, stop }
+}
+
+const chosen = process.argv.slice(2)
+const journeys = readdirSync(join(here, 'journeys'))
+  .filter((f) => f.endsWith('.test.mjs') && (chosen.length === 0 || chosen.some((c) => f.startsWith(c))))
+  .map((f) => join('journeys', f))
+const given = process.env.OCB_E2E_URL
+const service = given ? { url: given, stop: async () => {} } : await startService()
+const test = spawn(process.execPath, ['--test', '--test-concurrency=1', '--test-reporter=spec', ...journeys], {
+  cwd: here,
+  stdio: 'inherit',
+  env: { ...process.env, OCB_E2E_URL: service.url, OCB_E2E_PICTURES: join(root, 'target/e2e') },
+})
+const code = await new Promise((done) => test.once('exit', (c) => done(c ?? 1)))
+await service.stop()
+process.exitCode = code

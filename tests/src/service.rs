@@ -1,0 +1,154 @@
+//! A running `ocb serve`, as a guest sees it.
+
+use std::net::TcpListener;
+use std::path::Path;
+use std::process::{Child, Stdio};
+use std::time::{Duration, Instant};
+
+use reqwest::blocking::{Client, Response};
+use serde_json::Value;
+
+use crate::place::built;
+use crate::process::command;
+
+/// The built service on a data folder. Dropping it kills it as a power cut would.
+pub struct Service {
+    child: Child,
+    url: String,
+}
+
+impl Service {
+    /// Starts on a free port of the loopback interface and waits until it answers.
+    pub fn start(data: &Path) -> Self {
+        let port = TcpListener::bind("127.0.0.1:0").and_then(|l| l.local_addr()).expect("a free port").port();
+        let address = format!("127.0.0.1:{port}");
+        let mut serve = command(built("ocb"));
+        serve.arg("serve").arg("--data").arg(data).args(["--listen", &address]);
+        let child = serve.stdout(Stdio::null()).spawn().expect("the service starts");
+        let mut service = Self { child, url: format!("http://{address}/api/v1") };
+        let client = Client::new();
+        let end = Instant::now() + Duration::from_secs(60);
+        while !client.get(format!("{}/status", service.url)).send().is_ok_and(|r| r.status().is_success()) {
+            if let Some(status) = service.child.try_wait().expect("the service's state") {
+                panic!("the service ended at once: {status}");
+            }
+            assert!(Instant::now() < end, "the service does not answer");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        service
+    }
+
+    /// Process id of the service.
+    pub fn pid(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// Ends the service as a power cut would: SIGKILL.
+    pub fn kill(mut self) {
+        self.child.kill().expect("the service was alive");
+        self.child.wait().expect("the service is gone");
+    }
+}
+
+impl Drop for Service {
+    fn drop(&mut self) {
+        // After `kill` both calls only find nothing left to do.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// A visitor with a cookie of their own, who may talk to the service again after it was restarted on another port.
+pub struct Guest {
+    client: Client,
+}
+
+impl Default for Guest {
+    fn default() -> Self {
+        let client = Client::builder().cookie_store(true).timeout(Duration::from_secs(120)).build();
+        Self { client: client.expect("an HTTP client") }
+    }
+}
+
+impl Guest {
+    /// The answer to a GET below `/api/v1`.
+    pub fn look(&self, service: &Service, path: &str) -> Response {
+        self.client.get(format!("{}{path}", service.url)).send().unwrap_or_else(|e| panic!("GET {path}: {e}"))
+    }
+
+    /// JSON that a GET must succeed with.
+    pub fn get(&self, service: &Service, path: &str) -> Value {
+        let answer = self.look(service, path);
+        let status = answer.status();
+        let text = answer.text().expect("a body");
+        assert!(status.is_success(), "GET {path}: {status} {text}");
+        serde_json::from_str(&text).unwrap_or_else(|e| panic!("GET {path}: {e}: {text}"))
+    }
+
+    /// Status and JSON of a POST of JSON.
+    pub fn post(&self, service: &Service, path: &str, body: &Value) -> (u16, Value) {
+        let request = self.client.post(format!("{}{path}", service.url)).json(body);
+        answer(path, request.send().unwrap_or_else(|e| panic!("POST {path}: {e}")))
+    }
+
+    /// Status and JSON of an upload.
+    pub fn upload(&self, service: &Service, name: &str, bytes: Vec<u8>) -> (u16, Value) {
+        let part = reqwest::blocking::multipart::Part::bytes(bytes).file_name(name.to_owned());
+        let form = reqwest::blocking::multipart::Form::new().part("file", part);
+        let request = self.client.post(format!("{}/objects", service.url)).multipart(form);
+        answer("/objects", request.send().unwrap_or_else(|e| panic!("upload of {name}: {e}")))
+    }
+
+    /// Asks for a run that must be accepted; gives its id.
+    pub fn submit(&self, service: &Service, spec: &Value) -> String {
+        let (status, run) = self.post(service, "/runs", spec);
+        assert_eq!(status, 201, "{spec} was refused: {run}");
+        run["id"].as_str().expect("an id").to_owned()
+    }
+
+    /// Waits until the run of the start page, which a new service measures first, has ended.
+    pub fn wait_for_quiet(&self, service: &Service) {
+        let end = Instant::now() + Duration::from_secs(180);
+        loop {
+            let answer = self.look(service, "/featured");
+            if answer.status().is_success() && answer.json::<Value>().is_ok_and(|run| run.is_object()) {
+                return;
+            }
+            assert!(Instant::now() < end, "the run of the start page does not end");
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    }
+
+    /// Looks at the run until `enough` of it, and gives it as it was then.
+    pub fn wait(&self, service: &Service, run: &str, what: &str, enough: impl Fn(&Value) -> bool) -> Value {
+        let end = Instant::now() + Duration::from_secs(180);
+        loop {
+            let now = self.get(service, &format!("/runs/{run}"));
+            if enough(&now) {
+                return now;
+            }
+            assert!(Instant::now() < end, "waited in vain until {what}: {now}");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+}
+
+fn answer(path: &str, response: Response) -> (u16, Value) {
+    let status = response.status().as_u16();
+    let text = response.text().expect("a body");
+    (status, serde_json::from_str(&text).unwrap_or_else(|e| panic!("{path}: {status}: {e}: {text}")))
+}
+
+/// Process ids of everything that `pid` started and that still runs, and what that started.
+pub fn descendants(pid: u32) -> Vec<u32> {
+    let mut found = Vec::new();
+    let tasks = std::fs::read_dir(format!("/proc/{pid}/task")).into_iter().flatten().flatten();
+    for task in tasks {
+        let children = std::fs::read_to_string(task.path().join("children")).unwrap_or_default();
+        for child in children.split_whitespace().filter_map(|c| c.parse().ok()) {
+            found.push(child);
+            found.extend(descendants(child));
+        }
+    }
+    found
+}

@@ -1,0 +1,99 @@
+//! The 65,536-triangle bunny against itself, in configurations whose answers other programs have certified.
+
+use std::collections::BTreeMap;
+
+use ocb_tests::place::{built, shared};
+use ocb_tests::process::{command, output};
+use serde_json::Value;
+
+/// Measuring seconds per algorithm. What does not fit is left out evenly: the subset is the start of a shuffled order.
+const BUDGET: &str = "12";
+
+/// What is known of a set of configurations.
+enum Known {
+    /// All of them collide.
+    Colliding,
+    /// None collides; distances from FCL, equal to those of PQP, coal and an independent program within 9e-13 relative.
+    Apart(Vec<f64>),
+}
+
+fn known(set: &str) -> Known {
+    if set == "W3" {
+        return Known::Colliding;
+    }
+    let bytes = std::fs::read(shared(&format!("configurations/bunny65k.{set}.distance.f64"))).expect("distances");
+    Known::Apart(bytes.chunks_exact(8).map(|c| f64::from_le_bytes(c.try_into().expect("8 bytes"))).collect())
+}
+
+/// `ocb bench` on the set with all algorithms; gives the run and, per algorithm, the records by column.
+fn bench(set: &str, query: &str) -> (Value, BTreeMap<String, Vec<BTreeMap<String, String>>>) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    let mut bench = command(built("ocb"));
+    bench.arg("bench").arg(shared("meshes/bunny65k.obj")).args(["--query", query, "--budget", BUDGET, "--passes", "1", "--json"]);
+    bench.arg("--configurations").arg(shared(&format!("configurations/bunny65k.{set}.f64")));
+    bench.arg("--out").arg(&out).arg("--data").arg(folder.path().join("data"));
+    let run: Value = serde_json::from_str(&output(&mut bench)).expect("--json prints JSON");
+    let names = run["results"].as_array().expect("results").iter().map(|r| r["algorithm"].as_str().expect("a name").to_owned());
+    let records = names.map(|name| {
+        let text = std::fs::read_to_string(out.join(format!("{name}.csv"))).unwrap_or_else(|e| panic!("records of {name}: {e}"));
+        (name, rows(&text))
+    });
+    let records = records.collect();
+    (run, records)
+}
+
+fn rows(csv: &str) -> Vec<BTreeMap<String, String>> {
+    let mut lines = csv.lines().filter(|l| !l.starts_with('#'));
+    let header: Vec<String> = lines.next().expect("a header").split(',').map(str::to_owned).collect();
+    lines.map(|l| header.iter().cloned().zip(l.split(',').map(str::to_owned)).collect()).collect()
+}
+
+/// All three algorithms answered, none wrongly, and the fast ones answered for a good part of the set at least.
+fn check_run(run: &Value, set: &str, query: &str) {
+    assert_eq!(run["set"]["configurations"], 1000, "{set}");
+    let results = run["results"].as_array().expect("results");
+    assert_eq!(results.len(), 3, "{set} {query}");
+    for r in results {
+        let (name, n) = (r["algorithm"].as_str().expect("a name"), r["n"].as_u64().expect("n"));
+        println!("{set} {query} {name}: {n} of 1000 configurations, wrong {}", r["wrong"]);
+        assert_eq!(r["outcome"]["name"], "Completed", "{set} {query} {name}: {}", r["outcome"]["message"]);
+        assert_eq!(r["wrong"], 0, "{set} {query} {name}: {}", r["verdicts"]);
+        assert!(n == 1000 || r["budget_limited"] == true, "{set} {query} {name}: only {n} and not for want of time");
+        assert!(n >= if name == "brute-force" { 1 } else { 100 }, "{set} {query} {name}: only {n} configurations measured");
+    }
+}
+
+#[test]
+fn collision_answers_equal_the_known_ones() {
+    for set in ["W1", "W2", "W3"] {
+        let (run, records) = bench(set, "cd");
+        check_run(&run, set, "cd");
+        let expected = if matches!(known(set), Known::Colliding) { "true" } else { "false" };
+        for (name, rows) in records {
+            assert!(!rows.is_empty(), "{set} {name}");
+            for row in rows {
+                assert_eq!(row["hit"], expected, "{set} {name} configuration {}", row["configuration"]);
+            }
+        }
+    }
+}
+
+#[test]
+fn distances_equal_the_known_ones() {
+    for set in ["W1", "W2", "W3"] {
+        let (run, records) = bench(set, "pq");
+        check_run(&run, set, "pq");
+        let known = known(set);
+        for (name, rows) in records {
+            assert!(!rows.is_empty(), "{set} {name}");
+            for row in rows {
+                let i: usize = row["configuration"].parse().expect("an index");
+                let distance: f64 = row["distance"].parse().expect("a distance");
+                let expected = if let Known::Apart(all) = &known { all[i] } else { 0.0 };
+                // The bounding box has diagonal 1: coordinates carry errors of about 1e-16, distances of 1e-4 and more.
+                assert!((distance - expected).abs() <= 1e-11 * expected.max(1e-2), "{set} {name} configuration {i}: {distance} is not {expected}");
+            }
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! Who may know whom: read from the manifests through `cargo metadata`.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use ocb_tests::place::root;
+use ocb_tests::process::{command, output};
+use serde_json::Value;
+
+/// What `cargo metadata` says of the workspace and everything it depends on.
+pub fn metadata() -> Value {
+    let text = output(command(env!("CARGO")).current_dir(root()).args(["metadata", "--format-version", "1", "--locked"]));
+    serde_json::from_str(&text).expect("cargo metadata prints JSON")
+}
+
+/// Members by name, with the names of what they depend on outside of tests.
+fn dependencies(metadata: &Value) -> BTreeMap<String, BTreeSet<String>> {
+    let members: BTreeSet<&str> = strings(&metadata["workspace_members"]).collect();
+    let packages = metadata["packages"].as_array().expect("packages");
+    let ours = packages.iter().filter(|p| members.contains(p["id"].as_str().expect("id")));
+    ours.map(|p| {
+        let needs = p["dependencies"].as_array().expect("dependencies").iter();
+        let needs = needs.filter(|d| d["kind"] != "dev").map(|d| d["name"].as_str().expect("name").to_owned());
+        (p["name"].as_str().expect("name").to_owned(), needs.collect())
+    })
+    .collect()
+}
+
+fn strings(list: &Value) -> impl Iterator<Item = &str> {
+    list.as_array().expect("a list").iter().map(|v| v.as_str().expect("text"))
+}
+
+/// Names of all packages that `name` is built from, tests aside.
+fn closure(metadata: &Value, name: &str) -> BTreeSet<String> {
+    let packages = metadata["packages"].as_array().expect("packages");
+    let name_of: BTreeMap<&str, &str> =
+        packages.iter().map(|p| (p["id"].as_str().expect("id"), p["name"].as_str().expect("name"))).collect();
+    let nodes = metadata["resolve"]["nodes"].as_array().expect("nodes");
+    let node: BTreeMap<&str, &Value> = nodes.iter().map(|n| (n["id"].as_str().expect("id"), n)).collect();
+    let start = name_of.iter().find(|(id, n)| **n == name && node.contains_key(*id)).expect("a member").0;
+    let (mut open, mut seen) = (vec![*start], BTreeSet::new());
+    while let Some(id) = open.pop() {
+        if seen.insert(id) {
+            let deps = node[id]["deps"].as_array().expect("deps").iter();
+            let normal = deps.filter(|d| d["dep_kinds"].as_array().is_some_and(|k| k.iter().any(|k| k["kind"].is_null())));
+            open.extend(normal.map(|d| d["pkg"].as_str().expect("pkg")));
+        }
+    }
+    seen.into_iter().map(|id| name_of[id].to_owned()).collect()
+}
+
+const PLUGIN_API: &str = "opencollbench-plugin";
+/// What brute force and box tree share: tests between two triangles. It knows nothing of ours either.
+const TRIANGLES: &str = "ocb-triangles";
+const PLUGINS: [&str; 3] = ["ocb-brute-force", "ocb-box-tree", "ocb-parry"];
+
+#[test]
+fn a_floor_knows_only_the_floors_below() {
+    let mut may: BTreeMap<&str, &[&str]> = BTreeMap::from([
+        (PLUGIN_API, &[] as &[&str]),
+        (TRIANGLES, &[]),
+        ("ocb-core", &[]),
+        ("ocb-sandbox", &["ocb-core", PLUGIN_API]),
+        ("ocb-engine", &["ocb-core", "ocb-sandbox"]),
+        ("ocb-server", &["ocb-core", "ocb-engine"]),
+        ("ocb-cli", &["ocb-core", "ocb-engine", "ocb-server"]),
+        ("ocb-tests", &["ocb-core", "ocb-sandbox", "ocb-engine", "ocb-server", "ocb-cli", PLUGIN_API]),
+    ]);
+    may.extend(PLUGINS.map(|p| (p, &[PLUGIN_API, TRIANGLES] as &[&str])));
+    let members = dependencies(&metadata());
+    for (name, needs) in &members {
+        let allowed = may.get(name.as_str()).unwrap_or_else(|| panic!("{name} has no floor yet: say in this test whom it may know"));
+        let ours = needs.iter().filter(|n| members.contains_key(*n));
+        let wrong: Vec<_> = ours.filter(|n| !allowed.contains(&n.as_str())).collect();
+        assert!(wrong.is_empty(), "{name} must not depend on {wrong:?} (floors in ARCHITECTURE.md)");
+    }
+}
+
+#[test]
+fn only_the_sandbox_can_load_a_library() {
+    for (name, needs) in dependencies(&metadata()) {
+        assert!(name == "ocb-sandbox" || !needs.contains("libloading"), "{name} depends on libloading: foreign code is loaded by the runner alone");
+    }
+}
+
+#[test]
+fn the_oracle_shares_no_code_with_a_contestant() {
+    let metadata = metadata();
+    let core = closure(&metadata, "ocb-core");
+    assert!(core.contains("nalgebra"), "the test sees no dependencies at all");
+    for plugin in PLUGINS {
+        let own = closure(&metadata, plugin);
+        // Plumbing such as serde may be shared; geometry and arithmetic on coordinates may not.
+        let geometry = |n: &str| ["parry", "robust", "nalgebra", "glam", "ocb-"].iter().any(|g| n.starts_with(g)) || n == PLUGIN_API;
+        let shared: Vec<_> = own.intersection(&core).filter(|n| geometry(n)).collect();
+        assert!(shared.is_empty(), "{plugin} and the oracle are both built from {shared:?}");
+    }
+}

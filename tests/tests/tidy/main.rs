@@ -1,0 +1,6 @@
+//! The invariants of ARCHITECTURE.md that reading the repository can check.
+
+mod files;
+mod floors;
+mod licences;
+mod sources;

@@ -1,0 +1,70 @@
+//! What the sources of a floor may contain.
+
+use std::path::{Path, PathBuf};
+
+use ocb_tests::place::{text, tracked};
+
+/// Rust sources below `folder`.
+fn rust_below(folder: &str) -> Vec<(PathBuf, String)> {
+    let files = tracked().into_iter().filter(|p| p.starts_with(folder) && p.extension().is_some_and(|e| e == "rs"));
+    let found: Vec<_> = files.filter_map(|p| text(&p).map(|t| (p, t))).collect();
+    assert!(!found.is_empty(), "no Rust sources below {folder}");
+    found
+}
+
+/// The code of a line: nothing of a comment.
+fn code(line: &str) -> &str {
+    line.split("//").next().unwrap_or("")
+}
+
+fn hits(files: &[(PathBuf, String)], needles: &[&str]) -> Vec<String> {
+    let mut found = Vec::new();
+    for (path, text) in files {
+        for (i, line) in text.lines().enumerate() {
+            if needles.iter().any(|n| code(line).contains(n)) {
+                found.push(format!("{}:{}: {}", path.display(), i + 1, line.trim()));
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn the_core_does_no_io_and_knows_no_clock() {
+    let needles = ["std::fs", "std::net", "std::process", "std::thread", "std::time", "std::env", "println!", "SystemTime", "Instant"];
+    let found = hits(&rust_below("host/core/src"), &needles);
+    assert!(found.is_empty(), "host/core is pure:\n{}", found.join("\n"));
+    let lib = text(Path::new("host/core/src/lib.rs")).expect("lib.rs");
+    assert!(lib.contains("#![forbid(unsafe_code)]"), "host/core forbids unsafe code");
+}
+
+#[test]
+fn unsafe_stands_in_few_files() {
+    // The ABI on both of its sides, the jail, and the place that pins threads to CPUs; a test's support may play the host.
+    const ALLOWED: [&str; 4] = ["plugin-api/", "sandbox/", "host/engine/src/machine.rs", "plugins/common/tests/support/"];
+    let mut found = Vec::new();
+    for (path, text) in ["host", "plugin-api", "plugins", "sandbox", "web", "tests"].iter().flat_map(|f| rust_below(f)) {
+        let uses = text.lines().any(|l| ["{", "fn", "impl", "extern", "trait"].iter().any(|k| code(l).contains(&["unsafe ", k].concat())));
+        if uses && !ALLOWED.iter().any(|a| path.starts_with(a)) {
+            found.push(path);
+        }
+    }
+    assert!(found.is_empty(), "unsafe outside the files that may hold it: {found:?}");
+}
+
+#[test]
+fn the_reference_never_enters_the_runner() {
+    let found = hits(&rust_below("sandbox/src"), &["Truth", "Placed", "oracle", "Verdict", "validation"]);
+    assert!(found.is_empty(), "the sandbox must not know the truth:\n{}", found.join("\n"));
+}
+
+#[test]
+fn libraries_are_opened_in_the_runner_alone() {
+    let outside: Vec<_> = ["host", "web", "sandbox", "plugins", "plugin-api"]
+        .iter()
+        .flat_map(|f| rust_below(f))
+        .filter(|(p, _)| !p.starts_with("sandbox/src/runner") && !p.components().any(|c| c.as_os_str() == "tests"))
+        .collect();
+    let found = hits(&outside, &["libloading", "dlopen"]);
+    assert!(found.is_empty(), "only the runner opens a plugin:\n{}", found.join("\n"));
+}
