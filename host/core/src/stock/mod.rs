@@ -48,7 +48,7 @@ const OBJECTS: &[StockObject] = &[
     StockObject {
         name: "sponge",
         description: "A rounded block full of pores that run into each other: far more surface inside than outside.",
-        default_triangles: 30_000,
+        default_triangles: 60_000,
         lowest_triangles: 500,
         make: sponge::sponge,
     },

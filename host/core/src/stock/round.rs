@@ -28,8 +28,11 @@ pub fn torus_knot(mut detail: Detail) -> Soup {
         let r = 1.0 + 0.42 * wind.cos();
         Point::new(r * turn.cos(), r * turn.sin(), 0.42 * wind.sin())
     };
+    // The steps along make up for the rounding of the few steps around, so that the count has no gaps.
+    let around = detail.steps(TAU * tube, 3);
+    let along = (length * TAU * tube * detail.density().powi(2) / around as f64).round() as usize;
     let mut soup = Soup::default();
-    soup.add(torus_grid(detail.steps(length, 40), detail.steps(TAU * tube, 3), |u, v| {
+    soup.add(torus_grid(along.max(40), around, |u, v| {
         let along: Vector = (center(u + 1e-4) - center(u - 1e-4)).normalize();
         // The outward direction of the torus that the knot lies on; never parallel to the knot.
         let hub = Point::new((2.0 * TAU * u).cos(), (2.0 * TAU * u).sin(), 0.0);

@@ -8,12 +8,17 @@ use super::builder::{Detail, Point, Soup, Vector};
 const HALF: [f64; 3] = [1.0, 0.68, 0.45];
 /// Radius of the block's rounded edges.
 const ROUND: f64 = 0.12;
-/// Distance between neighbouring pores.
-const PORE_PITCH: f64 = 0.42;
 
 /// A rounded block full of pores that run into each other: one closed surface with very much inside.
 pub fn sponge(detail: Detail) -> Soup {
     let step = detail.density().recip();
+    // Distance between neighbouring pores: a coarse sponge has fewer and larger ones.
+    let pitch = match detail.triangles {
+        ..3_000 => 0.8,
+        3_000..12_000 => 0.62,
+        12_000..50_000 => 0.48,
+        _ => 0.37,
+    };
     // The grid reaches at least a step beyond the block on all sides, so the surface is closed. It is shifted by a
     // fraction of a step that changes fast with the density: coarse grids jump in their triangle count, and this lets
     // nearly equal densities give different counts.
@@ -26,7 +31,7 @@ pub fn sponge(detail: Detail) -> Soup {
     let mut field = Vec::with_capacity(points.iter().product());
     for z in 0..points[2] {
         for y in 0..points[1] {
-            field.extend((0..points[0]).map(|x| inside(place([x, y, z]))));
+            field.extend((0..points[0]).map(|x| inside(place([x, y, z]), pitch)));
         }
     }
 
@@ -51,7 +56,7 @@ pub fn sponge(detail: Detail) -> Soup {
                             *cut.entry((i.min(j), i.max(j))).or_insert_with(|| {
                                 let (fa, fb) = (field[i], field[j]);
                                 // Kept off the grid points: there, several cuts would meet in triangles without area.
-                                let t = (fa / (fa - fb)).clamp(0.12, 0.88);
+                                let t = (fa / (fa - fb)).clamp(0.04, 0.96);
                                 soup.positions.push(place(a) + t * (place(b) - place(a)));
                                 soup.positions.len() as u32 - 1
                             })
@@ -101,30 +106,30 @@ fn march(
 }
 
 /// Negative inside the sponge: in the block, and in no pore.
-fn inside(p: Point) -> f64 {
+fn inside(p: Point, pitch: f64) -> f64 {
     let beyond = Vector::from([0, 1, 2].map(|k| p[k].abs() - (HALF[k] - ROUND)));
     let block = beyond.sup(&Vector::zeros()).norm() + beyond.max().min(0.0) - ROUND;
-    if block > PORE_PITCH {
+    if block > pitch {
         return block;
     }
-    let cell = [0, 1, 2].map(|k| (p[k] / PORE_PITCH).floor() as i32);
+    let cell = [0, 1, 2].map(|k| (p[k] / pitch).floor() as i32);
     let mut pore = f64::INFINITY;
     for offset in 0..27 {
         let c = [cell[0] + offset % 3 - 1, cell[1] + offset / 3 % 3 - 1, cell[2] + offset / 9 - 1];
-        let (center, radius) = hole(c);
+        let (center, radius) = hole(c, pitch);
         pore = pore.min((p - center).norm() - radius);
     }
     block.max(-pore)
 }
 
 /// The pore of a lattice cell: its place and size are shaken by a hash of the cell.
-fn hole(cell: [i32; 3]) -> (Point, f64) {
+fn hole(cell: [i32; 3], pitch: f64) -> (Point, f64) {
     let mut hash = cell.iter().fold(0x9e37_79b9_u32, |h, &c| (h ^ c as u32).wrapping_mul(0x85eb_ca6b).rotate_left(13));
     let mut next = || {
         hash ^= hash >> 16;
         hash = hash.wrapping_mul(0xc2b2_ae35).rotate_left(7) ^ (hash >> 13);
         f64::from(hash) / f64::from(u32::MAX)
     };
-    let center = cell.map(|c| PORE_PITCH * (f64::from(c) + 0.3 + 0.4 * next()));
-    (Point::from(Vector::from(center)), PORE_PITCH * (0.4 + 0.22 * next()))
+    let center = cell.map(|c| pitch * (f64::from(c) + 0.3 + 0.4 * next()));
+    (Point::from(Vector::from(center)), pitch * (0.38 + 0.2 * next()))
 }

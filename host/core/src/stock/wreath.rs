@@ -54,7 +54,7 @@ fn leaf(soup: &mut Soup, detail: &mut Detail, i: u32, of: u32) {
     let (i, of) = (f64::from(i), f64::from(of));
     let angle = (i + 0.5) / of;
     let roll = (i * 0.381_966_011_250_105_1).fract();
-    let (root, away) = around(angle, roll, 0.05);
+    let (root, away) = around(angle, roll, 0.03);
     let along = frame(angle)[2];
     let direction = (0.75 * along + 0.8 * away).normalize();
     let side = direction.cross(&away).normalize();
@@ -75,8 +75,8 @@ fn leaf(soup: &mut Soup, detail: &mut Detail, i: u32, of: u32) {
 fn berry(soup: &mut Soup, detail: &mut Detail, i: u32, of: u32) {
     let part = detail.part();
     let angle = (f64::from(i) + 0.2) / f64::from(of);
-    let (at, _) = around(angle, 0.125 + (f64::from(i) * 0.381_966_011_250_105_1).fract() * 0.25, 0.13);
-    let r = 0.045;
+    let (at, _) = around(angle, 0.125 + (f64::from(i) * 0.381_966_011_250_105_1).fract() * 0.25, 0.19);
+    let r = 0.05;
     let ball =
         lathe(part, &smooth(part, &[(0.0, -r), (0.71 * r, -0.71 * r), (r, 0.0), (0.71 * r, 0.71 * r), (0.0, r)], 2), 4);
     soup.add_at(ball, |p| at + p.coords);

@@ -257,6 +257,44 @@ fn tiny_and_huge_faces_are_cut_alike() {
     }
 }
 
+/// The files for tests and measurements that stand beside the repository; `OCB_SHARED` names another place.
+#[test]
+fn shared_meshes_have_the_triangles_their_list_says() {
+    let folder = std::env::var_os("OCB_SHARED").map_or_else(
+        || std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared"),
+        std::path::PathBuf::from,
+    );
+    for (name, triangles, closed) in [
+        ("bunny1k", 1_023, false),
+        ("bunny4k", 4_096, false),
+        ("bunny16k", 16_383, false),
+        ("bunny65k", 65_536, false),
+        ("dragon1k", 1_024, false),
+        ("dragon4k", 4_096, false),
+        ("dragon16k", 16_384, false),
+        ("dragon65k", 65_536, false),
+        ("knot16k", 16_392, true),
+        ("knot65k", 65_520, true),
+        ("fandisk", 12_946, true),
+        ("rocker-arm", 20_088, true),
+        ("teapot", 6_320, false),
+        ("homer", 12_000, true),
+        ("fcl_env", 2_180, false),
+        ("fcl_rob", 216, false),
+    ] {
+        let path = folder.join("meshes").join(name).with_extension("obj");
+        let bytes = std::fs::read(&path).unwrap_or_else(|e| {
+            panic!("{} cannot be read ({e}); set OCB_SHARED to the folder that holds meshes/", path.display())
+        });
+        let mesh = ok(bytes).mesh;
+        assert_eq!((mesh.triangles().len(), mesh.is_closed()), (triangles, closed), "{name}");
+        assert!((mesh.bounds().diagonal() - 1.0).abs() < 1e-5, "{name}");
+        // Not assert_eq: nobody wants to read 65,536 triangles.
+        assert!(ok(write(&mesh)).mesh == mesh, "{name}");
+        assert!(mesh.to_f32_representable().is_ok(), "{name}");
+    }
+}
+
 proptest! {
     #[test]
     fn no_bytes_make_it_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
