@@ -29,7 +29,16 @@ pub struct About {
 impl About {
     /// Nothing said but a version; set the rest with `..About::new()`.
     pub const fn new() -> Self {
-        Self { id: c"", name: c"", version: c"0.1.0", authors: c"", license: c"", url: c"", paper: c"", capabilities: 0 }
+        Self {
+            id: c"",
+            name: c"",
+            version: c"0.1.0",
+            authors: c"",
+            license: c"",
+            url: c"",
+            paper: c"",
+            capabilities: 0,
+        }
     }
 }
 
@@ -122,8 +131,7 @@ pub struct Pose(pub [f64; 16]);
 
 impl Pose {
     /// The object where its file puts it.
-    pub const IDENTITY: Self =
-        Self([1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+    pub const IDENTITY: Self = Self([1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
 
     /// Rows of the rotation.
     pub fn rotation(&self) -> [[f64; 3]; 3] {

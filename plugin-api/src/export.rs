@@ -123,7 +123,8 @@ impl Extensions {
     /// With `ocb.distance/1`.
     pub const fn distance<A: Distance>(mut self) -> Self {
         let struct_size = size_of::<raw::distance::Distance>() as u32;
-        self.distance = Some(raw::distance::Distance { struct_size, reserved: 0, distance: Some(calls::distance::<A>) });
+        self.distance =
+            Some(raw::distance::Distance { struct_size, reserved: 0, distance: Some(calls::distance::<A>) });
         self.counters.count_distance = Some(calls::count_distance::<A>);
         self
     }
@@ -131,7 +132,8 @@ impl Extensions {
     /// With `ocb.contacts/1`.
     pub const fn contacts<A: Contacts>(mut self) -> Self {
         let struct_size = size_of::<raw::contacts::Contacts>() as u32;
-        self.contacts = Some(raw::contacts::Contacts { struct_size, reserved: 0, contacts: Some(calls::contacts::<A>) });
+        self.contacts =
+            Some(raw::contacts::Contacts { struct_size, reserved: 0, contacts: Some(calls::contacts::<A>) });
         self.counters.count_contacts = Some(calls::count_contacts::<A>);
         self
     }

@@ -20,15 +20,49 @@ use abi_stable::type_layout::TypeLayout;
 
 use crate::raw;
 
-/// Never made; its layout reaches every struct of the ABI, the extension tables included.
+/// Never made; its layout holds that of every struct of the ABI, each by value, so that the comparison need not be trusted
+/// to follow pointers.
 #[repr(C)]
 #[derive(StableAbi)]
 pub struct Abi {
     entry: unsafe extern "C" fn(u32) -> *const raw::Plugin,
-    distance: *const raw::distance::Distance,
-    contacts: *const raw::contacts::Contacts,
-    counters: *const raw::counters::Counters,
-    parameters: *const raw::parameters::Parameters,
+    plugin: raw::Plugin,
+    algorithm: raw::Algorithm,
+    collide_request: raw::CollideRequest,
+    collide_result: raw::CollideResult,
+    distance: raw::distance::Distance,
+    distance_request: raw::distance::DistanceRequest,
+    distance_result: raw::distance::DistanceResult,
+    contacts: raw::contacts::Contacts,
+    contacts_request: raw::contacts::ContactsRequest,
+    contacts_result: raw::contacts::ContactsResult,
+    contact: raw::contacts::Contact,
+    counters: raw::counters::Counters,
+    counts: raw::counters::Counts,
+    parameters: raw::parameters::Parameters,
+    parameter: raw::parameters::Parameter,
+}
+
+impl Abi {
+    /// The layouts of all of them, for review.
+    pub const STRUCTS: [&'static TypeLayout; 16] = [
+        Self::LAYOUT,
+        raw::Plugin::LAYOUT,
+        raw::Algorithm::LAYOUT,
+        raw::CollideRequest::LAYOUT,
+        raw::CollideResult::LAYOUT,
+        raw::distance::Distance::LAYOUT,
+        raw::distance::DistanceRequest::LAYOUT,
+        raw::distance::DistanceResult::LAYOUT,
+        raw::contacts::Contacts::LAYOUT,
+        raw::contacts::ContactsRequest::LAYOUT,
+        raw::contacts::ContactsResult::LAYOUT,
+        raw::contacts::Contact::LAYOUT,
+        raw::counters::Counters::LAYOUT,
+        raw::counters::Counts::LAYOUT,
+        raw::parameters::Parameters::LAYOUT,
+        raw::parameters::Parameter::LAYOUT,
+    ];
 }
 
 /// What stands behind the symbol [`raw::LAYOUT_SYMBOL`].
@@ -41,7 +75,12 @@ pub struct LayoutNote {
 
 impl LayoutNote {
     /// The note of this build.
-    pub const THIS: Self = Self { header: AbiHeader::VALUE, layout: <Abi as StableAbi>::LAYOUT };
+    pub const THIS: Self = Self::of::<Abi>();
+
+    /// The note of a build with another idea of the ABI; for tests.
+    pub const fn of<T: StableAbi>() -> Self {
+        Self { header: AbiHeader::VALUE, layout: T::LAYOUT }
+    }
 }
 
 /// Why a plugin's note does not fit.

@@ -35,3 +35,8 @@ pub use algorithm::{
     Refusal, Separation,
 };
 pub use count::{Count, Counts, Uncounted};
+
+/// The code in the guide compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -39,18 +39,19 @@ impl Soup {
         soup
     }
 
-    /// Two triangles, a point and a segment: what a polygon soup may contain.
+    /// A triangle from both sides, a point and a segment: what a polygon soup may contain.
     pub fn scraps() -> Self {
         Self {
             positions: vec![
                 [0.0, 0.0, 0.0],
                 [1.0, 0.0, 0.0],
                 [0.0, 1.0, 0.0],
-                [0.0, 0.0, 5.0],
-                [0.0, 0.0, 6.0],
-                [0.0, 0.0, 7.0],
+                [0.4, 0.4, 0.4],
+                [0.2, 0.2, -0.5],
+                [0.2, 0.2, 0.0],
+                [0.2, 0.2, 0.8],
             ],
-            triangles: vec![[0, 1, 2], [2, 1, 0], [3, 3, 3], [3, 4, 5]],
+            triangles: vec![[0, 1, 2], [2, 1, 0], [3, 3, 3], [4, 5, 6]],
         }
     }
 }
@@ -109,6 +110,45 @@ impl<A: Contacts> Loaded<A> {
         let mut pairs: Vec<(u32, u32)> = room.iter().map(|c: &raw::contacts::Contact| (c.a, c.b)).collect();
         pairs.sort_unstable();
         pairs
+    }
+}
+
+/// All pairs of triangles in the world frame: what the tests believe.
+///
+/// Not the plugin brute-force, although it would do: two plugins in one program both export the entry point.
+pub struct Reference<'a>(pub &'a Soup);
+
+impl Reference<'_> {
+    fn pairs(&self, pose_a: &Pose, pose_b: &Pose, mut visit: impl FnMut([u32; 2], &[[f64; 3]; 3], &[[f64; 3]; 3])) {
+        let all = |pose| (0..self.0.triangles.len() as u32).map(move |i| (i, in_world(self.0, i, pose)));
+        let in_b: Vec<_> = all(pose_b).collect();
+        for (a, in_a) in all(pose_a) {
+            for (b, in_b) in &in_b {
+                visit([a, *b], &in_a, in_b);
+            }
+        }
+    }
+
+    /// All contacts in ascending order.
+    pub fn contacts(&self, pose_a: &Pose, pose_b: &Pose) -> Vec<(u32, u32)> {
+        let mut found = Vec::new();
+        self.pairs(pose_a, pose_b, |[a, b], in_a, in_b| {
+            if ocb_triangles::meet(in_a, in_b) {
+                found.push((a, b));
+            }
+        });
+        found
+    }
+
+    /// The minimum distance.
+    pub fn distance(&self, pose_a: &Pose, pose_b: &Pose) -> f64 {
+        let mut squared = f64::INFINITY;
+        self.pairs(pose_a, pose_b, |_, in_a, in_b| {
+            if let Some(closest) = ocb_triangles::distance_below(in_a, in_b, squared) {
+                squared = closest.squared;
+            }
+        });
+        squared.sqrt()
     }
 }
 
