@@ -12,8 +12,6 @@ pub struct Relative {
     translation: Vector,
     /// Magnitudes of `rotation`.
     reach: [Vector; 3],
-    /// 1 / |a_i x b_j| for the axes of A and B, and 0 where they are so nearly parallel that the product is noise.
-    scale: [Vector; 3],
     /// What rounding and imperfect rotations may add to any projection. Boxes are only ever told apart beyond it, so
     /// that no contact is lost.
     pub slack: f64,
@@ -31,14 +29,8 @@ impl Relative {
             + norm_1(root_b.half)
             + norm_1(translation);
         let skew = skew(&columns_a) + skew(&columns_b);
-        let scale = rotation.map(|row| {
-            row.map(|cos| {
-                let sin_squared = 1.0 - cos * cos;
-                if sin_squared > 1e-6 { 1.0 / sin_squared.sqrt() } else { 0.0 }
-            })
-        });
         let reach = rotation.map(|row| row.map(f64::abs));
-        Self { rotation, translation, reach, scale, slack: size * (64.0 * f64::EPSILON + 8.0 * skew) }
+        Self { rotation, translation, reach, slack: size * (64.0 * f64::EPSILON + 8.0 * skew) }
     }
 
     /// From the middle of a box of A to that of a box of B, in A's frame.
@@ -73,12 +65,13 @@ impl Relative {
         apart
     }
 
-    /// A lower bound of the distance of the boxes. It stops early, with what it has, when that reaches `limit`.
+    /// A lower bound of the distance of the boxes.
     ///
     /// In the frame of either, the gap between a box and the box around the other one is exact for all that its three
-    /// axes see. `toward` is a good guess of where the gap lies; the edge products add what all of them miss.
+    /// axes see, and `toward` is a good guess of where the gap lies. The nine edge products would save a tenth of the
+    /// tests and more than double the cost of each.
     #[inline(always)]
-    pub fn distance(&self, a: &Node, b: &Node, toward: &Direction, limit: f64) -> f64 {
+    pub fn distance(&self, a: &Node, b: &Node, toward: &Direction) -> f64 {
         let t = self.between(a, b);
         let (r, m) = (&self.rotation, &self.reach);
         let (mut in_a, mut in_b) = (0.0, 0.0);
@@ -90,14 +83,7 @@ impl Relative {
         }
         let own: f64 = if in_a > in_b { in_a } else { in_b };
         let guessed = dot(toward.in_a, t) - dot(toward.reach_a, a.half) - dot(toward.reach_b, b.half);
-        let mut bound = own.sqrt().max(guessed) - self.slack;
-        if bound < limit {
-            for i in 0..3 {
-                for j in 0..3 {
-                    bound = bound.max((self.cross_gap(t, a, b, i, j) - self.slack) * self.scale[i][j]);
-                }
-            }
-        }
+        let bound = own.sqrt().max(guessed) - self.slack;
         bound.max(0.0)
     }
 
