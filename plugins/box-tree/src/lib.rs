@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+mod nearest_first;
 mod query;
 mod relative;
 mod tree;

@@ -1,13 +1,11 @@
 //! Both trees at once: from the pair of roots down to pairs of leaves.
 
-use core::cmp::Ordering;
-use std::collections::BinaryHeap;
-
 use ocb_triangles::vector::{Vector, dot, sub};
 use ocb_triangles::{Closest, Frame, Triangle, distance_below, meet};
 use opencollbench_plugin::{Count, Placed, Separation};
 
 use crate::BoxTree;
+use crate::nearest_first::NearestFirst;
 use crate::relative::{Direction, Relative};
 use crate::tree::{Node, Tree};
 
@@ -19,40 +17,9 @@ pub const MAX_LEAF: usize = 32;
 pub struct Open {
     /// Nodes of A and B whose boxes overlap; the next one last.
     overlapping: Vec<[u32; 2]>,
-    /// Nodes for a distance query; the nearest first.
-    within: BinaryHeap<Within>,
+    /// Nodes for a distance query, with a lower bound of their distance.
+    within: NearestFirst,
 }
-
-/// A pair of nodes with a lower bound of their distance.
-#[derive(Debug)]
-struct Within {
-    bound: f64,
-    /// Size of both boxes.
-    size: f64,
-    pair: [u32; 2],
-}
-
-/// Nearer is greater, since the heap gives the greatest. Of boxes that overlap, the smaller ones first: they lead to
-/// triangles, and so to a bound.
-impl Ord for Within {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.bound.total_cmp(&self.bound).then(other.size.total_cmp(&self.size))
-    }
-}
-
-impl PartialOrd for Within {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Within {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Within {}
 
 /// One query.
 pub struct Traversal<'a, C> {
@@ -113,16 +80,16 @@ impl<'a, C: Count> Traversal<'a, C> {
         true
     }
 
-    /// The closest pair of points. Best first: depth first opens two to eight times as many boxes until it has a good
-    /// bound, which outweighs the heap.
+    /// The closest pair of points. Nearest pairs of boxes first: depth first opens two to eight times as many until it
+    /// has a good bound.
     pub fn nearest(&mut self, open: &mut Open) -> Separation {
+        let mut best = self.dive();
         let open = &mut open.within;
-        open.clear();
-        open.push(Within { bound: 0.0, size: f64::INFINITY, pair: [0, 0] });
-        let mut best = Best::none();
-        while let Some(Within { bound, pair, .. }) = open.pop() {
+        open.restart(best.distance);
+        open.push(0.0, [0, 0]);
+        while let Some((bound, pair)) = open.pop() {
             if bound >= best.distance {
-                break;
+                continue;
             }
             let (a, b) = (&self.a.nodes[pair[0] as usize], &self.b.nodes[pair[1] as usize]);
             let Some(children) = children(pair, a, b) else {
@@ -134,7 +101,7 @@ impl<'a, C: Count> Traversal<'a, C> {
                 let (a, b) = (&self.a.nodes[pair[0] as usize], &self.b.nodes[pair[1] as usize]);
                 let bound = self.relative.distance(a, b, &best.toward);
                 if bound < best.distance {
-                    open.push(Within { bound, size: a.size() + b.size(), pair });
+                    open.push(bound, pair);
                 }
             }
         }
@@ -142,6 +109,23 @@ impl<'a, C: Count> Traversal<'a, C> {
             distance: best.distance,
             points: Some([self.frame.to_world(best.closest.a), self.frame.to_world(best.closest.b)]),
             triangles: Some(best.ids),
+        }
+    }
+
+    /// A first bound: straight down to one pair of leaves, always to the nearer middle.
+    fn dive(&mut self) -> Best {
+        let (mut pair, mut best) = ([0, 0], Best::none());
+        loop {
+            let (a, b) = (&self.a.nodes[pair[0] as usize], &self.b.nodes[pair[1] as usize]);
+            let Some(children) = children(pair, a, b) else {
+                self.nearest_of_leaves(a, b, &mut best);
+                return best;
+            };
+            self.work.bv_tests(2);
+            let [left, right] = children.map(|[a, b]| {
+                self.relative.squared_middle_distance(&self.a.nodes[a as usize], &self.b.nodes[b as usize])
+            });
+            pair = children[usize::from(right < left)];
         }
     }
 

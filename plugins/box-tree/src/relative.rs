@@ -87,6 +87,13 @@ impl Relative {
         bound.max(0.0)
     }
 
+    /// Square of the distance of the middles of two boxes.
+    #[inline(always)]
+    pub fn squared_middle_distance(&self, a: &Node, b: &Node) -> f64 {
+        let t = self.between(a, b);
+        dot(t, t)
+    }
+
     /// The gap along a_i x b_j, times the length of that product.
     #[inline(always)]
     fn cross_gap(&self, t: Vector, a: &Node, b: &Node, i: usize, j: usize) -> f64 {
