@@ -88,7 +88,7 @@ CREATE TABLE results (
     plugin_sha256 TEXT NOT NULL,
     result TEXT NOT NULL,
     records TEXT REFERENCES blobs (sha256),
-    seconds_per_configuration DOUBLE PRECISION,
+    seconds_per_query DOUBLE PRECISION,
     triangles BIGINT NOT NULL,
     query TEXT NOT NULL,
     created_us BIGINT NOT NULL,

@@ -263,7 +263,7 @@ impl Bench<'_> {
             result: measure::summarise(measured),
             records,
             plugin_sha256: algorithm.plugin_sha256.clone(),
-            seconds_per_configuration: measured.seconds_per_query,
+            seconds_per_query: measured.seconds_per_query,
         };
         let triangles = self.triangles(pairing);
         self.log.wait(self.inner.store.keep_result(&self.row.id, lane, &stored, triangles, self.row.spec.query))?;

@@ -21,6 +21,7 @@ pub async fn estimate(inner: &Inner, checked: &Checked) -> Result<Estimate> {
     let key = set_key(&checked.object_a.sha256, &checked.object_b.sha256, spec)?;
     let stored = inner.store.set(&key).await?;
     let configurations = stored.as_ref().map_or(checked.configurations, |s| u64::from(s.info.configurations));
+    let configurations_stored = stored.is_some();
     let configuration_seconds = match stored {
         Some(_) => 0.0,
         None => configurations as f64 * nearest(&inner.store.set_rates().await?, triangles, FIRST_CONFIGURATION),
@@ -40,7 +41,7 @@ pub async fn estimate(inner: &Inner, checked: &Checked) -> Result<Estimate> {
     let (runs_ahead, wait_seconds) = queue_ahead(inner).await?;
     Ok(Estimate {
         configurations,
-        configurations_stored: configuration_seconds == 0.0,
+        configurations_stored,
         configuration_seconds,
         measuring_seconds,
         total_seconds,

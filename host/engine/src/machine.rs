@@ -67,12 +67,16 @@ impl Machine {
         self.allowed.iter().rev().nth(1).copied().unwrap_or_else(|| self.measuring_cpu())
     }
 
-    /// Takes every thread of this process off the measuring CPU until the guard is dropped. Threads that are started
+    /// Takes every thread of this process off the measuring CPU until the guard is dropped, and off the clock's CPU too
+    /// where there are more than two (the sandbox puts the supervising thread itself there). Threads that are started
     /// meanwhile inherit the mask of the thread that starts them.
     pub fn keep_off(&self) -> KeptOff {
-        if self.allowed.len() > 1 {
-            set_all_threads(&self.allowed[..self.allowed.len() - 1]);
-        }
+        let others = match self.allowed.len() {
+            0 | 1 => &self.allowed[..],
+            2 => &self.allowed[..1],
+            n => &self.allowed[..n - 2],
+        };
+        set_all_threads(others);
         KeptOff { allowed: self.allowed.clone() }
     }
 }

@@ -204,6 +204,8 @@ impl Turn<'_> {
             supervisor_cpu: Some(self.machine.supervisor_cpu()),
             // A single question may take a whole turn (brute force on large objects), and no more.
             query_seconds: self.task.budget.as_secs_f64().max(Policy::default().query_seconds),
+            // The turn ends by its allowance; this only catches a runner that never comes back.
+            trial_seconds: 4.0 * self.task.budget.as_secs_f64() + Policy::default().trial_seconds,
             ..Policy::default()
         };
         let trial = Trial {

@@ -15,7 +15,7 @@ pub struct StoredResult {
     /// SHA-256 of the plugin file that was measured.
     pub plugin_sha256: String,
     /// Wall seconds of one query with everything around it, for estimates.
-    pub seconds_per_configuration: Option<f64>,
+    pub seconds_per_query: Option<f64>,
 }
 
 impl Store {
@@ -30,11 +30,11 @@ impl Store {
     ) -> Result<()> {
         sqlx::query(
             "INSERT INTO results (run_id, algorithm, position, plugin_sha256, result, records, \
-             seconds_per_configuration, triangles, query, created_us) \
+             seconds_per_query, triangles, query, created_us) \
              VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10) \
              ON CONFLICT (run_id, algorithm) DO UPDATE SET plugin_sha256 = excluded.plugin_sha256, \
              result = excluded.result, records = excluded.records, \
-             seconds_per_configuration = excluded.seconds_per_configuration, created_us = excluded.created_us",
+             seconds_per_query = excluded.seconds_per_query, created_us = excluded.created_us",
         )
         .bind(run)
         .bind(&stored.result.algorithm)
@@ -42,7 +42,7 @@ impl Store {
         .bind(&stored.plugin_sha256)
         .bind(to_json(&stored.result)?)
         .bind(stored.records.as_deref())
-        .bind(stored.seconds_per_configuration)
+        .bind(stored.seconds_per_query)
         .bind(triangles as i64)
         .bind(to_json(&query)?)
         .bind(now_us())
@@ -54,15 +54,15 @@ impl Store {
     /// The results of a run in the order of its algorithms.
     pub async fn results(&self, run: &str) -> Result<Vec<StoredResult>> {
         let rows: Vec<(String, Option<String>, String, Option<f64>)> = sqlx::query_as(
-            "SELECT result, records, plugin_sha256, seconds_per_configuration FROM results WHERE run_id = $1 \
+            "SELECT result, records, plugin_sha256, seconds_per_query FROM results WHERE run_id = $1 \
              ORDER BY position",
         )
         .bind(run)
         .fetch_all(&self.pool)
         .await?;
         rows.into_iter()
-            .map(|(result, records, plugin_sha256, seconds_per_configuration)| {
-                Ok(StoredResult { result: from_json(&result)?, records, plugin_sha256, seconds_per_configuration })
+            .map(|(result, records, plugin_sha256, seconds_per_query)| {
+                Ok(StoredResult { result: from_json(&result)?, records, plugin_sha256, seconds_per_query })
             })
             .collect()
     }
@@ -70,8 +70,8 @@ impl Store {
     /// Triangles of both objects and wall seconds per query of this algorithm's newest 50 results.
     pub async fn result_rates(&self, algorithm: &str, query: Query) -> Result<Vec<(u64, f64)>> {
         let rows: Vec<(i64, f64)> = sqlx::query_as(
-            "SELECT triangles, seconds_per_configuration FROM results \
-             WHERE algorithm = $1 AND query = $2 AND seconds_per_configuration IS NOT NULL \
+            "SELECT triangles, seconds_per_query FROM results \
+             WHERE algorithm = $1 AND query = $2 AND seconds_per_query IS NOT NULL \
              ORDER BY created_us DESC LIMIT 50",
         )
         .bind(algorithm)

@@ -153,7 +153,7 @@ fn result(algorithm: &str, n: u32) -> StoredResult {
         },
         records: None,
         plugin_sha256: "p".into(),
-        seconds_per_configuration: Some(1e-6),
+        seconds_per_query: Some(1e-6),
     }
 }
 
