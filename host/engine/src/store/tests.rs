@@ -180,7 +180,7 @@ mod contract {
         store.add_object(&nobodys, None, "m").await.unwrap();
         assert_eq!(store.object("1").await.unwrap(), Some((mine.clone(), "m".into())));
         assert_eq!(store.object("9").await.unwrap(), None);
-        assert_eq!(store.objects_of("me").await.unwrap(), [mine.clone()]);
+        assert_eq!(store.objects_of("me").await.unwrap(), std::slice::from_ref(&mine));
         assert_eq!(store.object_with_mesh(&mine.sha256, Some("me")).await.unwrap(), Some(mine.clone()));
         assert_eq!(store.object_with_mesh(&mine.sha256, Some("other")).await.unwrap(), None);
         assert_eq!(store.object_with_mesh(&nobodys.sha256, None).await.unwrap(), Some(nobodys));
