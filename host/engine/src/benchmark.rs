@@ -9,6 +9,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use ocb_core::configuration::{ConfigurationSet, Method};
+use ocb_core::mesh::Mesh;
 use ocb_core::oracle::Shape;
 use tokio::runtime::Handle;
 
@@ -64,6 +65,8 @@ struct Bench<'a> {
 
 /// The two objects, and whether they are one.
 struct Pairing {
+    mesh_a: Arc<Mesh>,
+    mesh_b: Arc<Mesh>,
     a: Shape,
     b: Shape,
     same: bool,
@@ -92,16 +95,16 @@ impl Bench<'_> {
             Some(id) => self.log.wait(self.inner.objects.mesh(id))?,
             None => mesh_a.clone(),
         };
-        let (a, b) = (Shape::new(mesh_a), Shape::new(mesh_b));
+        let (a, b) = (Shape::new(mesh_a.clone()), Shape::new(mesh_b.clone()));
         let done = if same { 1 } else { 2 };
         self.log.progress(OBJECT, done, done)?;
         self.log.end(OBJECT, State::Done, None, None)?;
-        Ok(Pairing { a, b, same })
+        Ok(Pairing { mesh_a, mesh_b, a, b, same })
     }
 
     /// Stored positions when somebody found them before, else new ones; `None` when stopped.
     fn configurations(&mut self, pairing: &Pairing) -> Result<Option<(Arc<ConfigurationSet>, SetInfo)>> {
-        let (a, b) = (pairing.a.mesh(), pairing.b.mesh());
+        let (a, b) = (&pairing.mesh_a, &pairing.mesh_b);
         let (sha_a, sha_b) = (a.sha256(), b.sha256());
         let key = configurations::set_key(&sha_a, &sha_b, &self.row.spec)?;
         let store = self.inner.store.clone();
@@ -144,9 +147,10 @@ impl Bench<'_> {
         };
         self.log.start(CONFIGURATIONS, total)?;
         let gauge = Gauge::default();
+        let longest_side = pairing.mesh_a.longest_side();
         let (gauge, poses) = (&gauge, poses.as_deref());
         let set = thread::scope(|scope| {
-            let worker = scope.spawn(|| configurations::make(&pairing.a, &pairing.b, spec, poses, gauge));
+            let worker = scope.spawn(|| configurations::make(&pairing.a, &pairing.b, longest_side, spec, poses, gauge));
             while !worker.is_finished() {
                 thread::sleep(TICK.min(Duration::from_millis(20)));
                 if self.stop.asked() {
@@ -177,6 +181,8 @@ impl Bench<'_> {
         let Some(_right) = self.right_to_measure()? else { return Ok(End::Stopped) };
         let spec = self.row.spec.clone();
         let task = Task {
+            mesh_a: &pairing.mesh_a,
+            mesh_b: &pairing.mesh_b,
             a: &pairing.a,
             b: &pairing.b,
             same: pairing.same,
@@ -333,7 +339,7 @@ impl Bench<'_> {
     }
 
     fn triangles(&self, pairing: &Pairing) -> u64 {
-        (pairing.a.mesh().triangles().len() + pairing.b.mesh().triangles().len()) as u64
+        (pairing.mesh_a.triangles().len() + pairing.mesh_b.triangles().len()) as u64
     }
 }
 

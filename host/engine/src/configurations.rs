@@ -34,10 +34,11 @@ pub struct Gauge {
     pub stop: AtomicBool,
 }
 
-/// Finds the set, or certifies the given poses. `None` when it was stopped.
+/// Finds the set, or certifies the given poses. `None` when it was stopped. `longest_side` is that of A's bounding box.
 pub fn make(
     a: &Shape,
     b: &Shape,
+    longest_side: f64,
     spec: &RunSpec,
     poses: Option<&[Configuration]>,
     gauge: &Gauge,
@@ -64,7 +65,7 @@ pub fn make(
     let set = ConfigurationSet {
         method: spec.method.clone(),
         relative_distance: spec.relative_distance,
-        longest_side: a.mesh().longest_side(),
+        longest_side,
         placed: found.into_iter().flatten().collect(),
         missed_rays,
     };

@@ -12,6 +12,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use ocb_core::configuration::ConfigurationSet;
+use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::query::Query;
 use ocb_sandbox::{Killer, Outcome, Policy, Session, Trial};
@@ -59,7 +60,11 @@ impl Stop {
 
 /// What is measured.
 pub struct Task<'a> {
-    /// Object A.
+    /// Object A as the algorithms get it.
+    pub mesh_a: &'a Mesh,
+    /// Object B.
+    pub mesh_b: &'a Mesh,
+    /// Object A as the oracle sees it.
     pub a: &'a Shape,
     /// Object B.
     pub b: &'a Shape,
@@ -211,8 +216,8 @@ impl Turn<'_> {
         let trial = Trial {
             plugin: &contestant.file,
             algorithm: &contestant.info.id,
-            mesh_a: self.task.a.mesh(),
-            mesh_b: (!self.task.same).then(|| self.task.b.mesh()),
+            mesh_a: self.task.mesh_a,
+            mesh_b: (!self.task.same).then(|| self.task.mesh_b),
             parameters: &[],
         };
         self.registry.launcher(contestant, policy).start(&trial).map_err(|ending| outcome_info(&ending.outcome))

@@ -117,10 +117,11 @@ impl PluginReport {
         let check = format!("{}: {}", algorithm.id, query_name(query));
         let mesh = stock::generate("torus-knot", TRIANGLES)
             .ok_or_else(|| EngineError::Fault("The smoke object cannot be made.".into()))?;
-        let shape = Shape::new(Arc::new(mesh));
+        let mesh = Arc::new(mesh);
+        let shape = Shape::new(mesh.clone());
         let placed = smoke_configurations(&shape)?;
         let trial =
-            Trial { plugin: file, algorithm: &algorithm.id, mesh_a: shape.mesh(), mesh_b: None, parameters: &[] };
+            Trial { plugin: file, algorithm: &algorithm.id, mesh_a: &mesh, mesh_b: None, parameters: &[] };
         let mut session = match launcher.start(&trial) {
             Ok(session) => session,
             Err(ending) if ending.outcome.ours() => return Err(EngineError::Fault(ending.to_string())),
