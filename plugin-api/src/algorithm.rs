@@ -147,20 +147,20 @@ impl Pose {
 
 /// An object where a query puts it.
 #[derive(Debug)]
-pub struct Placed<'a, A: Algorithm + ?Sized> {
+pub struct Placed<'a, A: Algorithm> {
     /// The object.
     pub object: &'a A::Object,
     /// Where.
     pub pose: &'a Pose,
 }
 
-impl<A: Algorithm + ?Sized> Clone for Placed<'_, A> {
+impl<A: Algorithm> Clone for Placed<'_, A> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<A: Algorithm + ?Sized> Copy for Placed<'_, A> {}
+impl<A: Algorithm> Copy for Placed<'_, A> {}
 
 /// The answer of [`Algorithm::collide`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -157,6 +157,10 @@ impl Extensions {
     }
 
     /// The table of an extension, or null.
+    #[expect(
+        clippy::not_unsafe_ptr_arg_deref,
+        reason = "called by the macro alone, whose expansion must hold no unsafe"
+    )]
     pub fn find(&'static self, id: *const c_char) -> *const c_void {
         fn table<T>(table: Option<&'static T>) -> *const c_void {
             table.map_or(ptr::null(), |table| ptr::from_ref(table).cast())

@@ -120,8 +120,10 @@ impl Run {
 
     fn message(&self) -> String {
         // SAFETY: as for `collide`; the message is a C string.
-        let message: *const c_char = unsafe { self.algorithm.error_message.unwrap()(self.instance) };
-        unsafe { CStr::from_ptr(message) }.to_str().unwrap().to_owned()
+        unsafe {
+            let message: *const c_char = self.algorithm.error_message.unwrap()(self.instance);
+            CStr::from_ptr(message).to_str().unwrap().to_owned()
+        }
     }
 }
 

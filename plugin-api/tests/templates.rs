@@ -7,11 +7,10 @@ mod support;
 
 use std::ffi::CStr;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::ptr::null_mut;
 
 use opencollbench_plugin::{Pose, layout, raw};
-use support::{package, run};
+use support::{command, package, run};
 
 /// A loaded plugin with one algorithm.
 struct Plugin {
@@ -109,7 +108,7 @@ fn check(plugin: &Plugin) {
 fn make(template: &str) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let build = format!("BUILD={}", folder.path().display());
-    run(Command::new("make").arg("-C").arg(package().join("templates").join(template)).arg(build));
+    run(command("make").arg("-C").arg(package().join("templates").join(template)).arg(build));
     let file = folder.path().join("my_plugin.so");
     (folder, file)
 }
@@ -144,7 +143,7 @@ fn the_rust_template_answers() {
     std::fs::copy(package().join("../Cargo.lock"), folder.path().join("Cargo.lock")).expect("copied");
     // Kept from run to run, so that the dependencies are compiled once.
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("rust-template");
-    run(Command::new(env!("CARGO"))
+    run(command(env!("CARGO"))
         .args(["build", "--release", "--quiet", "--target-dir"])
         .arg(&target)
         .current_dir(folder.path()));

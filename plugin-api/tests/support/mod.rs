@@ -9,6 +9,12 @@ pub fn package() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
+/// A command: a compiler, or what starts one.
+#[expect(clippy::disallowed_methods, reason = "the templates are built as their readers build them")]
+pub fn command(program: &str) -> Command {
+    Command::new(program)
+}
+
 /// Runs a command and panics with everything it said when it fails.
 pub fn run(command: &mut Command) {
     let output = command.output().unwrap_or_else(|error| panic!("cannot start {command:?}: {error}"));
@@ -27,13 +33,13 @@ pub const STANDARDS: [(&str, &str); 6] =
 /// Checks a source file as every standard with every compiler there is; gcc must be there.
 pub fn compile_as_every_standard(source: &Path) {
     for (compilers, required) in [(["gcc", "g++"], true), (["clang", "clang++"], false)] {
-        let found = Command::new(compilers[0]).arg("--version").output().is_ok();
+        let found = command(compilers[0]).arg("--version").output().is_ok();
         assert!(found || !required, "{} is needed: install gcc and g++", compilers[0]);
         if !found {
             continue;
         }
         for (language, standard) in STANDARDS {
-            run(Command::new(compilers[usize::from(language == "c++")])
+            run(command(compilers[usize::from(language == "c++")])
                 .args(["-x", language, &format!("-std={standard}")])
                 .args(["-Wall", "-Wextra", "-pedantic", "-Werror", "-fsyntax-only", "-I"])
                 .arg(package().join("include"))

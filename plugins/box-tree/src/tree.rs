@@ -84,7 +84,7 @@ fn split(ids: &mut [u32], bounds: &[Bounds]) -> usize {
     let mut best: Option<(f64, usize, usize)> = None;
     for axis in 0..3 {
         let extent = middles.max[axis] - middles.min[axis];
-        if !(extent > 0.0) {
+        if extent <= 0.0 {
             continue;
         }
         let mut bins = [(0usize, Bounds::NONE); BINS];
