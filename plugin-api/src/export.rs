@@ -10,7 +10,7 @@ use crate::raw;
 
 /// Exports algorithms as a plugin. Once per crate, and the crate type is `cdylib`:
 ///
-/// ```ignore
+/// ```text
 /// opencollbench_plugin::export!(Mine);                                 // collision, first contact
 /// opencollbench_plugin::export!(Mine: distance contacts counters);     // with extensions
 /// opencollbench_plugin::export!(Mine: parameters, Other: distance);    // two algorithms
