@@ -52,16 +52,21 @@ fn brute_force(a: &Shape, b: &Shape, c: &Configuration) -> (f64, f64, Vec<[u32; 
     (lo, hi, contacts)
 }
 
+/// About 120 triangles spread over a stock object, so that all pairs can be tried.
+fn sparse(object: &str) -> Shape {
+    let mesh = ocb_core::stock::generate(object, 1200).expect("a stock object");
+    let corners = mesh.triangles().iter().step_by(10).map(|t| t.map(|v| mesh.positions()[v as usize]));
+    Shape::from_triangles(&corners.collect::<Vec<_>>())
+}
+
 #[test]
 fn the_hierarchy_loses_nothing() {
     let mut random = Random(1);
     for object in ocb_core::stock::list() {
-        // The smallest of each: all pairs are a million.
-        let mesh = ocb_core::stock::generate(object.name, object.lowest_triangles).expect("a listed object");
+        let shape = sparse(object.name);
         let object = object.name;
-        let shape = Shape::new(std::sync::Arc::new(mesh));
         let pair = Pair::new(&shape, &shape);
-        for _ in 0..2 {
+        for _ in 0..8 {
             let c = Configuration { pose_a: random.pose(0.2), pose_b: random.pose(0.6) };
             let t = pair.truth(&c);
             let (lo, hi, contacts) = brute_force(&shape, &shape, &c);
@@ -77,7 +82,7 @@ fn the_hierarchy_loses_nothing() {
 #[test]
 fn any_affine_map_is_taken_at_its_word() {
     let mut random = Random(2);
-    let shape = Shape::new(std::sync::Arc::new(ocb_core::stock::generate("sphere", 500).expect("a stock object")));
+    let shape = sparse("sphere");
     let pair = Pair::new(&shape, &shape);
     for round in 0..6 {
         let mut pose = random.pose(1.0);
@@ -114,4 +119,64 @@ fn a_mesh_far_away_or_tiny_is_as_certain() {
     assert_eq!(large_tiny.hit(&there), tiny_large.hit(&back));
     let (t, s) = (large_tiny.truth(&there), tiny_large.truth(&back));
     assert!(t.distance_lo <= s.distance_hi && s.distance_lo <= t.distance_hi, "{t:?} {s:?}");
+}
+
+/// A cube of 12 triangles whose face diagonals all begin at the corner -1 -1 -1 or end at 1 1 1.
+fn cube(half: f64, centre: f64) -> Shape {
+    const FACES: [[usize; 4]; 6] = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let corner = |i: usize| {
+        let at = |bit: usize| centre + if i & bit == 0 { -half } else { half };
+        nalgebra::Point3::new(at(4), at(2), at(1))
+    };
+    let positions: Vec<_> = (0..8).map(corner).collect();
+    let triangles =
+        FACES.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).map(|t| t.map(|i| i as u32)).collect();
+    Shape::new(std::sync::Arc::new(ocb_core::mesh::Mesh::new(positions, triangles).expect("a cube")))
+}
+
+#[test]
+fn cubes_that_cross_along_face_diagonals_cross_robustly() {
+    // Drake #1668: every piercing point lies on an edge between coplanar triangles, so no pair of triangles has a margin.
+    let (large, small) = (cube(10.0, 0.0), cube(5.0, 14.0));
+    let still = placed(Pose::identity());
+    for pair in [Pair::new(&large, &small), Pair::new(&small, &large)] {
+        assert!(pair.contact_margins(&still).iter().all(|c| c.margin < 1e-9));
+        let t = pair.truth(&still);
+        assert!(t.hit);
+        // The small cube's corner stands 1 deep inside (9 against 10), the others outside.
+        assert!((0.49..=0.5).contains(&t.margin), "{t:?}");
+        assert_eq!((t.class64, t.class32), (Class::Colliding, Class::Colliding));
+    }
+    // A cube inside a cube does not collide: surfaces are asked for.
+    let inner = cube(2.0, 0.0);
+    let t = Pair::new(&large, &inner).tightest_truth(&still);
+    assert_eq!((t.hit, t.distance_lo, t.distance_hi), (false, 8.0, 8.0));
+}
+
+#[test]
+fn the_margin_survives_perturbation() {
+    let shape = Shape::new(mesh("bunny1k"));
+    let pair = Pair::new(&shape, &shape);
+    let mut random = Random(3);
+    let mut tried = 0;
+    while tried < 300 {
+        let c = Configuration { pose_a: random.pose(0.1), pose_b: random.pose(0.4) };
+        let t = pair.truth(&c);
+        if !t.hit || t.margin == 0.0 {
+            continue;
+        }
+        tried += 1;
+        // Only the pair that has the margin, each vertex moved by 0.99 of it.
+        let corners =
+            |pose: &Pose, i: u32| shape.triangles()[i as usize].map(|v| pose.apply(&shape.positions()[v as usize]));
+        let (a, b) = (corners(&c.pose_a, t.witness.triangle_a), corners(&c.pose_b, t.witness.triangle_b));
+        for _ in 0..34 {
+            let mut moved = |p: nalgebra::Point3<f64>| {
+                let direction = nalgebra::Vector3::new(random.signed(), random.signed(), random.signed());
+                p + direction.normalize() * (0.99 * t.margin)
+            };
+            let (a, b) = (Shape::from_triangles(&[a.map(&mut moved)]), Shape::from_triangles(&[b.map(&mut moved)]));
+            assert!(Pair::new(&a, &b).hit(&placed(Pose::identity())), "{c:?}");
+        }
+    }
 }

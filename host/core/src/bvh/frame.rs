@@ -181,10 +181,11 @@ impl<'t> Frame<'t> {
         (bound * f32x8::splat(1.0 - 1e-5) - f32x8::splat(self.slack)).max(zero)
     }
 
-    /// When the boxes come within the target along all six axes, and when they have left it along one.
+    /// When the boxes may come within the target, and when they have left it along one axis (before `enter`: never).
     fn way_bounds(&self, p: &Projections, speeds: &[f32x8; 3], own_speeds: &[f32x8; 3], target: f32) -> (f32x8, f32x8) {
         // The way itself is up to some units long and the speeds are rounded: four times the slack of a distance.
-        let spare = f32x8::splat(target * (1.0 + 1e-5) + 4.0 * self.slack);
+        let within = target * (1.0 + 1e-5) + 4.0 * self.slack;
+        let spare = f32x8::splat(within);
         let mut enter = f32x8::splat(0.0);
         let mut leave = f32x8::splat(f32::INFINITY);
         for (axes, speeds) in [(&p.other, speeds), (&p.own, own_speeds)] {
@@ -198,8 +199,37 @@ impl<'t> Frame<'t> {
                 leave = leave.min((reach - toward) / size);
             }
         }
+        // Single axes say little about corners; that matters as soon as the target is more than rounding.
+        if within > 64.0 * self.slack {
+            for _ in 0..3 {
+                let reached = enter;
+                for (axes, speeds) in [(&p.other, speeds), (&p.own, own_speeds)] {
+                    enter = enter.max(next_on_way(axes, speeds, reached, within));
+                }
+            }
+        }
         (enter, leave)
     }
+}
+
+/// One step of Newton's iteration for the way after which the gap vector of three axes is no longer than `within`.
+///
+/// Its length is convex along the way, so a step from before the root does not pass it; infinite when there is no root.
+fn next_on_way(axes: &[(f32x8, f32x8); 3], speeds: &[f32x8; 3], way: f32x8, within: f32) -> f32x8 {
+    let zero = f32x8::splat(0.0);
+    let (mut squared, mut product) = (zero, zero);
+    for ((distance, extent), speed) in axes.iter().zip(speeds) {
+        let at = *distance + way * *speed;
+        let gap = (at.abs() - *extent).max(zero);
+        squared += gap * gap;
+        product += gap * at.simd_lt(zero).select(-*speed, *speed);
+    }
+    let length = squared.sqrt();
+    // The slope is rounded; a steeper one only makes the step shorter.
+    let descent = f32x8::splat(4e-6) - product / length.max(f32x8::splat(f32::MIN_POSITIVE));
+    let excess = length - f32x8::splat(within);
+    let step = descent.simd_gt(zero).select(excess / descent, f32x8::splat(f32::INFINITY));
+    excess.simd_gt(zero).select(way + step, way)
 }
 
 fn scaled(b: Obb, scale: f32) -> Obb {

@@ -38,6 +38,8 @@ mod nearest;
 mod rational;
 mod scene;
 mod straddle;
+#[cfg(test)]
+mod tests;
 mod triangle;
 
 use std::sync::Arc;

@@ -1,0 +1,125 @@
+//! The sphere method: as many configurations as promised, each certified, each at the first root of its ray.
+
+mod common;
+
+use std::sync::Arc;
+
+use ocb_core::configuration::{Class, Placed, Sampling};
+use ocb_core::oracle::{Pair, Shape, U32};
+use ocb_core::sampling::sphere::{MAX_CONFIGURATIONS, Plan, SamplingError, count};
+
+fn stock(name: &str) -> Shape {
+    Shape::new(Arc::new(ocb_core::stock::generate(name, 2000).expect("a stock object")))
+}
+
+const COUNT: Sampling = Sampling::Count { count: 300 };
+
+#[test]
+fn the_number_is_known_before() {
+    let steps = |rotate, move_by| count(&Sampling::Steps { rotate, move_by });
+    // 3 + 9 + 14 + 17 + 18 + 17 + 14 + 9 + 3 = 104 places by 20 degrees, for directions and for axes; 18 turns.
+    assert_eq!(steps(20.0, 20.0), Ok(104 * 104 * 18));
+    assert_eq!(count(&Sampling::PaperCompat { rotate: 20.0, move_by: 20.0 }), steps(20.0, 20.0));
+    // Two rows of three places by 90 degrees.
+    assert_eq!(steps(90.0, 90.0), Ok(6 * 6 * 4));
+    assert_eq!(count(&Sampling::Count { count: 17 }), Ok(17));
+    assert_eq!(count(&Sampling::Count { count: 0 }), Err(SamplingError::NoConfigurations));
+    assert_eq!(count(&Sampling::Count { count: 1_000_000_000 }), Err(SamplingError::TooMany(1_000_000_000)));
+    assert!(matches!(steps(1.0, 1.0), Err(SamplingError::TooMany(n)) if n > MAX_CONFIGURATIONS));
+    for bad in [0.0, -20.0, 180.5, f64::NAN, f64::INFINITY] {
+        assert!(matches!(steps(bad, 20.0), Err(SamplingError::Degrees { name: "rotate-by", .. })), "{bad}");
+        assert!(matches!(steps(20.0, bad), Err(SamplingError::Degrees { name: "move-by", .. })), "{bad}");
+    }
+    let shape = stock("sphere");
+    for bad in [-0.1, f64::NAN, f64::INFINITY] {
+        assert!(matches!(Plan::new(&shape, &shape, &COUNT, bad, 0), Err(SamplingError::RelativeDistance(_))));
+    }
+}
+
+fn check(pair: &Pair, placed: &Placed, wanted: f64) {
+    let tau = pair.tau(&placed.configuration, U32);
+    let (lo, hi) = (placed.truth.distance_lo, placed.truth.distance_hi);
+    if wanted == 0.0 {
+        assert!(lo > 2.0 * tau && hi <= 4.0 * tau, "[{lo}, {hi}] is not in (2, 4] times {tau}");
+    } else {
+        assert!((lo - wanted).abs() <= tau && (hi - wanted).abs() <= tau, "[{lo}, {hi}] instead of {wanted}");
+    }
+    assert_eq!((placed.truth.class64, placed.truth.class32), (Class::Clear, Class::Clear));
+    // What the search was told to be near does not change the truth.
+    let again = pair.truth(&placed.configuration);
+    assert!(again.distance_lo <= hi && lo <= again.distance_hi);
+    let r = placed.configuration.pose_b.linear;
+    assert!((r.transpose() * r - nalgebra::Matrix3::identity()).amax() < 5e-16, "{r} is no rotation");
+}
+
+#[test]
+fn every_configuration_is_certified_at_the_wanted_distance() {
+    for (a, b) in [("torus-knot", "torus-knot"), ("sphere", "box")] {
+        let (a, b) = (stock(a), stock(b));
+        let pair = Pair::new(&a, &b);
+        let bounds = a.positions().iter().map(|p| p.coords);
+        let (lo, hi) = (bounds.clone().reduce(|x, y| x.inf(&y)), bounds.reduce(|x, y| x.sup(&y)));
+        let longest = (hi.expect("vertices") - lo.expect("vertices")).amax();
+        for distance in [0.0, 0.001, 0.2, 1.5] {
+            let plan = Plan::new(&a, &b, &COUNT, distance, 7).expect("a plan");
+            let placed: Vec<Placed> = (0..plan.len()).filter_map(|i| plan.place(i)).collect();
+            // Both objects are around their centres, except that a ray may pass the knot's hole.
+            assert!(placed.len() > 290, "{} placed", placed.len());
+            placed.iter().for_each(|p| check(&pair, p, distance * longest));
+        }
+    }
+}
+
+#[test]
+fn nothing_is_nearer_before_on_the_ray() {
+    let shape = stock("torus-knot");
+    let pair = Pair::new(&shape, &shape);
+    for distance in [0.0, 0.05] {
+        let plan = Plan::new(&shape, &shape, &COUNT, distance, 3).expect("a plan");
+        for placed in (0..40).filter_map(|i| plan.place(i)) {
+            // Back along the ray the distance must always be at least the one that was reached.
+            let back = placed.configuration.pose_b.translation.normalize();
+            for step in 1..40 {
+                let mut earlier = placed.configuration;
+                earlier.pose_b.translation += back * (0.04 * f64::from(step));
+                let truth = pair.truth(&earlier);
+                let tau = pair.tau(&earlier, U32);
+                assert!(truth.distance_hi >= placed.truth.distance_lo - 2.0 * tau, "{step}: {truth:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_configuration_is_a_function_of_its_number() {
+    let shape = stock("torus-knot");
+    for sampling in [COUNT, Sampling::PaperCompat { rotate: 60.0, move_by: 60.0 }] {
+        let plan = |seed| Plan::new(&shape, &shape, &sampling, 0.0, seed).expect("a plan");
+        let (first, second, other) = (plan(1), plan(1), plan(2));
+        for i in (0..first.len()).rev().step_by(29) {
+            assert_eq!(first.place(i), second.place(i));
+            let same = first.place(i) == other.place(i);
+            assert_eq!(same, matches!(sampling, Sampling::PaperCompat { .. }), "only low-discrepancy sets have a seed");
+        }
+    }
+    // A smaller set is the beginning of a larger one.
+    let few = Plan::new(&shape, &shape, &Sampling::Count { count: 10 }, 0.0, 1).expect("a plan");
+    let many = Plan::new(&shape, &shape, &COUNT, 0.0, 1).expect("a plan");
+    assert_eq!(few.place(9), many.place(9));
+}
+
+#[test]
+fn a_ray_that_meets_nothing_gives_nothing() {
+    // Two far rings of small triangles around the centre line: a small B passes between them on many rays.
+    let ring = |x: f64| {
+        (0..6).map(move |k| {
+            let (s, c) = (f64::from(k) * 1.047).sin_cos();
+            [[x, s, c], [x, s + 0.01, c], [x, s, c + 0.01]].map(nalgebra::Point3::from)
+        })
+    };
+    let a = Shape::from_triangles(&ring(-1.0).chain(ring(1.0)).collect::<Vec<_>>());
+    let b = Shape::from_triangles(&[[[0.0, 0.0, 0.0], [0.01, 0.0, 0.0], [0.0, 0.01, 0.0]].map(nalgebra::Point3::from)]);
+    let plan = Plan::new(&a, &b, &COUNT, 0.0, 0).expect("a plan");
+    let placed = (0..plan.len()).filter_map(|i| plan.place(i)).count();
+    assert!(placed < 100, "{placed} of 300 rays end at twelve small triangles");
+}
