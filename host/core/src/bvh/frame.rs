@@ -47,8 +47,7 @@ impl<'t> Frame<'t> {
     /// `size` bounds the absolute coordinates of both mapped objects.
     pub(crate) fn new(a: &'t Tree, pose_a: &Pose, b: &'t Tree, pose_b: &Pose, size: f64) -> Option<Self> {
         let deviation = deviation(&pose_a.linear).max(deviation(&pose_b.linear));
-        // Written so that NaN fails, too.
-        if !(deviation <= MOST_DEVIATION) {
+        if deviation > MOST_DEVIATION {
             return None;
         }
         let between = pose_b.apply(&b.origin) - pose_a.apply(&a.origin);

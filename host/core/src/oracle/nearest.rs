@@ -89,8 +89,8 @@ impl Search<'_, '_> {
     fn look(&mut self, pair: [u32; 2]) -> bool {
         let (a, b) = self.scene.triangles(pair);
         let near = closest(&a, &b);
-        // Written so that NaN (numbers out of range) is undecided.
-        if !(near.lo > 0.0) {
+        // Also where numbers are out of range: the lower bound is never NaN.
+        if near.lo <= 0.0 {
             let meets = filter::hit(&a, &b).unwrap_or_else(|| {
                 self.exact_used = true;
                 self.scene.exact(pair).hit()
@@ -103,7 +103,7 @@ impl Search<'_, '_> {
             self.hi = near.hi;
             self.best = pair;
         }
-        if !(near.lo >= self.hi) {
+        if near.lo < self.hi {
             self.candidates.push(Candidate { pair, near });
         }
         false
@@ -114,7 +114,7 @@ impl Search<'_, '_> {
         let scene = self.scene;
         // Below this, intervals of f64 say too little about the distance.
         let width = WIDTH * scene.epsilon;
-        let all = effort == Effort::Tightest || !(self.hi > 2.0 * width);
+        let all = effort == Effort::Tightest || self.hi <= 2.0 * width;
         let (mut lo, mut hi, mut best) = (f64::INFINITY, f64::INFINITY, self.best);
         for Candidate { pair, near } in &self.candidates {
             if near.lo >= self.hi {

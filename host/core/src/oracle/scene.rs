@@ -46,8 +46,7 @@ impl Scene<'_> {
                 answer = Some(ask(s));
             }
         };
-        // Written so that NaN and infinity go the exact way.
-        if !(size <= LARGEST) {
+        if size.is_nan() || size > LARGEST {
             scene(None, &mut once);
         } else if let Some(frame) = Frame::new(&a.tree, &configuration.pose_a, &b.tree, &configuration.pose_b, size) {
             scene(Some(frame), &mut once);

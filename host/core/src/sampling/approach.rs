@@ -144,7 +144,7 @@ impl<'a> Approach<'a> {
             if excess.abs() <= 1e-7 * tau {
                 return (slope < 0.0).then_some(Root { way, pair: [i, j], slope });
             }
-            if !(slope < -1e-9) {
+            if slope.is_nan() || slope >= -1e-9 {
                 return None; // it never comes nearer than this
             }
             way -= excess / slope;
