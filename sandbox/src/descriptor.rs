@@ -24,10 +24,12 @@ pub struct Descriptor {
     pub queries: Vec<Query>,
     /// It reports BV and primitive tests.
     pub counters: bool,
-    /// It reports witness points.
+    /// It has distances with witness points; whether an answer carries them, the answer says.
     pub witness_points: bool,
     /// Computes in f32: its answers are judged in the wider band.
     pub single_precision: bool,
+    /// Earlier queries speed up later ones: the order of queries matters.
+    pub coherent: bool,
     /// Its parameters.
     pub parameters: Vec<Parameter>,
 }
@@ -47,4 +49,46 @@ pub struct Parameter {
     pub default: f64,
     /// Only whole numbers.
     pub integer: bool,
+}
+
+/// Longest text in a descriptor, bytes.
+const TEXT_BYTES: usize = 4096;
+/// Most parameters of one algorithm.
+const PARAMETERS: usize = 64;
+
+impl Descriptor {
+    /// Cuts the text, strips control characters, refuses what breaks the interface's rules.
+    pub(crate) fn bounded(mut self) -> Result<Self, String> {
+        for text in
+            [&mut self.name, &mut self.version, &mut self.authors, &mut self.license, &mut self.url, &mut self.paper]
+        {
+            *text = one_line(text);
+        }
+        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || matches!(c, '-' | '.' | '_');
+        let first = self.id.chars().next();
+        if !first.is_some_and(|c| c.is_ascii_lowercase()) || self.id.len() > 64 || !self.id.chars().all(plain) {
+            return Err(format!("the algorithm id '{}' breaks the rules of plugin.h", one_line(&self.id)));
+        }
+        if self.parameters.len() > PARAMETERS {
+            return Err(format!("'{}' has {} parameters, at most 64 may be", self.id, self.parameters.len()));
+        }
+        for parameter in &mut self.parameters {
+            parameter.name = one_line(&parameter.name);
+            parameter.description = one_line(&parameter.description);
+            let Parameter { minimum, maximum, default, .. } = *parameter;
+            let ordered = minimum <= default && default <= maximum;
+            if !ordered || !minimum.is_finite() || !maximum.is_finite() {
+                return Err(format!("parameter '{}' of '{}' has no sensible range", parameter.name, self.id));
+            }
+        }
+        Ok(self)
+    }
+}
+
+fn one_line(text: &str) -> String {
+    let mut cut = TEXT_BYTES.min(text.len());
+    while !text.is_char_boundary(cut) {
+        cut -= 1;
+    }
+    text[..cut].chars().filter(|c| !c.is_control()).collect()
 }

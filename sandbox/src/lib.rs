@@ -1,16 +1,37 @@
 //! Runs one plugin in a jailed process and measures it from outside.
 //!
-//! The threat model, the layers in their order and the limits stand in `sandbox/README.md`.
+//! The threat model, the layers in their order and the limits stand in `sandbox/README.md`. The way of a trial:
+//! [`Launcher::start`] -> a jail with a runner that has closed itself off -> the look from outside -> the plugin is
+//! loaded, the objects are built -> [`Session::query`], as often as wanted -> [`Session::finish`].
 
 #[cfg(not(all(target_os = "linux", target_arch = "x86_64")))]
 compile_error!("the jail is written for Linux on x86-64: its system call list and floating-point care are per machine");
 
+pub mod clock;
+#[doc(hidden)]
+pub mod confine;
+#[doc(hidden)]
+pub mod control;
 pub mod descriptor;
+#[doc(hidden)]
+pub mod doorbell;
+mod exchange;
+pub mod launch;
+mod memory;
 pub mod outcome;
 pub mod policy;
+#[doc(hidden)]
+pub mod protocol;
+#[doc(hidden)]
+pub mod seccomp;
 pub mod session;
+#[doc(hidden)]
+pub mod shared;
+mod verify;
 
+pub use clock::{ClockFacts, ClockKind};
 pub use descriptor::{Descriptor, Parameter};
+pub use launch::Killer;
 pub use outcome::{Ending, Outcome, Phase};
 pub use policy::{ClockChoice, Policy};
-pub use session::{ClockFacts, ClockKind, Killer, Launcher, Sample, Session, Trial};
+pub use session::{Launcher, Sample, Session, Trial};

@@ -91,8 +91,6 @@ pub enum Phase {
     Build,
     /// Answering a query.
     Query,
-    /// Leaving after the last answer.
-    Finish,
 }
 
 impl fmt::Display for Phase {
@@ -101,7 +99,6 @@ impl fmt::Display for Phase {
             Phase::Load => "while it was loaded",
             Phase::Build => "while it built its structure",
             Phase::Query => "while it answered a query",
-            Phase::Finish => "after its last answer",
         })
     }
 }

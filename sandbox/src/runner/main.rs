@@ -1,2 +1,22 @@
-//! The jailed process.
-fn main() {}
+//! `ocb-runner`: started by the sandbox and by nobody else, in two shapes.
+//!
+//! * `launch`: a small process that builds the jail and waits for its end ([`jail`]).
+//! * `run`: started fresh inside the jail; closes itself off, loads the plugin and answers ([`serve`]).
+
+mod jail;
+mod library;
+mod measure;
+mod serve;
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match arguments.as_slice() {
+        [_, "launch"] => jail::launch(),
+        [_, "run", mode, plugin, trial_bytes, libraries @ ..] => serve::run(mode, plugin, trial_bytes, libraries),
+        _ => {
+            eprintln!("ocb-runner is started by OpenCollBench to run one plugin in a jail; it does nothing by hand.");
+            std::process::exit(2);
+        }
+    }
+}

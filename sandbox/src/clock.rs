@@ -1,0 +1,143 @@
+//! The supervisor's clock, and what a session's null round trips say about it.
+
+use std::sync::OnceLock;
+use std::time::Duration;
+
+/// A clock for the time between two moments of one thread's or two CPUs' work: the time stamp counter where the kernel
+/// itself trusts it, otherwise `CLOCK_MONOTONIC_RAW`.
+#[derive(Clone, Copy, Debug)]
+pub struct Clock {
+    nanoseconds_per_tick: f64,
+    counter: bool,
+}
+
+/// Where the kernel says which counter it keeps time by.
+const CLOCKSOURCE: &str = "/sys/devices/system/clocksource/clocksource0/current_clocksource";
+
+impl Clock {
+    /// The clock of this machine; the first call takes 20 ms to compare the counter with the kernel's clock.
+    pub fn get() -> Clock {
+        static CLOCK: OnceLock<Clock> = OnceLock::new();
+        *CLOCK.get_or_init(|| {
+            let trusted = std::fs::read_to_string(CLOCKSOURCE).is_ok_and(|source| source.trim() == "tsc");
+            if !trusted {
+                return Clock { nanoseconds_per_tick: 1.0, counter: false };
+            }
+            let (t0, c0) = (raw_ns(), counter());
+            std::thread::sleep(Duration::from_millis(20));
+            let (t1, c1) = (raw_ns(), counter());
+            Clock { nanoseconds_per_tick: (t1 - t0) as f64 / (c1 - c0) as f64, counter: true }
+        })
+    }
+
+    /// Now. Later memory accesses are not begun before it, earlier ones are done.
+    #[inline(always)]
+    pub fn ticks(&self) -> u64 {
+        if self.counter { counter() } else { raw_ns() }
+    }
+
+    /// Nanoseconds from one moment to a later one; 0 when the order is wrong.
+    pub fn nanoseconds(&self, from: u64, to: u64) -> f64 {
+        to.saturating_sub(from) as f64 * self.nanoseconds_per_tick
+    }
+
+    /// As many ticks as this many nanoseconds.
+    pub fn in_ticks(&self, nanoseconds: f64) -> u64 {
+        (nanoseconds / self.nanoseconds_per_tick) as u64
+    }
+}
+
+#[inline(always)]
+fn counter() -> u64 {
+    let mut cpu = 0;
+    // SAFETY: every x86-64 whose kernel keeps time by the counter has RDTSCP; the fences only order.
+    unsafe {
+        let ticks = core::arch::x86_64::__rdtscp(&raw mut cpu);
+        core::arch::x86_64::_mm_lfence();
+        ticks
+    }
+}
+
+fn raw_ns() -> u64 {
+    let mut now = libc::timespec { tv_sec: 0, tv_nsec: 0 };
+    // SAFETY: a valid clock and a live timespec.
+    unsafe { libc::clock_gettime(libc::CLOCK_MONOTONIC_RAW, &raw mut now) };
+    now.tv_sec as u64 * 1_000_000_000 + now.tv_nsec as u64
+}
+
+/// How the clock of one session behaved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClockFacts {
+    /// Which hand-off.
+    pub kind: ClockKind,
+    /// Median round trip of a question that the runner answers without the plugin, nanoseconds.
+    pub null_median_ns: f64,
+    /// Its 5th percentile.
+    pub null_p05_ns: f64,
+    /// Its 95th percentile.
+    pub null_p95_ns: f64,
+}
+
+/// Which hand-off a session uses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClockKind {
+    /// Two CPUs, each side watching shared memory.
+    Spin,
+    /// One CPU, each side sleeping in turn.
+    Futex,
+}
+
+impl ClockKind {
+    /// `spin` or `futex`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            ClockKind::Spin => "spin",
+            ClockKind::Futex => "futex",
+        }
+    }
+}
+
+impl ClockFacts {
+    /// From the round trips of one session; at least one.
+    pub(crate) fn of(kind: ClockKind, mut null_ns: Vec<f64>) -> Self {
+        null_ns.sort_by(f64::total_cmp);
+        let at = |share: f64| null_ns[((null_ns.len() - 1) as f64 * share).round() as usize];
+        ClockFacts { kind, null_median_ns: at(0.5), null_p05_ns: at(0.05), null_p95_ns: at(0.95) }
+    }
+
+    /// The shortest time that can be told from nothing: the spread of the null round trip, nanoseconds, at least 1.
+    pub fn resolution_ns(&self) -> f64 {
+        (self.null_p95_ns - self.null_p05_ns).max(1.0)
+    }
+
+    /// The plugin's part of a round trip, and whether it is only an upper bound.
+    pub(crate) fn subtract(&self, raw_ns: f64) -> (f64, bool) {
+        let time_ns = raw_ns - self.null_median_ns;
+        let resolution = self.resolution_ns();
+        if time_ns < resolution { (resolution, true) } else { (time_ns, false) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_below_the_spread_are_bounds_and_never_zero() {
+        let facts = ClockFacts::of(ClockKind::Spin, (200..=300).map(f64::from).collect());
+        assert_eq!((facts.null_p05_ns, facts.null_median_ns, facts.null_p95_ns), (205.0, 250.0, 295.0));
+        assert_eq!(facts.subtract(260.0), (90.0, true));
+        assert_eq!(facts.subtract(100.0), (90.0, true));
+        assert_eq!(facts.subtract(1250.0), (1000.0, false));
+    }
+
+    #[test]
+    fn the_clock_agrees_with_the_kernel() {
+        let clock = Clock::get();
+        let (t0, c0) = (std::time::Instant::now(), clock.ticks());
+        std::thread::sleep(Duration::from_millis(50));
+        let (expected, measured) = (t0.elapsed().as_nanos() as f64, clock.nanoseconds(c0, clock.ticks()));
+        // Both ends may be preempted between the two readings; a wrong scale would be off by far more.
+        assert!(measured > 0.5 * expected && measured < 2.0 * expected, "{measured} against {expected}");
+    }
+}

@@ -1,0 +1,427 @@
+//! What lies where in the shared memory, and the parsing of everything that a runner says.
+//!
+//! Two memory files carry the conversation: the **request** (written by the supervisor alone) and the **answer**
+//! (writable by the runner). There is one slot each way. The supervisor writes a command, then its number; the runner
+//! writes an answer, then the same number. The next command does not exist before the answer to this one has been
+//! copied out. A third file, the **trial**, holds meshes and parameters, sealed.
+//!
+//! Parsing is pure: it takes words that were copied once and returns values or the broken rule.
+
+use nalgebra::Point3;
+use ocb_core::mesh::Mesh;
+use ocb_core::query::{Answer, Counters, Query};
+use serde::{Deserialize, Serialize};
+
+use crate::descriptor::Descriptor;
+
+/// Byte offsets in the request file. Words that different sides poll lie on cache lines of their own.
+pub mod request {
+    /// u32: number of the newest command.
+    pub const NUMBER: usize = 0;
+    /// u32: the supervisor sleeps on the answer's number.
+    pub const SUPERVISOR_SLEEPS: usize = 128;
+    /// u64: the command, a [`super::Command`].
+    pub const COMMAND: usize = 256;
+    /// 16 + 16 u64: bits of the row-major poses of A and B.
+    pub const POSES: usize = 320;
+    /// Size of the file.
+    pub const BYTES: usize = 4096;
+}
+
+/// Byte offsets in the answer file.
+pub mod answer {
+    /// u32: number of the newest answered command.
+    pub const NUMBER: usize = 0;
+    /// u32: the runner sleeps on the request's number.
+    pub const RUNNER_SLEEPS: usize = 128;
+    /// u32: 1 + the descriptor of the seccomp listener, once the filter is in force.
+    pub const LISTENER: usize = 256;
+    /// u32 each: facts of the hardening, written before the plugin is loaded. See [`super::Hardening`].
+    pub const HARDENING: usize = 260;
+    /// The slot: [`super::SLOT_WORDS`] u64.
+    pub const SLOT: usize = 512;
+    /// Text: descriptors or a reason.
+    pub const TEXT: usize = 1024;
+    /// At most so much text.
+    pub const TEXT_BYTES: usize = 256 << 10;
+    /// Contacts: u64 each, triangle of A in the low half, of B in the high half.
+    pub const CONTACTS: usize = TEXT + TEXT_BYTES;
+    /// At most so many.
+    pub const CONTACT_CAPACITY: usize = 1 << 16;
+    /// Size of the file.
+    pub const BYTES: usize = CONTACTS + 8 * CONTACT_CAPACITY;
+}
+
+/// What the supervisor asks the runner to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u64)]
+pub enum Command {
+    /// Nothing: measures the round trip.
+    Null = 0,
+    /// Give up the listener's descriptor, which the supervisor has by now.
+    CloseListener = 1,
+    /// Load the plugin file and describe it in the text.
+    Open = 2,
+    /// Choose the trial's algorithm, make an instance, set the parameters.
+    Prepare = 3,
+    /// Build object A.
+    BuildA = 4,
+    /// Build object B.
+    BuildB = 5,
+    /// Queries.
+    CollisionFirst = 8,
+    /// All contacts.
+    CollisionAll = 9,
+    /// Distance.
+    Proximity = 10,
+    /// The same with counters where there are any.
+    CountCollisionFirst = 16,
+    /// All contacts, counted.
+    CountCollisionAll = 17,
+    /// Distance, counted.
+    CountProximity = 18,
+}
+
+impl Command {
+    /// All of them.
+    pub const ALL: [Command; 12] = [
+        Command::Null,
+        Command::CloseListener,
+        Command::Open,
+        Command::Prepare,
+        Command::BuildA,
+        Command::BuildB,
+        Command::CollisionFirst,
+        Command::CollisionAll,
+        Command::Proximity,
+        Command::CountCollisionFirst,
+        Command::CountCollisionAll,
+        Command::CountProximity,
+    ];
+
+    /// From its number.
+    pub fn from_word(word: u64) -> Option<Self> {
+        Self::ALL.into_iter().find(|command| *command as u64 == word)
+    }
+
+    /// The command that asks a query.
+    pub fn ask(query: Query, counted: bool) -> Self {
+        match (query, counted) {
+            (Query::CollisionFirst, false) => Command::CollisionFirst,
+            (Query::CollisionAll, false) => Command::CollisionAll,
+            (Query::Proximity, false) => Command::Proximity,
+            (Query::CollisionFirst, true) => Command::CountCollisionFirst,
+            (Query::CollisionAll, true) => Command::CountCollisionAll,
+            (Query::Proximity, true) => Command::CountProximity,
+        }
+    }
+}
+
+/// Number of 64-bit words in the answer's slot.
+pub const SLOT_WORDS: usize = 24;
+
+/// Meaning of the slot's words.
+pub mod slot {
+    /// An `ocb_status`, or [`NOT_LOADED`].
+    pub const STATUS: usize = 0;
+    /// Length of the text, bytes.
+    pub const TEXT_LEN: usize = 1;
+    /// Collision: hit. Distance: flags of `ocb_distance_result`.
+    pub const HIT_OR_FLAGS: usize = 2;
+    /// Triangle of A, then of B.
+    pub const TRIANGLES: usize = 3;
+    /// Contacts found.
+    pub const TOTAL: usize = 5;
+    /// Bits of the distance.
+    pub const DISTANCE: usize = 6;
+    /// Bits of point A, then of point B.
+    pub const POINTS: usize = 7;
+    /// Flags of `ocb_counts`, BV tests, primitive tests.
+    pub const COUNTS: usize = 13;
+    /// Status: the file is no plugin that can be used; the text says why.
+    pub const NOT_LOADED: u64 = 100;
+}
+
+/// Facts of the hardening inside the runner, in the order of the words at [`answer::HARDENING`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Hardening {
+    /// ABI of Landlock that is enforced; 0: none.
+    pub landlock_abi: u32,
+    /// Mappings of code that can no longer be changed; 0: this kernel cannot.
+    pub sealed_mappings: u32,
+    /// Memory can no longer become executable.
+    pub no_new_code: u32,
+}
+
+/// How a command went, as far as the status goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Done.
+    Ok,
+    /// `OCB_GAVE_UP`.
+    GaveUp,
+    /// `OCB_UNSUPPORTED`.
+    Unsupported,
+    /// `OCB_ERROR`.
+    Error,
+    /// The file is no usable plugin.
+    NotLoaded,
+}
+
+/// Reads the status word.
+pub fn parse_status(words: &[u64; SLOT_WORDS]) -> Result<Status, String> {
+    Ok(match words[slot::STATUS] {
+        0 => Status::Ok,
+        1 => Status::GaveUp,
+        2 => Status::Unsupported,
+        3 => Status::Error,
+        slot::NOT_LOADED => Status::NotLoaded,
+        other => return Err(format!("{} is no status", other as u32 as i32)),
+    })
+}
+
+/// How many bytes of text the slot announces.
+pub fn parse_text_len(words: &[u64; SLOT_WORDS]) -> Result<usize, String> {
+    match usize::try_from(words[slot::TEXT_LEN]) {
+        Ok(len) if len <= answer::TEXT_BYTES => Ok(len),
+        _ => Err(format!("a text of {} bytes, {} fit", words[slot::TEXT_LEN], answer::TEXT_BYTES)),
+    }
+}
+
+/// How many contacts are to be copied out.
+pub fn contacts_to_copy(words: &[u64; SLOT_WORDS]) -> usize {
+    usize::try_from(words[slot::TOTAL]).map_or(answer::CONTACT_CAPACITY, |n| n.min(answer::CONTACT_CAPACITY))
+}
+
+/// Reads an answer from a copy of the slot and of the contacts. Numbers inside (distances, triangle ids) are passed on
+/// as they are: judging them is the validation's work.
+pub fn parse_answer(query: Query, words: &[u64; SLOT_WORDS], contacts: &[u64]) -> Result<Answer, String> {
+    match parse_status(words)? {
+        Status::Ok => {}
+        Status::GaveUp => return Ok(Answer::GaveUp),
+        Status::Unsupported => return Ok(Answer::Unsupported),
+        Status::Error | Status::NotLoaded => return Err("an error where an answer was expected".into()),
+    }
+    let triangle = |i: usize| u32::try_from(words[slot::TRIANGLES + i]).map_err(|_| "a triangle id of 33 bits");
+    match query {
+        Query::CollisionFirst => {
+            let hit = match words[slot::HIT_OR_FLAGS] {
+                0 => false,
+                1 => true,
+                other => return Err(format!("hit must be 0 or 1 and is {other}")),
+            };
+            let pair = [triangle(0)?, triangle(1)?];
+            // A half-named pair stays: it is checked like any other and fails.
+            Ok(Answer::Collision { hit, pair: (hit && pair != [u32::MAX; 2]).then_some(pair) })
+        }
+        Query::CollisionAll => Ok(Answer::Contacts {
+            total: words[slot::TOTAL],
+            pairs: contacts.iter().map(|w| [*w as u32, (*w >> 32) as u32]).collect(),
+        }),
+        Query::Proximity => {
+            let flags = words[slot::HIT_OR_FLAGS];
+            let point = |i: usize| {
+                let at = slot::POINTS + 3 * i;
+                Point3::new(f64::from_bits(words[at]), f64::from_bits(words[at + 1]), f64::from_bits(words[at + 2]))
+            };
+            Ok(Answer::Distance {
+                distance: f64::from_bits(words[slot::DISTANCE]),
+                points: (flags & 1 != 0).then(|| [point(0), point(1)]),
+                triangles: if flags & 2 != 0 { Some([triangle(0)?, triangle(1)?]) } else { None },
+            })
+        }
+    }
+}
+
+/// Reads the counters beside an answer; `None` when the algorithm has not counted.
+pub fn parse_counters(words: &[u64; SLOT_WORDS]) -> Option<Counters> {
+    let [flags, bv_tests, primitive_tests] = [0, 1, 2].map(|i| words[slot::COUNTS + i]);
+    (flags & 3 != 0).then_some(Counters {
+        bv_tests: if flags & 1 != 0 { bv_tests } else { 0 },
+        primitive_tests: if flags & 2 != 0 { primitive_tests } else { 0 },
+    })
+}
+
+/// Reads what a plugin says of itself.
+pub fn parse_descriptors(text: &[u8]) -> Result<Vec<Descriptor>, String> {
+    let descriptors: Vec<Descriptor> =
+        serde_json::from_slice(text).map_err(|e| format!("the descriptors are not readable ({e})"))?;
+    if descriptors.is_empty() || descriptors.len() > 64 {
+        return Err(format!("{} algorithms, 1 to 64 may be", descriptors.len()));
+    }
+    descriptors.into_iter().map(Descriptor::bounded).collect()
+}
+
+/// Text for people from bytes of the plugin: UTF-8, no control characters but line feed and tab.
+pub fn clean_text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).chars().filter(|c| !c.is_control() || *c == '\n' || *c == '\t').collect()
+}
+
+/// Head of the trial file: what the runner needs to know beside the meshes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TrialHead {
+    /// Id of the algorithm.
+    pub algorithm: String,
+    /// Parameters by name.
+    pub parameters: Vec<(String, f64)>,
+    /// One mesh, or two.
+    pub meshes: Vec<MeshPlace>,
+}
+
+/// Where a mesh lies in the trial file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MeshPlace {
+    /// Number of vertices.
+    pub vertices: u32,
+    /// Number of triangles.
+    pub triangles: u32,
+    /// Byte offset of the positions, 3 f64 each.
+    pub positions_at: usize,
+    /// Byte offset of the triangles, 3 u32 each.
+    pub triangles_at: usize,
+}
+
+/// The trial file: length of the head, head, meshes, each part at a multiple of 64 bytes.
+pub fn write_trial(algorithm: &str, parameters: &[(String, f64)], meshes: &[&Mesh]) -> Vec<u8> {
+    const HEAD_ROOM: usize = 1 << 10;
+    let align = |n: usize| n.next_multiple_of(64);
+    let named = algorithm.len() + parameters.iter().map(|(name, _)| name.len() + 64).sum::<usize>();
+    // JSON writes one byte in six at worst.
+    let mut at = align(8 + HEAD_ROOM + 6 * named);
+    let places: Vec<MeshPlace> = meshes
+        .iter()
+        .map(|mesh| {
+            let positions_at = at;
+            let triangles_at = align(positions_at + 24 * mesh.positions().len());
+            at = align(triangles_at + 12 * mesh.triangles().len());
+            MeshPlace {
+                vertices: mesh.positions().len() as u32,
+                triangles: mesh.triangles().len() as u32,
+                positions_at,
+                triangles_at,
+            }
+        })
+        .collect();
+    let head = TrialHead { algorithm: algorithm.into(), parameters: parameters.to_vec(), meshes: places };
+    let json = serde_json::to_vec(&head).expect("plain data is always JSON");
+    let mut bytes = vec![0; at];
+    bytes[..8].copy_from_slice(&(json.len() as u64).to_le_bytes());
+    bytes[8..8 + json.len()].copy_from_slice(&json);
+    for (mesh, place) in meshes.iter().zip(&head.meshes) {
+        let coordinates = mesh.positions().iter().flat_map(|p| [p.x, p.y, p.z]);
+        for (to, x) in bytes[place.positions_at..].chunks_exact_mut(8).zip(coordinates) {
+            to.copy_from_slice(&x.to_le_bytes());
+        }
+        let corners = mesh.triangles().iter().flatten();
+        for (to, corner) in bytes[place.triangles_at..].chunks_exact_mut(4).zip(corners) {
+            to.copy_from_slice(&corner.to_le_bytes());
+        }
+    }
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn slot_of(status: u64) -> [u64; SLOT_WORDS] {
+        let mut words = [0; SLOT_WORDS];
+        words[slot::STATUS] = status;
+        words
+    }
+
+    /// A small generator: the inputs differ, the test does not.
+    fn numbers(mut state: u64) -> impl FnMut() -> u64 {
+        move || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            // Mostly small words, so that every branch is reached.
+            if state & 3 == 0 { state } else { state % 4 }
+        }
+    }
+
+    #[test]
+    fn any_words_are_an_answer_or_a_violation() {
+        let mut next = numbers(0x9e37_79b9_7f4a_7c15);
+        let (mut answers, mut violations) = (0, 0);
+        for _ in 0..300_000 {
+            let words: [u64; SLOT_WORDS] = std::array::from_fn(|_| next());
+            let contacts: Vec<u64> = (0..contacts_to_copy(&words).min(4)).map(|_| next()).collect();
+            for query in [Query::CollisionFirst, Query::CollisionAll, Query::Proximity] {
+                match parse_answer(query, &words, &contacts) {
+                    Ok(_) => answers += 1,
+                    Err(_) => violations += 1,
+                }
+            }
+            let _ = (parse_counters(&words), parse_text_len(&words));
+            assert!(contacts_to_copy(&words) <= answer::CONTACT_CAPACITY);
+        }
+        assert!(answers > 1000 && violations > 1000, "{answers} answers, {violations} violations");
+    }
+
+    #[test]
+    fn any_bytes_are_descriptors_or_a_reason() {
+        let good = br#"[{"id":"a","name":"A","version":"1","authors":"","license":"","url":"","paper":"","queries":[],
+            "counters":false,"witness_points":false,"single_precision":false,"coherent":false,"parameters":[]}]"#;
+        assert_eq!(parse_descriptors(good).unwrap()[0].id, "a");
+        let mut next = numbers(1);
+        for _ in 0..20_000 {
+            let mut bytes = good.to_vec();
+            for _ in 0..=next() % 4 {
+                let at = next() as usize % bytes.len();
+                bytes[at] = next() as u8;
+            }
+            let _ = parse_descriptors(&bytes);
+        }
+        assert!(parse_descriptors(b"[]").is_err());
+        assert!(parse_descriptors(&[b'['; 100_000]).is_err());
+    }
+
+    #[test]
+    fn the_rules_of_an_answer() {
+        let mut words = slot_of(0);
+        words[slot::HIT_OR_FLAGS] = 1;
+        words[slot::TRIANGLES..slot::TRIANGLES + 2].copy_from_slice(&[7, u64::from(u32::MAX)]);
+        let answer = parse_answer(Query::CollisionFirst, &words, &[]).unwrap();
+        assert_eq!(answer, Answer::Collision { hit: true, pair: Some([7, u32::MAX]) });
+        words[slot::TRIANGLES] = 1 << 32;
+        assert!(parse_answer(Query::CollisionFirst, &words, &[]).is_err());
+        words[slot::HIT_OR_FLAGS] = 2;
+        assert!(parse_answer(Query::CollisionFirst, &words, &[]).is_err());
+        for status in [3, 4, slot::NOT_LOADED, u64::MAX] {
+            assert!(parse_answer(Query::Proximity, &slot_of(status), &[]).is_err(), "{status}");
+        }
+        assert_eq!(parse_answer(Query::Proximity, &slot_of(1), &[]), Ok(Answer::GaveUp));
+        assert_eq!(parse_answer(Query::Proximity, &slot_of(2), &[]), Ok(Answer::Unsupported));
+    }
+
+    #[test]
+    fn commands_survive_the_crossing() {
+        for command in Command::ALL {
+            assert_eq!(Command::from_word(command as u64), Some(command));
+        }
+        assert_eq!(Command::from_word(99), None);
+    }
+
+    #[test]
+    fn a_trial_says_where_its_meshes_lie() {
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]].map(Point3::from).to_vec();
+        let mesh = Mesh::new(corners, vec![[0, 1, 2]]).unwrap();
+        let parameters = [("\u{1}\"é".repeat(30), 0.5)];
+        let bytes = write_trial("box-tree", &parameters, &[&mesh, &mesh]);
+        let len = u64::from_le_bytes(bytes[..8].try_into().unwrap()) as usize;
+        let head: TrialHead = serde_json::from_slice(&bytes[8..8 + len]).unwrap();
+        assert_eq!(
+            (head.algorithm.as_str(), &head.parameters[..], head.meshes.len()),
+            ("box-tree", &parameters[..], 2)
+        );
+        for place in head.meshes {
+            assert!(place.positions_at.is_multiple_of(64) && place.positions_at >= 8 + len);
+            assert!(place.triangles_at >= place.positions_at + 24 * 3);
+            let y = &bytes[place.positions_at + 7 * 8..][..8];
+            assert_eq!(y, 2.0f64.to_le_bytes());
+            assert_eq!(bytes[place.triangles_at..][..12], [0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]);
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! The timed region: what happens between the supervisor's question and the committed answer.
+//!
+//! The official clock starts when the question is released and stops when the answer's number is seen, both in the
+//! supervisor. So this file keeps what lies around the plugin's call short and the same for all of them, and
+//! [`Measured::null`] does exactly that without the call; its median is subtracted.
+
+use ocb_sandbox::protocol::{Command, answer, slot};
+use opencollbench_plugin::raw::contacts::{Contact, ContactsRequest, ContactsResult};
+use opencollbench_plugin::raw::counters::Counts;
+use opencollbench_plugin::raw::distance::{DistanceRequest, DistanceResult};
+use opencollbench_plugin::raw::{self, CollideRequest, CollideResult, Instance, Object};
+
+use crate::library::{Algorithm, Failure, Plugin};
+use crate::serve::{Shared, Slot};
+
+/// The plugin and what it has made so far.
+pub struct Measured {
+    path: String,
+    plugin: Option<Plugin>,
+    algorithm: Option<Algorithm>,
+    instance: *mut Instance,
+    objects: [*mut Object; 2],
+    avx: bool,
+}
+
+impl Measured {
+    /// Nothing is loaded yet.
+    pub fn new(path: String) -> Self {
+        let nothing = std::ptr::null_mut();
+        let avx = std::is_x86_feature_detected!("avx");
+        Self { path, plugin: None, algorithm: None, instance: nothing, objects: [std::ptr::null_mut(); 2], avx }
+    }
+
+    /// The round trip without a plugin's call.
+    #[inline(never)]
+    pub fn null(&self, shared: &Shared) {
+        let poses = shared.poses();
+        self.guarded(|| std::hint::black_box(&poses).len());
+    }
+
+    /// Does what is asked and fills the slot.
+    pub fn obey(&mut self, command: Command, shared: &Shared, slot: &mut Slot) -> Result<(), Failure> {
+        match command {
+            Command::Null | Command::CloseListener => Ok(()),
+            Command::Open => self.open(shared, slot),
+            Command::Prepare => self.prepare(shared),
+            Command::BuildA => self.build(shared, 0),
+            Command::BuildB => self.build(shared, 1),
+            Command::CollisionFirst => self.collide(shared, slot, false),
+            Command::CountCollisionFirst => self.collide(shared, slot, true),
+            Command::CollisionAll => self.contacts(shared, slot, false),
+            Command::CountCollisionAll => self.contacts(shared, slot, true),
+            Command::Proximity => self.distance(shared, slot, false),
+            Command::CountProximity => self.distance(shared, slot, true),
+        }
+    }
+
+    fn open(&mut self, shared: &Shared, slot: &mut Slot) -> Result<(), Failure> {
+        let plugin = self.guarded(|| Plugin::open(&self.path))?;
+        let descriptors = plugin.describe()?;
+        let json = serde_json::to_vec(&descriptors).map_err(|e| Failure::not_loaded(e.to_string()))?;
+        if json.len() > answer::TEXT_BYTES {
+            return Err(Failure::not_loaded("it says too much of itself"));
+        }
+        shared.say(slot, &json);
+        self.plugin = Some(plugin);
+        Ok(())
+    }
+
+    fn prepare(&mut self, shared: &Shared) -> Result<(), Failure> {
+        let head = shared.head()?;
+        let plugin = self.plugin.as_ref().ok_or_else(|| Failure::error("nothing is loaded"))?;
+        let algorithm = plugin.algorithm(&head.algorithm)?;
+        if let Some(create) = algorithm.raw.create {
+            let mut instance = std::ptr::null_mut();
+            // SAFETY: by plugin.h, with a live place for the instance.
+            let status = self.guarded(|| unsafe { create(&raw mut instance) });
+            if status != raw::OK {
+                return Err(algorithm.said(std::ptr::null_mut(), &format!("create returned {}", spell(status))));
+            }
+            self.instance = instance;
+        }
+        for (name, value) in &head.parameters {
+            self.guarded(|| algorithm.set(self.instance, name, *value))?;
+        }
+        self.algorithm = Some(algorithm);
+        Ok(())
+    }
+
+    fn build(&mut self, shared: &Shared, which: usize) -> Result<(), Failure> {
+        let algorithm = self.algorithm()?;
+        let head = shared.head()?;
+        let place = head.meshes.get(which).ok_or_else(|| Failure::error("the trial has no such mesh"))?;
+        let positions = shared.trial_address(place.positions_at).cast();
+        let triangles = shared.trial_address(place.triangles_at).cast();
+        let load = algorithm.raw.load_mesh.ok_or_else(|| Failure::error("load_mesh has gone"))?;
+        let mut object = std::ptr::null_mut();
+        // SAFETY: by plugin.h; both arrays lie in the sealed trial mapping, aligned to 64 bytes, as long as said.
+        let status = self.guarded(|| unsafe {
+            load(self.instance, positions, place.vertices, triangles, place.triangles, &raw mut object)
+        });
+        match status {
+            raw::OK if object.is_null() => Err(Failure::error("load_mesh returned OCB_OK and no object")),
+            raw::OK => {
+                self.objects[which] = object;
+                if which == 0 {
+                    // The same mesh twice is loaded once; a second one replaces this.
+                    self.objects[1] = object;
+                }
+                Ok(())
+            }
+            other => Err(algorithm.said(self.instance, &format!("load_mesh returned {}", spell(other)))),
+        }
+    }
+
+    fn collide(&self, shared: &Shared, slot: &mut Slot, counted: bool) -> Result<(), Failure> {
+        let algorithm = self.algorithm()?;
+        let poses = shared.poses();
+        let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
+        let ([a, b], request) = (self.objects, CollideRequest::new());
+        let mut result = CollideResult::new();
+        let counting = algorithm.counters.and_then(|c| c.count_collide).filter(|_| counted);
+        let mut counts = Counts::new(std::ptr::null_mut(), std::ptr::null_mut());
+        let status = match (counting, algorithm.raw.collide) {
+            // SAFETY: by plugin.h: objects of this instance, 16 numbers per pose, live request, result and counts.
+            (Some(call), _) => self.guarded(|| unsafe {
+                call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result, &raw mut counts)
+            }),
+            // SAFETY: as above.
+            (None, Some(call)) => self
+                .guarded(|| unsafe { call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result) }),
+            (None, None) => raw::UNSUPPORTED,
+        };
+        slot[slot::HIT_OR_FLAGS] = result.hit.into();
+        slot[slot::TRIANGLES] = result.triangle_a.into();
+        slot[slot::TRIANGLES + 1] = result.triangle_b.into();
+        self.conclude(slot, status, &counts, "collide")
+    }
+
+    fn contacts(&self, shared: &Shared, slot: &mut Slot, counted: bool) -> Result<(), Failure> {
+        let algorithm = self.algorithm()?;
+        let poses = shared.poses();
+        let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
+        let [a, b] = self.objects;
+        let buffer = shared.answer.address(answer::CONTACTS).cast::<Contact>();
+        let request = ContactsRequest::new(buffer, answer::CONTACT_CAPACITY as u64);
+        let mut result = ContactsResult::new();
+        let counting = algorithm.counters.and_then(|c| c.count_contacts).filter(|_| counted);
+        let mut counts = Counts::new(std::ptr::null_mut(), std::ptr::null_mut());
+        let status = match (counting, algorithm.contacts.and_then(|c| c.contacts)) {
+            // SAFETY: as in `collide`; the buffer is this process's writable mapping with room for the capacity.
+            (Some(call), _) => self.guarded(|| unsafe {
+                call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result, &raw mut counts)
+            }),
+            // SAFETY: as above.
+            (None, Some(call)) => self
+                .guarded(|| unsafe { call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result) }),
+            (None, None) => raw::UNSUPPORTED,
+        };
+        slot[slot::TOTAL] = result.total;
+        self.conclude(slot, status, &counts, "contacts")
+    }
+
+    fn distance(&self, shared: &Shared, slot: &mut Slot, counted: bool) -> Result<(), Failure> {
+        let algorithm = self.algorithm()?;
+        let poses = shared.poses();
+        let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
+        let ([a, b], request) = (self.objects, DistanceRequest::new());
+        let mut result = DistanceResult::new();
+        let counting = algorithm.counters.and_then(|c| c.count_distance).filter(|_| counted);
+        let mut counts = Counts::new(std::ptr::null_mut(), std::ptr::null_mut());
+        let status = match (counting, algorithm.distance.and_then(|d| d.distance)) {
+            // SAFETY: as in `collide`.
+            (Some(call), _) => self.guarded(|| unsafe {
+                call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result, &raw mut counts)
+            }),
+            // SAFETY: as above.
+            (None, Some(call)) => self
+                .guarded(|| unsafe { call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result) }),
+            (None, None) => raw::UNSUPPORTED,
+        };
+        slot[slot::HIT_OR_FLAGS] = result.flags.into();
+        slot[slot::TRIANGLES] = result.triangle_a.into();
+        slot[slot::TRIANGLES + 1] = result.triangle_b.into();
+        slot[slot::DISTANCE] = result.distance.to_bits();
+        for (i, x) in result.point_a.iter().chain(&result.point_b).enumerate() {
+            slot[slot::POINTS + i] = x.to_bits();
+        }
+        self.conclude(slot, status, &counts, "distance")
+    }
+
+    fn conclude(&self, slot: &mut Slot, status: raw::Status, counts: &Counts, what: &str) -> Result<(), Failure> {
+        slot[slot::STATUS] = u64::from(status as u32);
+        slot[slot::COUNTS] = counts.flags.into();
+        slot[slot::COUNTS + 1] = counts.bv_tests;
+        slot[slot::COUNTS + 2] = counts.primitive_tests;
+        if status == raw::ERROR {
+            return Err(self.algorithm()?.said(self.instance, &format!("{what} returned OCB_ERROR")));
+        }
+        Ok(())
+    }
+
+    fn algorithm(&self) -> Result<&Algorithm, Failure> {
+        self.algorithm.as_ref().ok_or_else(|| Failure::error("no algorithm is chosen"))
+    }
+
+    /// Runs foreign code between two known floating-point states: it finds the state of the ABI (round to nearest,
+    /// exceptions masked, denormals kept), and whatever it leaves behind is gone.
+    #[inline(always)]
+    fn guarded<T>(&self, foreign: impl FnOnce() -> T) -> T {
+        static MXCSR: u32 = 0x1f80;
+        let result = foreign();
+        if self.avx {
+            // SAFETY: AVX is there; upper halves of vector registers carry nothing across a call.
+            unsafe { core::arch::asm!("vzeroupper", clobber_abi("C"), options(nostack, preserves_flags)) };
+        }
+        // SAFETY: sets control words to what the ABI wants at every call; FNINIT also empties the x87 stack, which is
+        // empty at calls anyway.
+        unsafe {
+            core::arch::asm!(
+                "cld", "fninit", "ldmxcsr [{0}]",
+                in(reg) &raw const MXCSR, clobber_abi("C"), options(nostack)
+            );
+        }
+        result
+    }
+}
+
+fn spell(status: raw::Status) -> String {
+    match status {
+        raw::GAVE_UP => "OCB_GAVE_UP".into(),
+        raw::UNSUPPORTED => "OCB_UNSUPPORTED".into(),
+        raw::ERROR => "OCB_ERROR".into(),
+        other => format!("the unknown status {other}"),
+    }
+}

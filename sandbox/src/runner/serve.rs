@@ -1,0 +1,203 @@
+//! `ocb-runner run`: closes the process off, then answers commands until it is killed.
+
+use std::os::fd::{AsFd, OwnedFd};
+use std::path::Path;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+use ocb_sandbox::confine::{ConfineError, close_from, harden};
+use ocb_sandbox::control::{Control, Report};
+use ocb_sandbox::doorbell::{futex_wait, futex_wake};
+use ocb_sandbox::protocol::{Command, SLOT_WORDS, TrialHead, answer, request, slot};
+use ocb_sandbox::seccomp;
+use ocb_sandbox::shared::Segment;
+
+use crate::jail::{ANSWER, CONTROL, REQUEST, TRIAL, inherited};
+use crate::library::Failure;
+use crate::measure::Measured;
+
+/// How long the runner watches memory after its last answer before it sleeps.
+const WATCH: Duration = Duration::from_millis(2);
+
+/// The shared memory, from the runner's side.
+pub struct Shared {
+    trial: Segment,
+    request: Segment,
+    /// The slot that answers go to.
+    pub answer: Segment,
+    watch: Duration,
+}
+
+/// What is written for one command.
+pub type Slot = [u64; SLOT_WORDS];
+
+/// Never returns: the process ends by being killed.
+pub fn run(mode: &str, plugin: &str, trial_bytes: &str, libraries: &[&str]) -> ! {
+    let control = Control::from_fd(inherited(CONTROL));
+    let shared = match close_off(mode, plugin, trial_bytes, libraries) {
+        Ok(shared) => shared,
+        Err(error) => {
+            let _ = control.send(&Report::Fault { step: error.step(), reason: error.to_string() }, &[]);
+            std::process::exit(120);
+        }
+    };
+    // Everything but 0, 1, 2 and the listener, which the supervisor's first command closes.
+    drop(control);
+    let listener = match filter() {
+        Ok(listener) => listener,
+        Err(error) => {
+            // The socket is gone; the supervisor sees an early end and these words.
+            eprintln!("{error}");
+            std::process::exit(120);
+        }
+    };
+    let word = shared.answer.u32(answer::LISTENER);
+    word.store(listener as u32 + 1, Ordering::Release);
+    futex_wake(word);
+    serve(&shared, plugin, listener)
+}
+
+fn filter() -> Result<i32, ConfineError> {
+    let program = seccomp::compile(std::process::id() as i32).map_err(|e| ConfineError::Seccomp(e.to_string()))?;
+    seccomp::install(&program).map_err(|e| ConfineError::Seccomp(e.to_string()))
+}
+
+fn close_off(mode: &str, plugin: &str, trial_bytes: &str, libraries: &[&str]) -> Result<Shared, ConfineError> {
+    let has = |flag| mode.split(',').any(|part| part == flag);
+    let own_root = has("jail");
+    let trial_bytes: usize =
+        trial_bytes.parse().map_err(|_| ConfineError::SharedMemory(std::io::ErrorKind::InvalidInput.into()))?;
+    let map =
+        |fd: OwnedFd, bytes, writable| Segment::map(fd.as_fd(), bytes, writable).map_err(ConfineError::SharedMemory);
+    let shared = Shared {
+        trial: map(inherited(TRIAL), trial_bytes, false)?,
+        request: map(inherited(REQUEST), request::BYTES, false)?,
+        answer: map(inherited(ANSWER), answer::BYTES, true)?,
+        watch: if has("futex") { Duration::ZERO } else { WATCH },
+    };
+    close_from(CONTROL as u32 + 1).map_err(ConfineError::Descriptors)?;
+    let (optional, required): (Vec<&str>, Vec<&str>) = libraries
+        .iter()
+        .partition(|path| !["libc.so.6", "libm.so.6", "libgcc_s.so.1"].iter().any(|n| path.ends_with(n)));
+    harden::preload(&required, &optional)?;
+    harden::reset_signals()?;
+    // An ordinary user's supervisor could not look at an undumpable process; root can.
+    if has("own") {
+        harden::make_undumpable()?;
+    }
+    let sealed = harden::seal_code();
+    let no_new_code = harden::refuse_new_code();
+    let plugin = Path::new(plugin);
+    let landlock = if own_root {
+        harden::landlock(&[plugin, Path::new("/lib")])
+    } else {
+        let places = libraries.iter().map(Path::new);
+        harden::landlock(&places.chain([plugin]).collect::<Vec<_>>())
+    };
+    let landlock = match landlock {
+        Ok(abi) => abi,
+        // An own root shows the same files. Whether that is enough for this plugin is the supervisor's to say.
+        Err(_) if own_root => 0,
+        Err(error) => return Err(error),
+    };
+    for (i, fact) in [landlock, sealed, u32::from(no_new_code)].into_iter().enumerate() {
+        shared.answer.u32(answer::HARDENING + 4 * i).store(fact, Ordering::Relaxed);
+    }
+    Ok(shared)
+}
+
+fn serve(shared: &Shared, plugin: &str, listener: i32) -> ! {
+    let mut state = Measured::new(plugin.to_string());
+    let mut number = 0;
+    loop {
+        number = shared.next(number);
+        let mut slot = [0; SLOT_WORDS];
+        match Command::from_word(shared.request.u64(request::COMMAND).load(Ordering::Relaxed)) {
+            Some(Command::Null) => state.null(shared),
+            Some(Command::CloseListener) => {
+                // SAFETY: our own descriptor, closed once.
+                unsafe { libc::close(listener) };
+            }
+            Some(command) => {
+                if let Err(failure) = state.obey(command, shared, &mut slot) {
+                    shared.fail(&mut slot, failure);
+                }
+            }
+            None => shared.fail(&mut slot, Failure::error("the runner does not know this command")),
+        }
+        shared.commit(number, &slot);
+    }
+}
+
+impl Shared {
+    /// Waits for the command after `number`.
+    #[inline]
+    fn next(&self, number: u32) -> u32 {
+        let word = self.request.u32(request::NUMBER);
+        let mut watched_since = None;
+        loop {
+            for _ in 0..256 {
+                let new = word.load(Ordering::Acquire);
+                if new != number {
+                    return new;
+                }
+                if self.watch.is_zero() {
+                    break;
+                }
+                std::hint::spin_loop();
+            }
+            let since = *watched_since.get_or_insert_with(Instant::now);
+            if since.elapsed() >= self.watch {
+                // Said before the last look at the number, so that the supervisor cannot miss it.
+                self.answer.u32(answer::RUNNER_SLEEPS).store(1, Ordering::SeqCst);
+                futex_wait(word, number, None);
+                self.answer.u32(answer::RUNNER_SLEEPS).store(0, Ordering::SeqCst);
+                watched_since = None;
+            }
+        }
+    }
+
+    /// Publishes the answer to command `number`.
+    #[inline]
+    fn commit(&self, number: u32, slot: &Slot) {
+        self.answer.store(answer::SLOT, slot);
+        let word = self.answer.u32(answer::NUMBER);
+        word.swap(number, Ordering::SeqCst);
+        if self.request.u32(request::SUPERVISOR_SLEEPS).load(Ordering::SeqCst) != 0 {
+            futex_wake(word);
+        }
+    }
+
+    fn fail(&self, slot: &mut Slot, failure: Failure) {
+        *slot = [0; SLOT_WORDS];
+        slot[slot::STATUS] = failure.status;
+        self.say(slot, failure.reason.as_bytes());
+    }
+
+    /// Puts text beside the slot, cut to what fits.
+    pub fn say(&self, slot: &mut Slot, text: &[u8]) {
+        let text = &text[..text.len().min(answer::TEXT_BYTES)];
+        self.answer.store_bytes(answer::TEXT, text);
+        slot[slot::TEXT_LEN] = text.len() as u64;
+    }
+
+    /// The poses of the current command.
+    #[inline]
+    pub fn poses(&self) -> [f64; 32] {
+        let mut words = [0; 32];
+        self.request.load(request::POSES, &mut words);
+        words.map(f64::from_bits)
+    }
+
+    /// The head of the trial.
+    pub fn head(&self) -> Result<TrialHead, Failure> {
+        let len = self.trial.u64(0).load(Ordering::Relaxed) as usize;
+        serde_json::from_slice(&self.trial.load_bytes(8, len))
+            .map_err(|e| Failure::error(format!("the trial's head is not readable ({e})")))
+    }
+
+    /// Address of a byte of the trial file.
+    pub fn trial_address(&self, offset: usize) -> *const u8 {
+        self.trial.address(offset)
+    }
+}

@@ -1,0 +1,215 @@
+//! The system call filter: `syscalls.json` compiled, with "ask the supervisor" as the answer to everything else.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::str::FromStr;
+
+use nix::errno::Errno;
+use seccompiler::{
+    BpfProgram, SeccompAction, SeccompCmpArgLen, SeccompCmpOp, SeccompCondition, SeccompFilter, SeccompRule, TargetArch,
+};
+use serde::Deserialize;
+use serde_json::Value;
+use syscalls::Sysno;
+
+/// The list, as it stands in the repository.
+pub const LIST: &str = include_str!("syscalls.json");
+
+/// seccompiler cannot emit "notify": the filter is compiled with this trace action, and the word is replaced after.
+const PLACEHOLDER: u16 = 0x7e5;
+
+const RETURN: u16 = (libc::BPF_RET | libc::BPF_K) as u16;
+const JUMP_EQUAL: u16 = (libc::BPF_JMP | libc::BPF_JEQ | libc::BPF_K) as u16;
+const LOAD_WORD: u16 = (libc::BPF_LD | libc::BPF_W | libc::BPF_ABS) as u16;
+
+/// Why the list cannot be compiled.
+#[derive(Debug, thiserror::Error)]
+pub enum FilterError {
+    /// No JSON of the expected shape.
+    #[error("syscalls.json: {0}")]
+    Json(#[from] serde_json::Error),
+    /// A name that this machine's kernel interface does not have.
+    #[error("syscalls.json: there is no system call '{0}'")]
+    UnknownCall(String),
+    /// A condition that is not understood.
+    #[error("syscalls.json: condition '{0}' of '{1}' is not understood")]
+    Condition(String, String),
+    /// An error name that is not understood.
+    #[error("syscalls.json: there is no error '{0}'")]
+    UnknownErrno(String),
+    /// The compiler refused.
+    #[error("the system call list does not compile: {0}")]
+    Compile(String),
+}
+
+#[derive(Deserialize)]
+struct List {
+    allow: Vec<Allowed>,
+    quiet: Vec<Quiet>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Allowed {
+    call: String,
+    #[serde(default)]
+    when: Vec<BTreeMap<String, Value>>,
+    #[serde(rename = "because")]
+    _because: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Quiet {
+    call: String,
+    errno: String,
+    #[serde(rename = "because")]
+    _because: String,
+}
+
+/// Compiles the list for a process that calls itself `own_pid`.
+pub fn compile(own_pid: i32) -> Result<BpfProgram, FilterError> {
+    let list: List = serde_json::from_str(LIST)?;
+    let mut rules = BTreeMap::new();
+    for allowed in &list.allow {
+        let mut alternatives = Vec::new();
+        for when in &allowed.when {
+            let conditions = when
+                .iter()
+                .map(|(text, value)| condition(text, value, own_pid, &allowed.call))
+                .collect::<Result<Vec<_>, _>>()?;
+            alternatives.push(SeccompRule::new(conditions).map_err(|e| FilterError::Compile(e.to_string()))?);
+        }
+        rules.insert(i64::from(number(&allowed.call)?), alternatives);
+    }
+    let filter =
+        SeccompFilter::new(rules, SeccompAction::Trace(PLACEHOLDER.into()), SeccompAction::Allow, TargetArch::x86_64);
+    let compiled: Result<BpfProgram, _> = filter.and_then(BpfProgram::try_from);
+    let mut program = compiled.map_err(|e| FilterError::Compile(e.to_string()))?;
+    notify_instead_of_trace(&mut program)?;
+    insert_quiet(&mut program, &list.quiet)?;
+    Ok(program)
+}
+
+fn notify_instead_of_trace(program: &mut BpfProgram) -> Result<(), FilterError> {
+    let trace = libc::SECCOMP_RET_TRACE | u32::from(PLACEHOLDER);
+    let mut found = 0;
+    for instruction in program.iter_mut().filter(|i| i.code == RETURN && i.k == trace) {
+        instruction.k = libc::SECCOMP_RET_USER_NOTIF;
+        found += 1;
+    }
+    if found == 0 {
+        return Err(FilterError::Compile("no default action found in the compiled filter".into()));
+    }
+    Ok(())
+}
+
+/// Puts the quiet calls in front of the rules: behind the architecture check and the load of the call's number.
+fn insert_quiet(program: &mut BpfProgram, quiet: &[Quiet]) -> Result<(), FilterError> {
+    let number_loaded = program.iter().position(|i| i.code == LOAD_WORD && i.k == 0);
+    let at = 1 + number_loaded.ok_or_else(|| FilterError::Compile("the filter never loads the number".into()))?;
+    let mut front = Vec::new();
+    for call in quiet {
+        let errno = match call.errno.as_str() {
+            "0" => 0,
+            name => errno(name).ok_or_else(|| FilterError::UnknownErrno(name.to_string()))?,
+        };
+        front.push(seccompiler::sock_filter { code: JUMP_EQUAL, jt: 0, jf: 1, k: number(&call.call)? as u32 });
+        front.push(seccompiler::sock_filter { code: RETURN, jt: 0, jf: 0, k: libc::SECCOMP_RET_ERRNO | errno as u32 });
+    }
+    program.splice(at..at, front);
+    Ok(())
+}
+
+fn errno(name: &str) -> Option<i32> {
+    [Errno::ENOSYS, Errno::ENOTTY, Errno::ENOENT, Errno::EPERM]
+        .into_iter()
+        .find(|known| format!("{known:?}") == name)
+        .map(|known| known as i32)
+}
+
+/// `arg2 & 0x4` (masked equality), `arg0 ==`, `arg0 <=`; the value is a number or `own process`.
+fn condition(text: &str, value: &Value, own_pid: i32, call: &str) -> Result<SeccompCondition, FilterError> {
+    let not_understood = || FilterError::Condition(text.to_string(), call.to_string());
+    let value = match value {
+        Value::String(own) if own == "own process" => own_pid as u64,
+        number => number.as_u64().ok_or_else(not_understood)?,
+    };
+    let mut words = text.split_whitespace();
+    let argument = words.next().and_then(|w| w.strip_prefix("arg")).and_then(|w| w.parse().ok());
+    let operator = match (words.next(), words.next()) {
+        (Some("=="), None) => SeccompCmpOp::Eq,
+        (Some("<="), None) => SeccompCmpOp::Le,
+        (Some("&"), Some(mask)) => {
+            let digits = mask.strip_prefix("0x").ok_or_else(not_understood)?;
+            SeccompCmpOp::MaskedEq(u64::from_str_radix(digits, 16).map_err(|_| not_understood())?)
+        }
+        _ => return Err(not_understood()),
+    };
+    SeccompCondition::new(argument.ok_or_else(not_understood)?, SeccompCmpArgLen::Qword, operator, value)
+        .map_err(|e| FilterError::Compile(e.to_string()))
+}
+
+fn number(name: &str) -> Result<i32, FilterError> {
+    Sysno::from_str(name).map(|call| call.id()).map_err(|_| FilterError::UnknownCall(name.to_string()))
+}
+
+/// The name of a system call; `?` when this kernel interface has none of that number.
+pub fn name_of(nr: i64) -> String {
+    usize::try_from(nr).ok().and_then(Sysno::new).map_or_else(|| "?".to_string(), |call| call.name().to_string())
+}
+
+/// Puts the filter in force for this process, for good. Returns the listener's descriptor.
+pub fn install(program: &BpfProgram) -> io::Result<i32> {
+    let prog =
+        libc::sock_fprog { len: program.len() as u16, filter: program.as_ptr().cast_mut().cast::<libc::sock_filter>() };
+    // SAFETY: the program outlives the call, which copies it; seccompiler's instruction has the kernel's layout.
+    let listener = unsafe {
+        libc::syscall(
+            libc::SYS_seccomp,
+            libc::SECCOMP_SET_MODE_FILTER,
+            libc::SECCOMP_FILTER_FLAG_NEW_LISTENER,
+            &raw const prog,
+        )
+    };
+    if listener < 0 { Err(io::Error::last_os_error()) } else { Ok(listener as i32) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_list_compiles_and_asks_by_default() {
+        let program = compile(2).unwrap();
+        assert!(program.iter().any(|i| i.code == RETURN && i.k == libc::SECCOMP_RET_USER_NOTIF));
+        assert!(!program.iter().any(|i| i.code == RETURN && i.k & 0xffff_0000 == libc::SECCOMP_RET_TRACE));
+        assert!(program.len() < usize::from(u16::MAX));
+    }
+
+    #[test]
+    fn a_foreign_architecture_is_killed() {
+        let program = compile(2).unwrap();
+        assert!(program.iter().take(4).any(|i| i.code == RETURN && i.k == libc::SECCOMP_RET_KILL_PROCESS));
+    }
+
+    #[test]
+    fn every_line_has_a_reason() {
+        let list: List = serde_json::from_str(LIST).unwrap();
+        assert!(list.allow.iter().all(|a| a._because.len() > 4) && list.quiet.iter().all(|q| q._because.len() > 4));
+    }
+
+    #[test]
+    fn calls_are_named() {
+        assert_eq!(name_of(41), "socket");
+        assert_eq!(name_of(9999), "?");
+        assert_eq!(name_of(-1), "?");
+    }
+
+    #[test]
+    fn an_unknown_condition_is_refused() {
+        for text in ["arg0", "arg0 >", "arg2 & 4", "argx ==", ""] {
+            assert!(condition(text, &Value::from(1), 2, "read").is_err(), "{text}");
+        }
+    }
+}

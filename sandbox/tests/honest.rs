@@ -1,0 +1,138 @@
+//! An honest plugin passes through the jail unharmed.
+
+mod common;
+
+use common::{apart, fixture, launcher, launcher_with, mesh, one_question, policy, start};
+use nalgebra::Point3;
+use ocb_core::query::{Answer, Counters, Query};
+use ocb_sandbox::{ClockChoice, ClockKind, Outcome, Policy, Trial};
+
+#[test]
+fn describes_itself() {
+    let descriptors = launcher().describe(&fixture(&[])).unwrap();
+    assert_eq!(descriptors.len(), 1);
+    let one = &descriptors[0];
+    assert_eq!((one.id.as_str(), one.name.as_str()), ("fixture", "Fixture[31m of the tests"));
+    assert_eq!(one.queries, [Query::CollisionFirst, Query::CollisionAll, Query::Proximity]);
+    assert!(one.counters && one.witness_points && !one.single_precision && !one.coherent);
+    assert_eq!(one.parameters.len(), 1);
+    assert_eq!((one.parameters[0].maximum, one.parameters[0].integer), (100.0, true));
+}
+
+#[test]
+fn answers_every_kind_of_question() {
+    let mut session = start(&launcher(), &fixture(&[])).unwrap();
+    assert!(session.build_ns() > 0.0);
+    let hit = session.query(Query::CollisionFirst, &apart(0.5)).unwrap();
+    assert_eq!(hit.answer, Answer::Collision { hit: true, pair: Some([0, 1]) });
+    assert!(hit.time_ns > 0.0 && hit.raw_ns >= 0.0);
+    let miss = session.query(Query::CollisionFirst, &apart(2.0)).unwrap();
+    assert_eq!(miss.answer, Answer::Collision { hit: false, pair: None });
+    let contacts = session.query(Query::CollisionAll, &apart(0.5)).unwrap();
+    assert_eq!(contacts.answer, Answer::Contacts { total: 3, pairs: vec![[0, 10], [1, 11], [2, 12]] });
+    let distance = session.query(Query::Proximity, &apart(2.5)).unwrap();
+    let points = Some([Point3::origin(), Point3::new(2.5, 0.0, 0.0)]);
+    assert_eq!(distance.answer, Answer::Distance { distance: 2.5, points, triangles: Some([0, 1]) });
+    let ending = session.finish();
+    assert_eq!((ending.outcome, ending.stderr.as_str()), (Outcome::Completed, ""));
+    assert!(ending.cpu_seconds.is_some());
+}
+
+#[test]
+fn counts_in_a_pass_of_its_own_and_takes_parameters() {
+    let (mesh, plugin) = (mesh(), fixture(&[]));
+    let parameters = [("knob".to_string(), 42.0)];
+    let trial =
+        Trial { plugin: &plugin, algorithm: "fixture", mesh_a: &mesh, mesh_b: Some(&mesh), parameters: &parameters };
+    let mut session = launcher().start(&trial).unwrap();
+    let (answer, counters) = session.count(Query::CollisionFirst, &apart(0.5)).unwrap();
+    assert_eq!(answer, Answer::Collision { hit: true, pair: Some([0, 1]) });
+    assert_eq!(counters, Some(Counters { bv_tests: 11, primitive_tests: 42 }));
+    // Without a counting twin the plain function answers.
+    assert!(matches!(session.count(Query::Proximity, &apart(0.5)), Ok((Answer::Distance { .. }, None))));
+}
+
+#[test]
+fn gave_up_is_an_answer() {
+    let mut session = start(&launcher(), &fixture(&["FAULT_GAVE_UP"])).unwrap();
+    assert_eq!(session.query(Query::CollisionFirst, &apart(0.5)).unwrap().answer, Answer::GaveUp);
+    assert_eq!(session.finish().outcome, Outcome::Completed);
+}
+
+#[test]
+fn numbers_are_passed_on_as_they_are() {
+    let mut session = start(&launcher(), &fixture(&["FAULT_NAN"])).unwrap();
+    let Answer::Distance { distance, points, triangles } = session.query(Query::Proximity, &apart(0.5)).unwrap().answer
+    else {
+        panic!("no distance");
+    };
+    assert!(distance.is_nan() && points.unwrap()[0].x.is_infinite());
+    assert_eq!(triangles, Some([4_000_000_000, 1]));
+    assert_eq!(session.finish().outcome, Outcome::Completed);
+}
+
+#[test]
+fn an_absurd_number_of_contacts_is_cut_to_the_buffer() {
+    let mut session = start(&launcher(), &fixture(&["FAULT_TOTAL"])).unwrap();
+    let Answer::Contacts { total, pairs } = session.query(Query::CollisionAll, &apart(0.5)).unwrap().answer else {
+        panic!("no contacts");
+    };
+    assert_eq!((total, pairs.len()), (u64::MAX, 1 << 16));
+}
+
+#[test]
+fn both_clocks_see_work() {
+    for (choice, kind) in [(ClockChoice::Spin, ClockKind::Spin), (ClockChoice::Futex, ClockKind::Futex)] {
+        let policy = Policy { clock: choice, ..policy() };
+        let mut session = start(&launcher_with(policy), &fixture(&["WORK=3000000"])).unwrap();
+        assert_eq!(session.clock().kind, kind);
+        let facts = *session.clock();
+        assert!(facts.null_p05_ns <= facts.null_median_ns && facts.null_median_ns <= facts.null_p95_ns);
+        let sample = session.query(Query::CollisionFirst, &apart(0.5)).unwrap();
+        // Three million rounds through memory take no less than half a millisecond on any machine.
+        assert!(sample.time_ns > 500_000.0 && !sample.below_resolution, "{sample:?}");
+        assert!(sample.raw_ns > sample.time_ns);
+    }
+}
+
+#[test]
+fn one_cpu_is_enough() {
+    let policy = Policy { runner_cpu: Some(0), supervisor_cpu: Some(0), ..policy() };
+    let mut session = start(&launcher_with(policy), &fixture(&[])).unwrap();
+    assert_eq!(session.clock().kind, ClockKind::Futex);
+    session.query(Query::CollisionFirst, &apart(0.5)).unwrap();
+    assert_eq!(session.finish().outcome, Outcome::Completed);
+}
+
+#[test]
+fn the_floating_point_state_is_put_back() {
+    let mut session = start(&launcher(), &fixture(&["FAULT_FLOATING_POINT"])).unwrap();
+    for _ in 0..3 {
+        // The fixture leaves flush-to-zero, round-down and a backward direction behind; distances are whole again.
+        session.query(Query::CollisionFirst, &apart(0.5)).unwrap();
+        // Its square is a denormal number.
+        let tiny = session.query(Query::Proximity, &apart(1e-160)).unwrap();
+        assert!(matches!(tiny.answer, Answer::Distance { distance, .. } if distance > 0.0), "{tiny:?}");
+    }
+}
+
+#[test]
+fn unknown_names_are_load_errors_that_name_what_there_is() {
+    let (mesh, plugin) = (mesh(), fixture(&[]));
+    let start = |algorithm: &str, parameters: &[(String, f64)]| {
+        let trial = Trial { plugin: &plugin, algorithm, mesh_a: &mesh, mesh_b: None, parameters };
+        launcher().start(&trial).err().unwrap()
+    };
+    let ending = start("other", &[]);
+    assert_eq!(ending.outcome, Outcome::LoadError { reason: "it has no algorithm 'other', but fixture".into() });
+    for (name, value) in [("other", 1.0), ("knob", 101.0), ("knob", 0.5), ("knob", f64::INFINITY)] {
+        let ending = start("fixture", &[(name.to_string(), value)]);
+        assert!(!matches!(ending.outcome, Outcome::Completed | Outcome::SandboxFault { .. }), "{ending}");
+    }
+}
+
+#[test]
+fn what_it_says_is_kept_without_control_characters() {
+    let ending = one_question(&["FAULT_ABORT"], Query::CollisionFirst);
+    assert!(!ending.stderr.contains('\u{1b}'));
+}

@@ -1,0 +1,98 @@
+//! What happens around a supervisor: it dies, or it belongs to an ordinary user.
+//!
+//! This program has no test harness, since it starts copies of itself that play those supervisors.
+
+mod common;
+
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use common::{alive, apart, fixture, launcher_with, policy, runner, start};
+use ocb_core::query::Query;
+use ocb_sandbox::{Launcher, Outcome, Policy};
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().collect();
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+        [_, "hang", plugin] => hang(Path::new(plugin)),
+        [_, "ordinary", folder] => ordinary(Path::new(folder)),
+        _ => {
+            the_death_of_the_supervisor_ends_the_jail();
+            an_ordinary_user_can_run_plugins();
+        }
+    }
+}
+
+#[expect(clippy::disallowed_methods, reason = "the test plays supervisors, which are processes")]
+fn command(program: &Path) -> Command {
+    Command::new(program)
+}
+
+/// A supervisor whose plugin never answers.
+fn hang(plugin: &Path) {
+    let mut session = start(&launcher_with(Policy { query_seconds: 60.0, ..policy() }), plugin).unwrap();
+    println!("runner {}", session.pid());
+    let _ = session.query(Query::CollisionFirst, &apart(0.5));
+}
+
+fn the_death_of_the_supervisor_ends_the_jail() {
+    let mut supervisor = command(&std::env::current_exe().unwrap());
+    supervisor.arg("hang").arg(fixture(&["FAULT_SLEEP"])).stdout(Stdio::piped());
+    let mut supervisor = supervisor.spawn().unwrap();
+    let mut lines = BufReader::new(supervisor.stdout.take().unwrap()).lines().map_while(Result::ok);
+    let runner = lines.find_map(|line| line.strip_prefix("runner ")?.parse().ok()).expect("it tells its runner");
+    assert!(alive(runner));
+    supervisor.kill().unwrap();
+    supervisor.wait().unwrap();
+    assert!(gone_within(runner, Duration::from_secs(1)), "the runner outlived its supervisor");
+    println!("test the_death_of_the_supervisor_ends_the_jail ... ok");
+}
+
+fn gone_within(pid: i32, time: Duration) -> bool {
+    let start = Instant::now();
+    while alive(pid) {
+        if start.elapsed() > time {
+            return false;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    true
+}
+
+fn an_ordinary_user_can_run_plugins() {
+    // A folder that everybody may enter, with everything in it that the other user needs.
+    let folder = tempfile::Builder::new().prefix("ocb-ordinary").tempdir_in("/tmp").unwrap();
+    let open = std::os::unix::fs::PermissionsExt::from_mode(0o755);
+    std::fs::set_permissions(folder.path(), open).unwrap();
+    let place = |from: &Path, name: &str| std::fs::copy(from, folder.path().join(name)).unwrap();
+    place(&std::env::current_exe().unwrap(), "test");
+    place(&runner(), "ocb-runner");
+    place(&fixture(&[]), "honest.so");
+    place(&fixture(&["FAULT_SOCKET"]), "socket.so");
+    // SAFETY: reads a number.
+    if unsafe { libc::geteuid() } == 0 {
+        let mut other = command(Path::new("runuser"));
+        other.args(["-u", "nobody", "--"]).arg(folder.path().join("test")).arg("ordinary").arg(folder.path());
+        let output = other.current_dir("/").output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    } else {
+        ordinary(folder.path());
+    }
+    println!("test an_ordinary_user_can_run_plugins ... ok");
+}
+
+fn ordinary(folder: &Path) {
+    // SAFETY: reads a number.
+    assert_ne!(unsafe { libc::geteuid() }, 0);
+    let launcher = Launcher::new(folder.join("ocb-runner"), policy());
+    let mut session = start(&launcher, &folder.join("honest.so")).unwrap();
+    let layers = session.layers().join("; ");
+    assert!(layers.contains("pid, net, mount") && layers.contains("ids of this user"), "{layers}");
+    session.query(Query::CollisionFirst, &apart(0.5)).unwrap();
+    assert_eq!(session.finish().outcome, Outcome::Completed);
+    let mut session = start(&launcher, &folder.join("socket.so")).unwrap();
+    let outcome = session.query(Query::CollisionFirst, &apart(0.5)).unwrap_err();
+    assert!(matches!(outcome, Outcome::SyscallDenied { nr: libc::SYS_socket, .. }), "{outcome}");
+}
