@@ -93,7 +93,7 @@ pub fn fit(triangles: u32, make: impl Fn(Detail) -> Soup) -> Soup {
     const NEAR: f64 = 0.005;
     let wish = f64::from(triangles);
     let mut best = (f64::INFINITY, 0.0, Soup::default());
-    let mut try_density = |density: f64, best: &mut (f64, f64, Soup)| {
+    let try_density = |density: f64, best: &mut (f64, f64, Soup)| {
         let soup = make(Detail { density, triangles, phase: 0.0 });
         let miss = (soup.triangles.len() as f64 / wish).ln();
         if miss.abs() < best.0 {

@@ -83,8 +83,8 @@ fn march(
     is_inside: impl Fn([usize; 3]) -> bool,
 ) {
     let (mut inner, mut outer) = (Vec::with_capacity(4), Vec::with_capacity(4));
-    for k in 0..4 {
-        if is_inside(corners[k]) { inner.push(k) } else { outer.push(k) }
+    for (k, corner) in corners.into_iter().enumerate() {
+        if is_inside(corner) { inner.push(k) } else { outer.push(k) }
     }
     // Whether the order (inner.., outer..) is an even permutation of the corners decides how the triangle faces.
     let order: Vec<usize> = inner.iter().chain(&outer).copied().collect();

@@ -3,6 +3,8 @@
 
 use std::borrow::Cow;
 use std::fmt::Write;
+use std::iter::Enumerate;
+use std::slice::Split;
 
 use super::{LineFault, MAX_BYTES, MAX_CORNERS, MAX_LINE_BYTES, MAX_TRIANGLES, MAX_VERTICES, ObjError};
 use crate::mesh::MAX_COORDINATE;
@@ -48,13 +50,15 @@ pub fn run(bytes: &[u8]) -> Result<Clean, ObjError> {
 /// The logical lines of a file: numbered from 1 by their first physical line, continuation lines joined, comments and
 /// line ends cut off.
 struct Lines<'a> {
-    physical: std::iter::Enumerate<std::slice::Split<'a, u8, fn(&u8) -> bool>>,
+    physical: Enumerate<Split<'a, u8, IsLineEnd>>,
 }
+
+type IsLineEnd = fn(&u8) -> bool;
 
 impl<'a> Lines<'a> {
     fn new(bytes: &'a [u8]) -> Self {
         // Files of old Macintosh programs end their lines by CR alone.
-        let end: fn(&u8) -> bool = if bytes.contains(&b'\n') { |&b| b == b'\n' } else { |&b| b == b'\r' };
+        let end: IsLineEnd = if bytes.contains(&b'\n') { |&b| b == b'\n' } else { |&b| b == b'\r' };
         Self { physical: bytes.split(end).enumerate() }
     }
 
