@@ -217,7 +217,7 @@ impl Turn<'_> {
             plugin: &contestant.file,
             algorithm: &contestant.info.id,
             mesh_a: self.task.mesh_a,
-            mesh_b: (!self.task.same).then(|| self.task.mesh_b),
+            mesh_b: (!self.task.same).then_some(self.task.mesh_b),
             parameters: &[],
         };
         self.registry.launcher(contestant, policy).start(&trial).map_err(|ending| outcome_info(&ending.outcome))

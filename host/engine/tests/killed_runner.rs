@@ -31,11 +31,13 @@ fn kill_the_runner_of_this_process() -> bool {
     use nix::unistd::Pid;
     let started = std::time::Instant::now();
     while started.elapsed().as_secs() < 60 {
-        let mut below = descendants(std::process::id());
-        // The deepest one holds the plugin; those above it keep the jail.
-        if let Some(runner) = below.pop() {
-            std::thread::sleep(std::time::Duration::from_millis(300));
-            if kill(Pid::from_raw(runner as i32), Signal::SIGKILL).is_ok() {
+        if !descendants(std::process::id()).is_empty() {
+            // Long enough for the jail to be complete, and for some answers.
+            std::thread::sleep(std::time::Duration::from_millis(700));
+            // The deepest one holds the plugin; those above it keep the jail.
+            if let Some(runner) = descendants(std::process::id()).pop()
+                && kill(Pid::from_raw(runner as i32), Signal::SIGKILL).is_ok()
+            {
                 return true;
             }
         }

@@ -10,7 +10,7 @@ use std::process::{Child, Command, Stdio};
 
 use futures::StreamExt;
 use ocb_engine::Engine;
-use ocb_engine::model::{RunSpec, StageKind, State};
+use ocb_engine::model::{AlgorithmResult, RunSpec, StageKind, State};
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
@@ -31,7 +31,11 @@ fn main() {
 
 /// Long enough in each stage to be met there.
 fn spec() -> RunSpec {
-    RunSpec { algorithms: vec!["box-tree".into(), "parry".into()], ..common::spec("proximity", 3000, 11) }
+    RunSpec {
+        algorithms: vec!["box-tree".into(), "parry".into()],
+        budget_seconds: 6.0,
+        ..common::spec("proximity", 3000, 11)
+    }
 }
 
 /// The service: works on the folder and prints what happens. Queues one run when there is none.
@@ -94,7 +98,9 @@ fn killed_at(stage: StageKind) {
     assert_eq!(run.state, State::Done, "killed at {stage:?}: {:?}", run.message);
     assert!(run.stages.iter().all(|s| s.state == State::Done), "{:?}", run.stages);
     assert_eq!(run.results.len(), 2);
-    assert!(run.results.iter().all(|r| r.n == r.of && r.wrong == 0), "{:?}", run.results);
+    // The slower one may need more than its budget on a busy machine.
+    let whole = |r: &AlgorithmResult| r.n > 0 && r.wrong == 0 && (r.n == r.of || r.budget_limited);
+    assert!(run.results.iter().all(whole), "{:?}", run.results);
     let saved = run.stages[1].message.as_deref().is_some_and(|m| m.contains("Saved positions"));
     match stage {
         StageKind::Object => {}

@@ -18,7 +18,7 @@ use crate::model::{AlgorithmInfo, CheckLine, CheckVerdict, PluginReport};
 use crate::{EngineError, Result};
 
 /// Placements per relative distance.
-const RAYS: u32 = 24;
+const RAYS: u32 = 12;
 /// Triangles of the smoke object: small enough for the slowest algorithm.
 const TRIANGLES: u32 = 500;
 /// Apart, close, and in the place of A, where everything touches everything.
