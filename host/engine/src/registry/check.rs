@@ -120,8 +120,7 @@ impl PluginReport {
         let mesh = Arc::new(mesh);
         let shape = Shape::new(mesh.clone());
         let placed = smoke_configurations(&shape)?;
-        let trial =
-            Trial { plugin: file, algorithm: &algorithm.id, mesh_a: &mesh, mesh_b: None, parameters: &[] };
+        let trial = Trial { plugin: file, algorithm: &algorithm.id, mesh_a: &mesh, mesh_b: None, parameters: &[] };
         let mut session = match launcher.start(&trial) {
             Ok(session) => session,
             Err(ending) if ending.outcome.ours() => return Err(EngineError::Fault(ending.to_string())),
