@@ -1,2 +1,48 @@
-//! The ocb command.
-fn main() {}
+//! `ocb`: serve the pages, or do from a terminal what they do.
+
+mod args;
+mod bench;
+mod failure;
+mod heatmap;
+mod object;
+mod open;
+mod output;
+mod plugin;
+mod run;
+mod serve;
+mod units;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use tracing_subscriber::EnvFilter;
+
+use args::{Cli, Command};
+use failure::{Failure, Result};
+
+#[tokio::main]
+async fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return failure::usage(&error),
+    };
+    let level = if matches!(cli.command, Command::Serve(_)) { "info" } else { "error" };
+    let filter = EnvFilter::try_from_env("OCB_LOG").unwrap_or_else(|_| EnvFilter::new(level));
+    tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();
+    match command(cli).await {
+        Ok(code) => code,
+        Err(failure) => failure.report(),
+    }
+}
+
+async fn command(cli: Cli) -> Result<ExitCode> {
+    let Cli { command, store, json } = cli;
+    match command {
+        Command::Serve(args) => serve::serve(&store, &args, json).await,
+        Command::Bench(args) => bench::bench(&store, &args, json).await,
+        Command::Plugin { command } => plugin::plugin(&store, &command, json).await,
+        Command::Object { command } => object::object(&store, &command, json).await,
+        Command::Run { command } => run::run(&store, &command, json).await,
+        Command::Heatmap(args) => heatmap::heatmap(&store, &args, json).await,
+    }
+}

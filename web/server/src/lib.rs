@@ -1,1 +1,81 @@
-//! The server.
+//! HTTP for pages and programs: the routes of `/api/v1`, the progress stream and the built pages.
+//!
+//! Everything that is known comes from one [`Engine`]; its values ([`ocb_engine::model`]) are the JSON of this API. The
+//! server sends numbers, never colours (except in the downloads that are pictures of a heatmap).
+
+mod events;
+mod extract;
+mod guest;
+mod layers;
+mod pages;
+mod problem;
+mod routes;
+mod upload;
+
+use std::future::{Future, IntoFuture};
+use std::io;
+use std::net::SocketAddr;
+use std::time::Duration;
+
+use ocb_engine::Engine;
+use tokio::net::TcpListener;
+use tokio::sync::{Semaphore, watch};
+
+pub use problem::Problem;
+pub use routes::{document, router};
+
+/// How long open requests may take to end after the service was asked to stop.
+const GRACE: Duration = Duration::from_secs(10);
+
+/// Large uploads that are held in memory at a time; others wait.
+const UPLOADS_AT_A_TIME: usize = 2;
+
+/// What every handler may use.
+#[derive(Clone)]
+pub struct App {
+    engine: Engine,
+    uploads: std::sync::Arc<Semaphore>,
+    /// True from the moment the service is asked to stop: progress streams end, so that their connections can.
+    stopping: watch::Receiver<bool>,
+}
+
+impl App {
+    /// The engine behind HTTP; `stopping` ends the progress streams.
+    pub fn new(engine: Engine, stopping: watch::Receiver<bool>) -> Self {
+        Self { engine, uploads: std::sync::Arc::new(Semaphore::new(UPLOADS_AT_A_TIME)), stopping }
+    }
+}
+
+/// Binds the address; the listener tells which port it got when the port asked for was 0.
+///
+/// # Errors
+/// When the address is in use or not ours.
+pub async fn bind(address: SocketAddr) -> io::Result<TcpListener> {
+    TcpListener::bind(address).await
+}
+
+/// Serves until `shutdown` is ready, then ends open requests; the engine stays open.
+///
+/// # Errors
+/// When the listener fails.
+pub async fn serve(
+    engine: Engine,
+    listener: TcpListener,
+    shutdown: impl Future<Output = ()> + Send + 'static,
+) -> io::Result<()> {
+    let (stop, stopping) = watch::channel(false);
+    let app = router(App::new(engine, stopping.clone()));
+    let graceful = axum::serve(listener, app).with_graceful_shutdown(async move {
+        shutdown.await;
+        let _ = stop.send(true);
+    });
+    let mut stopped = stopping;
+    tokio::select! {
+        ended = graceful.into_future() => ended,
+        () = async {
+            // An error means that the sender is gone, which happens only behind the signal.
+            let _ = stopped.wait_for(|stop| *stop).await;
+            tokio::time::sleep(GRACE).await;
+        } => Ok(()),
+    }
+}

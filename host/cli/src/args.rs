@@ -1,0 +1,315 @@
+//! What can be said on the command line.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Benchmarks of collision detection.
+#[derive(Debug, Parser)]
+#[command(name = "ocb", version, about, after_help = EXIT_CODES)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+    #[command(flatten)]
+    pub store: Store,
+    /// Machine-readable output on stdout, and nothing else there.
+    #[arg(long, global = true)]
+    pub json: bool,
+}
+
+const EXIT_CODES: &str = "Exit codes:
+  0    done; for a benchmark: every algorithm completed and no answer was wrong
+  1    our fault or the machine's
+  2    bad input; nothing of it was kept
+  3    the run finished, but an algorithm failed or gave wrong answers
+  130  stopped by Ctrl-C; the run is cancelled and nothing goes on running";
+
+/// Where data, runner and plugins are.
+#[derive(Debug, Args)]
+pub struct Store {
+    /// Data folder [default: $XDG_DATA_HOME/opencollbench, else ~/.local/share/opencollbench].
+    #[arg(long, global = true, env = "OCB_DATA", value_name = "DIR", hide_env_values = true)]
+    pub data: Option<PathBuf>,
+    /// Database, `postgres://...` [default: SQLite in the data folder].
+    #[arg(long, global = true, env = "OCB_DATABASE", value_name = "URL", hide_env_values = true)]
+    pub database: Option<String>,
+    /// Blob storage, `s3://bucket/prefix?endpoint=...` [default: a folder in the data folder].
+    #[arg(long, global = true, env = "OCB_BLOBS", value_name = "URL", hide_env_values = true)]
+    pub blobs: Option<String>,
+    /// The `ocb-runner` binary [default: beside this program].
+    #[arg(long, global = true, env = "OCB_RUNNER", value_name = "FILE", hide_env_values = true)]
+    pub runner: Option<PathBuf>,
+    /// Plugin file, or folder of plugins; may be repeated [default: beside this program].
+    #[arg(
+        long,
+        global = true,
+        env = "OCB_PLUGINS",
+        value_name = "PATH",
+        value_delimiter = ':',
+        hide_env_values = true
+    )]
+    pub plugins: Vec<PathBuf>,
+    /// Folder with the Stanford objects, `bunny.obj` and `dragon.obj` [default: `stock` beside this program or above it].
+    #[arg(long, global = true, env = "OCB_STOCK", value_name = "DIR", hide_env_values = true)]
+    pub stock_dir: Option<PathBuf>,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Serve pages and API.
+    Serve(ServeArgs),
+    /// Measure algorithms on a pair of objects, print the table, write the result files.
+    Bench(BenchArgs),
+    /// Look at plugins.
+    Plugin {
+        #[command(subcommand)]
+        command: PluginCommand,
+    },
+    /// Look at objects.
+    Object {
+        #[command(subcommand)]
+        command: ObjectCommand,
+    },
+    /// Look at the runs of this command line; runs made in the pages can be shown by their id.
+    Run {
+        #[command(subcommand)]
+        command: RunCommand,
+    },
+    /// Write a heatmap of a run as .glb, .ply or .csv.
+    Heatmap(HeatmapArgs),
+}
+
+/// `ocb serve`
+#[derive(Debug, Args)]
+pub struct ServeArgs {
+    /// Where to listen; port 0 takes a free one.
+    #[arg(long, visible_alias = "listen", default_value = "127.0.0.1:8080")]
+    pub address: SocketAddr,
+}
+
+/// `ocb bench`
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// Object A (fixed): an OBJ file, or a stock object such as `stock:castle@5000`.
+    pub a: String,
+    /// Object B (moving) [default: the same as A].
+    pub b: Option<String>,
+    /// Algorithms, by id; may be repeated or separated by commas [default: all that answer the question].
+    #[arg(long, value_delimiter = ',', value_name = "ID")]
+    pub algorithm: Vec<String>,
+    /// The question: do they collide (cd), or how far apart are they (pq).
+    #[arg(long, value_enum, default_value_t = Question::Cd)]
+    pub query: Question,
+    /// For cd: stop at the first contact, or list all [default: first].
+    #[arg(long, value_enum)]
+    pub contacts: Option<Contacts>,
+    /// How configurations are found.
+    #[arg(long, value_enum, default_value_t = SamplingMethod::Sphere)]
+    pub method: SamplingMethod,
+    /// Use the 2020 paper's own pattern of directions and rotations.
+    #[arg(long, conflicts_with_all = ["count", "configurations"])]
+    pub paper_compat: bool,
+    /// Rotate-by, degrees [default: 20].
+    #[arg(long, allow_negative_numbers = true, value_name = "DEGREES", conflicts_with_all = ["count", "configurations"])]
+    pub rotate: Option<f64>,
+    /// Move-by, degrees [default: 20].
+    #[arg(long = "move", allow_negative_numbers = true, value_name = "DEGREES", conflicts_with_all = ["count", "configurations"])]
+    pub move_by: Option<f64>,
+    /// So many configurations instead of steps.
+    #[arg(long, allow_negative_numbers = true, value_name = "N", conflicts_with = "configurations")]
+    pub count: Option<i64>,
+    /// Configurations from a file: a Parquet set of ours, or raw little-endian f64 4x4 row-major matrices that place B in
+    /// A's frame.
+    #[arg(long, value_name = "FILE")]
+    pub configurations: Option<PathBuf>,
+    /// Seed of the low-discrepancy sequences [default: 0].
+    #[arg(long, conflicts_with = "configurations")]
+    pub seed: Option<u64>,
+    /// Relative distance: surface distance over the longest side of A's bounding box; 0 is touching [default: 0].
+    #[arg(long, allow_negative_numbers = true, conflicts_with = "configurations")]
+    pub distance: Option<f64>,
+    /// Timed passes per configuration; the median counts.
+    #[arg(long, default_value_t = 3)]
+    pub passes: u32,
+    /// Measuring time per algorithm; a slower one is measured on as many configurations as fit.
+    #[arg(long, default_value_t = 60.0, allow_negative_numbers = true, value_name = "SECONDS")]
+    pub budget: f64,
+    /// Folder for the result files: records as Parquet and CSV, configurations, run.json, heatmaps as GLB and PLY.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// The question.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Question {
+    /// Collision query.
+    Cd,
+    /// Proximity query.
+    Pq,
+}
+
+/// How much of the answer to a collision query.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Contacts {
+    /// The first intersecting pair.
+    First,
+    /// All intersecting pairs.
+    All,
+}
+
+/// How configurations are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SamplingMethod {
+    /// B comes from a sphere around A until the relative distance is met.
+    Sphere,
+}
+
+/// `ocb plugin`
+#[derive(Debug, Subcommand)]
+pub enum PluginCommand {
+    /// List all algorithms of all plugins.
+    List,
+    /// Check a plugin file, in the jail: format, ABI, descriptor, answers.
+    Check {
+        /// The shared library.
+        file: PathBuf,
+    },
+}
+
+/// `ocb object`
+#[derive(Debug, Subcommand)]
+pub enum ObjectCommand {
+    /// List stock objects and those read by earlier commands.
+    List,
+}
+
+/// `ocb run`
+#[derive(Debug, Subcommand)]
+pub enum RunCommand {
+    /// List runs, newest first.
+    List,
+    /// Show one run with its table.
+    Show {
+        /// Run id, or `latest`.
+        run: String,
+    },
+}
+
+/// `ocb heatmap`
+#[derive(Debug, Args)]
+pub struct HeatmapArgs {
+    /// Run id, or `latest`.
+    pub run: String,
+    /// File to write: .glb (colours and values), .ply (colours and quality) or .csv (vertex, value, count, dropped).
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Algorithm [default: the run's only one].
+    #[arg(long, value_name = "ID")]
+    pub algorithm: Option<String>,
+    /// What to show.
+    #[arg(long, value_enum, default_value_t = MeasureArg::Time)]
+    pub measure: MeasureArg,
+    /// Which statistic of the values at a vertex.
+    #[arg(long, value_enum, default_value_t = StatisticArg::Median)]
+    pub statistic: StatisticArg,
+    /// What to do with values outside the IQR fence.
+    #[arg(long, value_enum, default_value_t = OutliersArg::PerVertex)]
+    pub outliers: OutliersArg,
+    /// Which object.
+    #[arg(long, value_enum, default_value_t = SideArg::A)]
+    pub side: SideArg,
+    /// Colours.
+    #[arg(long, value_enum, default_value_t = ColormapArg::Turbo)]
+    pub colormap: ColormapArg,
+    /// How values are spread over the colours.
+    #[arg(long, value_enum, default_value_t = ScaleArg::Linear)]
+    pub scale: ScaleArg,
+}
+
+/// A choice of the command line that is an enum of the domain: the same variants, named as clap names them.
+macro_rules! choice {
+    ($(#[$doc:meta])* $name:ident => $domain:ty { $($(#[$variant_doc:meta])* $variant:ident),+ $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+        pub enum $name { $($(#[$variant_doc])* $variant),+ }
+
+        impl From<$name> for $domain {
+            fn from(choice: $name) -> Self {
+                match choice { $($name::$variant => Self::$variant),+ }
+            }
+        }
+    };
+}
+
+choice! {
+    /// What to show.
+    MeasureArg => ocb_engine::model::Measure {
+        /// Time per query.
+        Time,
+        /// Bounding volume tests per query.
+        BvTests,
+        /// Primitive tests per query.
+        PrimitiveTests,
+        /// Configurations with their witness point at a vertex.
+        Density,
+    }
+}
+choice! {
+    /// Which statistic.
+    StatisticArg => ocb_core::statistics::Statistic {
+        /// Arithmetic mean.
+        Mean,
+        /// Median.
+        Median,
+        /// Smallest.
+        Min,
+        /// Largest.
+        Max,
+        /// Standard deviation.
+        StandardDeviation,
+        /// Median absolute deviation.
+        Mad,
+    }
+}
+choice! {
+    /// What happens to outliers.
+    OutliersArg => ocb_core::statistics::Outliers {
+        /// All values count.
+        Keep,
+        /// One fence per vertex.
+        PerVertex,
+        /// One fence over all configurations, as in the 2020 paper.
+        Global,
+    }
+}
+choice! {
+    /// Which object.
+    SideArg => ocb_engine::model::Side {
+        /// The fixed object.
+        A,
+        /// The moving object.
+        B,
+    }
+}
+choice! {
+    /// Colours.
+    ColormapArg => ocb_core::colormap::Colormap {
+        /// As in the 2020 paper.
+        Turbo,
+        /// Perceptually uniform.
+        Viridis,
+        /// Reads the same with colour vision deficiency.
+        Cividis,
+    }
+}
+choice! {
+    /// How values are spread over the colours.
+    ScaleArg => ocb_core::colormap::Scale {
+        /// Evenly.
+        Linear,
+        /// By logarithm.
+        Log,
+    }
+}

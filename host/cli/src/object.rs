@@ -1,0 +1,31 @@
+//! `ocb object`: what can be measured on.
+
+use std::process::ExitCode;
+
+use ocb_engine::model::ObjectInfo;
+
+use crate::args::{ObjectCommand, Store};
+use crate::failure::Result;
+use crate::open::{self, OWNER, Purpose};
+use crate::output;
+
+/// Lists.
+pub async fn object(store: &Store, command: &ObjectCommand, json: bool) -> Result<ExitCode> {
+    let ObjectCommand::List = command;
+    let engine = open::open(store, Purpose::Look).await?;
+    let objects = engine.objects(Some(OWNER)).await;
+    engine.shutdown().await;
+    let objects = objects?;
+    if json {
+        output::print_json(&objects)?;
+    } else {
+        let row = |o: &ObjectInfo| {
+            let closed = if o.closed { "closed" } else { "open" }.to_owned();
+            vec![o.id.clone(), o.name.clone(), o.triangles.to_string(), o.vertices.to_string(), closed, o.terms.clone()]
+        };
+        let headings = ["id", "name", "triangles", "vertices", "surface", "terms"];
+        output::print(&output::table(&headings, objects.iter().map(row).collect(), &[2, 3]))?;
+        output::print("A procedural object takes any number of triangles behind @, e.g. stock:castle@20000.")?;
+    }
+    Ok(ExitCode::SUCCESS)
+}

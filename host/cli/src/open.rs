@@ -1,0 +1,106 @@
+//! Opening the engine as the command line says.
+
+use std::path::{Path, PathBuf};
+
+use ocb_engine::{Engine, EngineConfig};
+
+use crate::args::Store;
+use crate::failure::{Failure, Result};
+
+/// Owner of what the command line makes.
+pub const OWNER: &str = "cli";
+
+/// What the command needs the engine for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// Only to look.
+    Look,
+    /// To measure one run.
+    Measure,
+    /// To serve.
+    Serve,
+}
+
+/// Opens the engine on the data folder.
+pub async fn open(store: &Store, purpose: Purpose) -> Result<Engine> {
+    let data = match &store.data {
+        Some(folder) => folder.clone(),
+        None => default_data(|name| std::env::var_os(name).map(PathBuf::from))?,
+    };
+    Ok(Engine::open(config(store, data, purpose)).await?)
+}
+
+/// Opens the engine on a folder of its own that goes away, for commands that ask about plugins only: those must work
+/// while a service holds the data folder, and leave nothing behind.
+pub async fn open_aside(store: &Store) -> Result<(Engine, tempfile::TempDir)> {
+    let folder = tempfile::Builder::new()
+        .prefix("ocb-")
+        .tempdir()
+        .map_err(|e| Failure::Fault(format!("cannot make a temporary folder: {e}.")))?;
+    let mut config = config(store, folder.path().to_path_buf(), Purpose::Look);
+    config.database_url = None;
+    config.blob_url = None;
+    Ok((Engine::open(config).await?, folder))
+}
+
+fn config(store: &Store, data: PathBuf, purpose: Purpose) -> EngineConfig {
+    let mut config = EngineConfig::beside_executable(data);
+    config.database_url.clone_from(&store.database);
+    config.blob_url.clone_from(&store.blobs);
+    if let Some(runner) = &store.runner {
+        config.runner.clone_from(runner);
+    }
+    if !store.plugins.is_empty() {
+        config.plugins.clone_from(&store.plugins);
+    }
+    config.stock_dir = store.stock_dir.clone().or_else(beside_us);
+    config.dispatch = purpose != Purpose::Look;
+    config.featured = purpose == Purpose::Serve;
+    config
+}
+
+/// `stock` beside this program when installed, above it in a build folder.
+fn beside_us() -> Option<PathBuf> {
+    let program = std::env::current_exe().ok()?;
+    program.ancestors().skip(1).take(2).map(|folder| folder.join("stock")).find(|folder| folder.is_dir())
+}
+
+fn default_data(variable: impl Fn(&str) -> Option<PathBuf>) -> Result<PathBuf> {
+    // The XDG rules: a relative path there is to be ignored.
+    let xdg = variable("XDG_DATA_HOME").filter(|folder| folder.is_absolute());
+    let home =
+        || variable("HOME").filter(|folder| !folder.as_os_str().is_empty()).map(|home| home.join(".local/share"));
+    xdg.or_else(home).map(|folder| folder.join("opencollbench")).ok_or_else(|| {
+        Failure::Input("There is no home folder to keep data in; name one with --data DIR or OCB_DATA.".to_owned())
+    })
+}
+
+/// Reads a file that is given to us, of at most `most` bytes: looks at its size before it reads.
+pub fn read_bounded(path: &Path, most: usize) -> Result<Vec<u8>> {
+    let facts = std::fs::metadata(path).map_err(|e| Failure::file("read", path, &e))?;
+    if facts.is_dir() {
+        return Err(Failure::Input(format!("Cannot read {}: it is a folder.", path.display())));
+    }
+    if facts.len() > most as u64 {
+        let (size, most) = (facts.len() >> 20, most >> 20);
+        let name = path.display();
+        return Err(Failure::Input(format!("{name} has {size} MiB, but at most {most} MiB are read.")));
+    }
+    std::fs::read(path).map_err(|e| Failure::file("read", path, &e))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn data_goes_where_xdg_says() {
+        let set = |pairs: &'static [(&str, &str)]| {
+            move |name: &str| pairs.iter().find(|(key, _)| *key == name).map(|(_, value)| PathBuf::from(value))
+        };
+        let ok = |pairs| default_data(set(pairs)).expect("a folder");
+        assert_eq!(ok(&[("XDG_DATA_HOME", "/x"), ("HOME", "/h")]), Path::new("/x/opencollbench"));
+        assert_eq!(ok(&[("XDG_DATA_HOME", "x"), ("HOME", "/h")]), Path::new("/h/.local/share/opencollbench"));
+        assert!(default_data(set(&[])).is_err());
+    }
+}

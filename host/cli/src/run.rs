@@ -1,0 +1,67 @@
+//! `ocb run`: what was measured.
+
+use std::process::ExitCode;
+
+use ocb_engine::model::{RunInfo, State};
+use ocb_engine::{Engine, EngineError};
+
+use crate::args::{RunCommand, Store};
+use crate::failure::Result;
+use crate::open::{self, OWNER, Purpose};
+use crate::{bench, output, plugin};
+
+/// Lists or shows.
+pub async fn run(store: &Store, command: &RunCommand, json: bool) -> Result<ExitCode> {
+    let engine = open::open(store, Purpose::Look).await?;
+    let done = match command {
+        RunCommand::List => list(&engine, json).await,
+        RunCommand::Show { run } => show(&engine, run, json).await,
+    };
+    engine.shutdown().await;
+    done.map(|()| ExitCode::SUCCESS)
+}
+
+async fn list(engine: &Engine, json: bool) -> Result<()> {
+    let runs = engine.runs(OWNER).await?;
+    if json {
+        return output::print_json(&runs);
+    }
+    if runs.is_empty() {
+        return output::print("No runs yet; `ocb bench stock:torus-knot` makes one.");
+    }
+    let row = |run: &RunInfo| {
+        let algorithms: Vec<&str> = run.results.iter().map(|result| result.algorithm.as_str()).collect();
+        let count = run.set.as_ref().map_or_else(String::new, |set| set.configurations.to_string());
+        let pair = format!("{} x {}", run.object_a_name, run.object_b_name);
+        let query = plugin::query_name(run.spec.query).to_owned();
+        vec![run.id.clone(), state_name(run.state).to_owned(), pair, query, count, algorithms.join(", ")]
+    };
+    let headings = ["run", "state", "objects", "query", "configurations", "algorithms"];
+    output::print(&output::table(&headings, runs.iter().map(row).collect(), &[4]))
+}
+
+async fn show(engine: &Engine, id: &str, json: bool) -> Result<()> {
+    let run = find(engine, id).await?;
+    if json { output::print_json(&run) } else { output::print(&bench::table::summary(&run)) }
+}
+
+/// The run of that id; `latest` is the newest of the command line.
+pub async fn find(engine: &Engine, id: &str) -> Result<RunInfo> {
+    if id != "latest" {
+        return Ok(engine.run(id, Some(OWNER)).await?);
+    }
+    let newest = engine.runs(OWNER).await?.into_iter().next();
+    let none = || EngineError::NotFound("There is no run yet; `ocb bench stock:torus-knot` makes one.".to_owned());
+    Ok(newest.ok_or_else(none)?)
+}
+
+/// A state in words.
+pub fn state_name(state: State) -> &'static str {
+    match state {
+        State::Queued => "queued",
+        State::Running => "running",
+        State::Done => "done",
+        State::Failed => "failed",
+        State::Cancelled => "cancelled",
+    }
+}

@@ -1,0 +1,49 @@
+//! `ocb serve`: pages and API until somebody stops it.
+
+use std::process::ExitCode;
+
+use serde_json::json;
+use tokio::signal::unix::{SignalKind, signal};
+
+use crate::args::{ServeArgs, Store};
+use crate::failure::{Failure, Result};
+use crate::open::{self, Purpose};
+use crate::output;
+
+/// Serves until SIGINT or SIGTERM; a run under way goes on at the next start.
+pub async fn serve(store: &Store, args: &ServeArgs, json: bool) -> Result<ExitCode> {
+    // The address first: nothing is opened, queued or measured for a service that cannot listen.
+    let listener = ocb_server::bind(args.address).await.map_err(|e| {
+        let reason = match e.kind() {
+            std::io::ErrorKind::AddrInUse => "something else listens there already".to_owned(),
+            _ => e.to_string(),
+        };
+        Failure::Input(format!("Cannot listen on {}: {reason}; choose another with --address.", args.address))
+    })?;
+    let address = listener.local_addr().map_err(|e| Failure::Fault(format!("no address: {e}.")))?;
+    let stop = stop_signal()?;
+    let engine = open::open(store, Purpose::Serve).await?;
+    let url = format!("http://{address}");
+    if json {
+        output::print_json(&json!({ "url": url }))?;
+    } else {
+        eprintln!("OpenCollBench serves on {url}; stop it with Ctrl-C.");
+    }
+    let served = ocb_server::serve(engine.clone(), listener, stop).await;
+    engine.shutdown().await;
+    served.map_err(|e| Failure::Fault(format!("the service ended: {e}.")))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Ready when the process is asked to stop.
+pub fn stop_signal() -> Result<impl Future<Output = ()> + Send + 'static> {
+    let listen = |kind| signal(kind).map_err(|e| Failure::Fault(format!("cannot listen for signals: {e}.")));
+    let mut interrupt = listen(SignalKind::interrupt())?;
+    let mut terminate = listen(SignalKind::terminate())?;
+    Ok(async move {
+        tokio::select! {
+            _ = interrupt.recv() => {}
+            _ = terminate.recv() => {}
+        }
+    })
+}

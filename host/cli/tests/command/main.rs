@@ -1,0 +1,9 @@
+//! The `ocb` binary, every command, good and bad.
+//!
+//! It starts the runner and asks plugins, so `cargo build --release` must have built them before; `make test` does so.
+
+mod bench;
+mod errors;
+mod look;
+mod serve;
+mod support;

@@ -1,0 +1,47 @@
+//! `ocb serve` from start to stop.
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{TcpListener, TcpStream};
+
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+
+use crate::support::Desk;
+
+#[test]
+fn it_serves_until_it_is_told_to_stop() {
+    let desk = Desk::new();
+    for signal in [Signal::SIGTERM, Signal::SIGINT] {
+        let mut child = desk.command(&["serve", "--address", "127.0.0.1:0", "--json"]).spawn().expect("it starts");
+        let stdout = BufReader::new(child.stdout.take().expect("stdout"));
+        let url = stdout.lines().map_while(Result::ok).find_map(|line| {
+            let (_, rest) = line.split_once("http://")?;
+            rest.split('"').next().map(str::to_owned)
+        });
+        let answer = get(&url.expect("an address"), "/api/v1/status");
+        assert!(answer.starts_with("HTTP/1.1 200") || answer.starts_with("HTTP/1.0 200"), "{answer}");
+        assert!(answer.contains("\"algorithms\":"), "{answer}");
+        kill(Pid::from_raw(i32::try_from(child.id()).expect("a pid")), signal).expect("it runs");
+        let ended = child.wait_with_output().expect("it ends");
+        assert_eq!(ended.status.code(), Some(0), "{}", String::from_utf8_lossy(&ended.stderr));
+    }
+}
+
+fn get(address: &str, path: &str) -> String {
+    let mut connection = TcpStream::connect(address).expect("it listens");
+    write!(connection, "GET {path} HTTP/1.0\r\nHost: {address}\r\n\r\n").expect("it reads");
+    let mut answer = String::new();
+    connection.read_to_string(&mut answer).expect("it answers");
+    answer
+}
+
+#[test]
+fn an_address_in_use_is_refused() {
+    let desk = Desk::new();
+    let taken = TcpListener::bind("127.0.0.1:0").expect("a port");
+    let address = taken.local_addr().expect("an address").to_string();
+    let sentence = desk.refused(&["serve", "--address", &address]);
+    assert!(sentence.contains(&address), "{sentence}");
+    desk.refused(&["serve", "--address", "everywhere"]);
+    assert!(!desk.path("data").exists());
+}

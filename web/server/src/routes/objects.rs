@@ -1,0 +1,86 @@
+//! Objects: stock ones and the visitor's own.
+
+use axum::Json;
+use axum::extract::{FromRequest, Request, State};
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use ocb_core::export::glb;
+use ocb_engine::model::ObjectInfo;
+use utoipa::ToSchema;
+
+use crate::App;
+use crate::extract::Path;
+use crate::guest::Guest;
+use crate::problem::{Problem, Result};
+use crate::upload::Upload;
+
+/// Stock objects, then the visitor's own, newest first.
+#[utoipa::path(get, path = "/objects", tag = "objects", responses((status = 200, body = Vec<ObjectInfo>)))]
+pub(crate) async fn list_objects(State(app): State<App>, Guest(guest): Guest) -> Result<Json<Vec<ObjectInfo>>> {
+    Ok(Json(app.engine.objects(Some(&guest)).await?))
+}
+
+/// The form of an upload.
+#[derive(ToSchema)]
+#[expect(dead_code, reason = "only described; the upload is read as a stream")]
+struct UploadForm {
+    /// An OBJ file of at most 256 MiB.
+    #[schema(value_type = String, format = Binary)]
+    file: Vec<u8>,
+}
+
+/// Uploads an OBJ file; only its owner sees it in the list.
+#[utoipa::path(post, path = "/objects", tag = "objects",
+    request_body(content = inline(UploadForm), content_type = "multipart/form-data"),
+    responses(
+        (status = 201, description = "The object", body = ObjectInfo),
+        (status = 400, description = "No well-formed upload", body = Problem, content_type = "application/problem+json"),
+        (status = 413, description = "Larger than 256 MiB", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No usable OBJ file; says line and reason", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn add_object(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    request: Request,
+) -> Result<(StatusCode, Json<ObjectInfo>)> {
+    // The permit is held until the file is a stored mesh: it is what bounds the memory of parallel uploads.
+    let _permit = app.uploads.acquire().await.map_err(Problem::fault)?;
+    let Upload { name, bytes } = Upload::from_request(request, &app).await?;
+    let object = app.engine.add_object(&name, bytes, Some(&guest)).await?;
+    Ok((StatusCode::CREATED, Json(object)))
+}
+
+/// One object: `stock:<name>@<triangles>`, `stock:bunny`, `stock:dragon` or the id of an upload.
+#[utoipa::path(get, path = "/objects/{id}", tag = "objects",
+    params(("id" = String, Path, description = "Object id")),
+    responses(
+        (status = 200, body = ObjectInfo),
+        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn show_object(State(app): State<App>, Path(id): Path<String>) -> Result<Json<ObjectInfo>> {
+    Ok(Json(app.engine.object(&id).await?))
+}
+
+/// The mesh as glTF binary: positions in f32, triangles in file order, so that triangle and vertex numbers are those of
+/// the records and heatmaps.
+#[utoipa::path(get, path = "/objects/{id}/mesh.glb", tag = "objects",
+    params(("id" = String, Path, description = "Object id")),
+    responses(
+        (status = 200, description = "The mesh", body = [u8], content_type = "model/gltf-binary"),
+        (status = 304, description = "Unchanged (If-None-Match)"),
+        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn object_mesh(
+    State(app): State<App>,
+    Path(id): Path<String>,
+    headers: HeaderMap,
+) -> Result<Response> {
+    let tag = format!("\"{}\"", app.engine.object(&id).await?.sha256);
+    let cache = [(header::ETAG, tag.clone()), (header::CACHE_CONTROL, "private, no-cache".to_owned())];
+    if headers.get(header::IF_NONE_MATCH).is_some_and(|sent| sent.as_bytes() == tag.as_bytes()) {
+        return Ok((StatusCode::NOT_MODIFIED, cache).into_response());
+    }
+    let mesh = app.engine.mesh(&id).await?;
+    let bytes = tokio::task::spawn_blocking(move || glb::geometry(&mesh)).await.map_err(Problem::fault)?;
+    Ok((cache, [(header::CONTENT_TYPE, "model/gltf-binary")], bytes).into_response())
+}

@@ -1,0 +1,90 @@
+//! Numbers and files of a run.
+
+use axum::Json;
+use axum::extract::State;
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+use ocb_engine::model::Ecdf;
+use serde::Deserialize;
+use utoipa::IntoParams;
+
+use crate::App;
+use crate::extract::{Path, Query};
+use crate::problem::{Problem, Result};
+
+/// Which algorithm of the run.
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(crate) struct OfAlgorithm {
+    /// Algorithm id.
+    algorithm: String,
+}
+
+/// Empirical distribution of the time per query.
+#[utoipa::path(get, path = "/runs/{id}/ecdf", tag = "results",
+    params(("id" = String, Path, description = "Run id"), OfAlgorithm),
+    responses(
+        (status = 200, body = Ecdf),
+        (status = 404, description = "No such run, or no records of this algorithm", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn show_ecdf(
+    State(app): State<App>,
+    Path(id): Path<String>,
+    Query(of): Query<OfAlgorithm>,
+) -> Result<Json<Ecdf>> {
+    Ok(Json(app.engine.ecdf(&id, &of.algorithm).await?))
+}
+
+/// The records of one algorithm as Parquet.
+#[utoipa::path(get, path = "/runs/{id}/records.parquet", tag = "results",
+    params(("id" = String, Path, description = "Run id"), OfAlgorithm),
+    responses(
+        (status = 200, description = "One row per configuration", body = [u8], content_type = "application/vnd.apache.parquet"),
+        (status = 404, description = "No such run, or no records of this algorithm", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn records_parquet(
+    State(app): State<App>,
+    Path(id): Path<String>,
+    Query(of): Query<OfAlgorithm>,
+) -> Result<Response> {
+    let bytes = app.engine.records_parquet(&id, &of.algorithm).await?;
+    Ok(download(PARQUET, &format!("{id}-{}.parquet", of.algorithm), bytes))
+}
+
+/// The records of one algorithm as CSV with a header line.
+#[utoipa::path(get, path = "/runs/{id}/records.csv", tag = "results",
+    params(("id" = String, Path, description = "Run id"), OfAlgorithm),
+    responses(
+        (status = 200, description = "One line per configuration", body = String, content_type = "text/csv"),
+        (status = 404, description = "No such run, or no records of this algorithm", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn records_csv(
+    State(app): State<App>,
+    Path(id): Path<String>,
+    Query(of): Query<OfAlgorithm>,
+) -> Result<Response> {
+    let bytes = app.engine.records_csv(&id, &of.algorithm).await?;
+    Ok(download("text/csv; charset=utf-8", &format!("{id}-{}.csv", of.algorithm), bytes))
+}
+
+/// The run's configurations with their truth as Parquet; `ocb bench --configurations` reads it again.
+#[utoipa::path(get, path = "/runs/{id}/configurations.parquet", tag = "results",
+    params(("id" = String, Path, description = "Run id")),
+    responses(
+        (status = 200, description = "One row per configuration", body = [u8], content_type = "application/vnd.apache.parquet"),
+        (status = 404, description = "No such run, or no configurations yet", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn configurations_parquet(State(app): State<App>, Path(id): Path<String>) -> Result<Response> {
+    let bytes = app.engine.configurations_parquet(&id).await?;
+    Ok(download(PARQUET, &format!("{id}-configurations.parquet"), bytes))
+}
+
+const PARQUET: &str = "application/vnd.apache.parquet";
+
+/// A file to save. Ids and algorithm names come from the request: only plain characters reach the header.
+pub(crate) fn download(media_type: &str, name: &str, bytes: Vec<u8>) -> Response {
+    let plain = |c: char| if c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_') { c } else { '_' };
+    let name: String = name.chars().map(plain).collect();
+    let disposition = format!("attachment; filename=\"{name}\"");
+    ([(header::CONTENT_TYPE, media_type.to_owned()), (header::CONTENT_DISPOSITION, disposition)], bytes).into_response()
+}

@@ -1,0 +1,91 @@
+//! Runs: asking, looking, cancelling.
+
+use axum::Json as Answer;
+use axum::extract::State;
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use ocb_engine::model::{Estimate, RunInfo, RunSpec};
+
+use crate::App;
+use crate::extract::{Json, Path};
+use crate::guest::Guest;
+use crate::problem::{Problem, Result};
+
+/// Number of configurations and expected time of a run that is not asked for yet.
+#[utoipa::path(post, path = "/estimates", tag = "runs", request_body = RunSpec,
+    responses(
+        (status = 200, body = Estimate),
+        (status = 400, description = "No JSON", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The spec cannot be run", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn estimate_run(State(app): State<App>, Json(spec): Json<RunSpec>) -> Result<Answer<Estimate>> {
+    Ok(Answer(app.engine.estimate(&spec).await?))
+}
+
+/// Asks for a run.
+#[utoipa::path(post, path = "/runs", tag = "runs", request_body = RunSpec,
+    responses(
+        (status = 201, description = "Queued; `Location` names it", body = RunInfo),
+        (status = 400, description = "No JSON", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The spec cannot be run", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn start_run(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Json(spec): Json<RunSpec>,
+) -> Result<Response> {
+    let run = app.engine.submit(spec, Some(&guest)).await?;
+    let location = format!("/api/v1/runs/{}", run.id);
+    Ok((StatusCode::CREATED, [(header::LOCATION, location)], Answer(run)).into_response())
+}
+
+/// The visitor's runs, newest first.
+#[utoipa::path(get, path = "/runs", tag = "runs", responses((status = 200, body = Vec<RunInfo>)))]
+pub(crate) async fn list_runs(State(app): State<App>, Guest(guest): Guest) -> Result<Answer<Vec<RunInfo>>> {
+    Ok(Answer(app.engine.runs(&guest).await?))
+}
+
+/// One run.
+#[utoipa::path(get, path = "/runs/{id}", tag = "runs",
+    params(("id" = String, Path, description = "Run id")),
+    responses(
+        (status = 200, body = RunInfo),
+        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn show_run(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Path(id): Path<String>,
+) -> Result<Answer<RunInfo>> {
+    Ok(Answer(app.engine.run(&id, Some(&guest)).await?))
+}
+
+/// Ends a run that is queued or at work; one that has ended stays as it is.
+#[utoipa::path(post, path = "/runs/{id}/cancel", tag = "runs",
+    params(("id" = String, Path, description = "Run id")),
+    responses(
+        (status = 200, description = "The run as it is now", body = RunInfo),
+        (status = 403, description = "Somebody else's run", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn cancel_run(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Path(id): Path<String>,
+) -> Result<Answer<RunInfo>> {
+    Ok(Answer(app.engine.cancel(&id, Some(&guest)).await?))
+}
+
+/// The finished run that the start page shows.
+#[utoipa::path(get, path = "/featured", tag = "runs",
+    responses(
+        (status = 200, body = RunInfo),
+        (status = 404, description = "Not measured yet", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn featured_run(State(app): State<App>) -> Result<Answer<RunInfo>> {
+    let run = app.engine.featured().await?;
+    run.map(Answer)
+        .ok_or_else(|| Problem::not_found("No run has been finished for the start page yet; it is on its way."))
+}

@@ -1,0 +1,141 @@
+//! One uploaded file, never more of it in memory than an object may have.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::body::{Body, BodyDataStream};
+use axum::extract::multipart::{Field, Multipart};
+use axum::extract::{FromRequest, Request};
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+use futures::StreamExt;
+use tokio::sync::Mutex;
+
+use crate::problem::{Problem, Result};
+
+/// The most that an uploaded file may have.
+pub(crate) const MAX_BYTES: usize = ocb_core::mesh::obj::MAX_BYTES;
+
+/// The most that a body with such a file may have: boundaries, names and headers come on top.
+pub(crate) const MAX_BODY_BYTES: u64 = MAX_BYTES as u64 + (1 << 20);
+
+/// How much and for how long a refused body is read on.
+const DRAIN_BYTES: u64 = 4 << 30;
+const DRAIN_TIME: Duration = Duration::from_secs(60);
+
+/// An uploaded file.
+pub(crate) struct Upload {
+    /// Its name, without folder and control characters.
+    pub name: String,
+    /// Its content.
+    pub bytes: Vec<u8>,
+}
+
+/// Answers a body that is too large, or refused half-way, so that the client sees the answer.
+///
+/// A client that still sends does not read. Were the connection closed at once, the kernel would reset it and the
+/// answer would be lost; so the rest of the body is read and thrown away first.
+pub(crate) async fn refuse_gently(request: Request, next: Next) -> Response {
+    let declared = content_length(request.headers());
+    let waits = request.headers().contains_key(header::EXPECT);
+    let (parts, body) = request.into_parts();
+    let rest = Arc::new(Mutex::new(body.into_data_stream()));
+    if declared.is_some_and(|length| length > MAX_BODY_BYTES) {
+        // A client that waits for `100 Continue` has sent nothing yet, and reading would ask it to.
+        if !waits {
+            drain(&rest).await;
+        }
+        return Problem::too_large().into_response();
+    }
+    let shared = rest.clone();
+    let stream = futures::stream::unfold(shared, |body| async move {
+        let chunk = body.lock().await.next().await?;
+        Some((chunk, body))
+    });
+    let response = next.run(Request::from_parts(parts, Body::from_stream(stream))).await;
+    if response.status().is_client_error() {
+        drain(&rest).await;
+    }
+    response
+}
+
+async fn drain(body: &Mutex<BodyDataStream>) {
+    let read_on = async {
+        let mut body = body.lock().await;
+        let mut read = 0u64;
+        while let Some(Ok(chunk)) = body.next().await {
+            read += chunk.len() as u64;
+            if read > DRAIN_BYTES {
+                break;
+            }
+        }
+    };
+    // Too slow or too long: then the connection is closed under the client after all.
+    let _ = tokio::time::timeout(DRAIN_TIME, read_on).await;
+}
+
+fn content_length(headers: &HeaderMap) -> Option<u64> {
+    headers.get(header::CONTENT_LENGTH)?.to_str().ok()?.parse().ok()
+}
+
+impl<S: Send + Sync> FromRequest<S> for Upload {
+    type Rejection = Problem;
+
+    async fn from_request(request: Request, state: &S) -> Result<Self> {
+        let mut form = Multipart::from_request(request, state)
+            .await
+            .map_err(|_| Problem::bad_request("Send the file as multipart/form-data in a field named \"file\"."))?;
+        while let Some(field) = form.next_field().await.map_err(broken)? {
+            if field.name() == Some("file") {
+                let name = clean_name(field.file_name().unwrap_or_default());
+                return Ok(Self { name, bytes: read(field).await? });
+            }
+        }
+        Err(Problem::bad_request("The form has no field named \"file\"."))
+    }
+}
+
+async fn read(mut field: Field<'_>) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    while let Some(chunk) = field.chunk().await.map_err(broken)? {
+        if bytes.len() + chunk.len() > MAX_BYTES {
+            return Err(Problem::too_large());
+        }
+        bytes.extend_from_slice(&chunk);
+    }
+    Ok(bytes)
+}
+
+fn broken(error: axum::extract::multipart::MultipartError) -> Problem {
+    if error.status() == StatusCode::PAYLOAD_TOO_LARGE {
+        return Problem::too_large();
+    }
+    Problem::bad_request("The upload ended early or is no well-formed multipart/form-data; send it again.")
+}
+
+/// The last part of the name, without what could mislead a terminal or a page: control characters and directions.
+pub(crate) fn clean_name(name: &str) -> String {
+    let last = name.rsplit(['/', '\\']).next().unwrap_or_default();
+    let kept: String = last
+        .chars()
+        .filter(|c| !c.is_control() && !matches!(c, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}'))
+        .take(120)
+        .collect();
+    let kept = kept.trim();
+    if kept.is_empty() { "object.obj".to_owned() } else { kept.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::clean_name;
+
+    #[test]
+    fn names_lose_folders_and_hidden_characters() {
+        assert_eq!(clean_name("../../etc/passwd"), "passwd");
+        assert_eq!(clean_name(r"C:\meshes\gear.obj"), "gear.obj");
+        assert_eq!(clean_name("a\u{202e}jbo.exe\n"), "ajbo.exe");
+        assert_eq!(clean_name(" \u{7}"), "object.obj");
+        assert_eq!(clean_name(&"x".repeat(500)).len(), 120);
+    }
+}

@@ -1,0 +1,11 @@
+//! The service over HTTP, with a real engine in a temporary folder.
+//!
+//! The engine starts the runner and asks plugins, so `cargo build --release` must have built them before; `make test`
+//! does so.
+
+mod errors;
+mod objects;
+mod pages;
+mod runs;
+mod stream;
+mod support;

@@ -1,0 +1,141 @@
+//! One service per test, on a free port, in a folder of its own.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use ocb_engine::{Engine, EngineConfig};
+use reqwest::{Client, RequestBuilder, Response, StatusCode};
+use serde_json::{Value, json};
+use tempfile::TempDir;
+use tokio::sync::oneshot;
+use tokio::task::JoinHandle;
+
+/// A running service.
+pub struct Service {
+    pub url: String,
+    engine: Engine,
+    stop: oneshot::Sender<()>,
+    served: JoinHandle<std::io::Result<()>>,
+    _data: TempDir,
+}
+
+impl Service {
+    pub async fn start() -> Self {
+        let built = built();
+        let data = tempfile::tempdir().expect("a temporary folder");
+        let mut config = EngineConfig::beside_executable(data.path());
+        config.runner = built.join("ocb-runner");
+        config.plugins = vec![built];
+        let engine = Engine::open(config).await.expect("the engine opens");
+        let listener = ocb_server::bind(([127, 0, 0, 1], 0).into()).await.expect("a free port");
+        let url = format!("http://{}", listener.local_addr().expect("an address"));
+        let (stop, stopped) = oneshot::channel();
+        let served = tokio::spawn(ocb_server::serve(engine.clone(), listener, async {
+            let _ = stopped.await;
+        }));
+        Self { url, engine, stop, served, _data: data }
+    }
+
+    /// A browser with its own cookies.
+    pub fn guest(&self) -> Guest {
+        let client = Client::builder().cookie_store(true).timeout(Duration::from_secs(240)).build().expect("a client");
+        Guest { client, url: self.url.clone() }
+    }
+
+    /// Ends the service and waits for it.
+    pub async fn stop(self) {
+        self.stop.send(()).expect("the service runs");
+        self.served.await.expect("no panic").expect("no fault");
+        self.engine.shutdown().await;
+    }
+}
+
+/// The folder of the built runner and plugins: above that of this test program.
+fn built() -> PathBuf {
+    let program = std::env::current_exe().expect("a path");
+    let folder = program.parent().and_then(|deps| deps.parent()).expect("target/<profile>/deps").to_path_buf();
+    for file in ["ocb-runner", "libocb_box_tree.so", "libocb_brute_force.so"] {
+        let path = folder.join(file);
+        assert!(path.exists(), "{} is missing; run `cargo build --release` first", path.display());
+    }
+    folder
+}
+
+/// A visitor.
+#[derive(Clone)]
+pub struct Guest {
+    pub client: Client,
+    url: String,
+}
+
+impl Guest {
+    pub fn get(&self, path: &str) -> RequestBuilder {
+        self.client.get(format!("{}{path}", self.url))
+    }
+
+    pub fn post(&self, path: &str) -> RequestBuilder {
+        self.client.post(format!("{}{path}", self.url))
+    }
+
+    /// The JSON that a path answers with 200.
+    pub async fn json(&self, path: &str) -> Value {
+        let response = self.get(path).send().await.expect("an answer");
+        assert_eq!(response.status(), StatusCode::OK, "{path}");
+        response.json().await.expect("JSON")
+    }
+
+    /// The bytes that a path answers with 200, and their media type.
+    pub async fn bytes(&self, path: &str) -> (Vec<u8>, String) {
+        let response = self.get(path).send().await.expect("an answer");
+        assert_eq!(response.status(), StatusCode::OK, "{path}");
+        let media_type = header(&response, "content-type");
+        (response.bytes().await.expect("a body").to_vec(), media_type)
+    }
+
+    /// Uploads a file under a name.
+    pub async fn upload(&self, name: &str, bytes: impl Into<Vec<u8>>) -> Response {
+        let part = reqwest::multipart::Part::bytes(bytes.into()).file_name(name.to_owned());
+        let form = reqwest::multipart::Form::new().part("file", part);
+        self.post("/api/v1/objects").multipart(form).send().await.expect("an answer")
+    }
+
+    /// Asks for a run and gives its id.
+    pub async fn start(&self, spec: &Value) -> String {
+        let response = self.post("/api/v1/runs").json(spec).send().await.expect("an answer");
+        assert_eq!(response.status(), StatusCode::CREATED);
+        let location = header(&response, "location");
+        let run: Value = response.json().await.expect("JSON");
+        let id = run["id"].as_str().expect("an id").to_owned();
+        assert_eq!(location, format!("/api/v1/runs/{id}"));
+        id
+    }
+}
+
+/// A small run of two algorithms.
+pub fn small_spec() -> Value {
+    json!({
+        "object_a": "stock:torus-knot@600",
+        "query": "collision_first",
+        "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 60 } },
+        "algorithms": ["box-tree", "brute-force"],
+        "passes": 1,
+    })
+}
+
+pub fn header(response: &Response, name: &str) -> String {
+    response.headers().get(name).and_then(|value| value.to_str().ok()).unwrap_or_default().to_owned()
+}
+
+/// Expects a problem document of that status whose detail is one sentence, and gives the sentence.
+pub async fn problem(response: Response, status: u16) -> String {
+    let (seen, media_type) = (response.status().as_u16(), header(&response, "content-type"));
+    let text = response.text().await.expect("a body");
+    assert_eq!(seen, status, "{text}");
+    assert_eq!(media_type, "application/problem+json", "{text}");
+    let problem: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(problem["status"], status);
+    assert_eq!(problem["type"], "about:blank");
+    let detail = problem["detail"].as_str().expect("a detail").to_owned();
+    assert!(detail.ends_with('.') && !detail.contains('\n') && detail.len() > 10, "no sentence: {detail:?}");
+    detail
+}
