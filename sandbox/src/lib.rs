@@ -15,6 +15,7 @@ pub mod control;
 pub mod descriptor;
 #[doc(hidden)]
 pub mod doorbell;
+mod evidence;
 mod exchange;
 pub mod launch;
 mod memory;
@@ -27,11 +28,13 @@ pub mod seccomp;
 pub mod session;
 #[doc(hidden)]
 pub mod shared;
+#[doc(hidden)]
+pub mod trial;
 mod verify;
 
 pub use clock::{ClockFacts, ClockKind};
 pub use descriptor::{Descriptor, Parameter};
 pub use launch::Killer;
-pub use outcome::{Ending, Outcome, Phase};
+pub use outcome::{DeniedCall, Ending, Outcome, Phase};
 pub use policy::{ClockChoice, Policy};
 pub use session::{Launcher, Sample, Session, Trial};

@@ -55,14 +55,8 @@ pub enum Outcome {
     SyscallDenied {
         /// During what.
         phase: Phase,
-        /// Its number.
-        nr: i64,
-        /// Its name, `?` when it has none.
-        name: String,
-        /// Its six arguments.
-        args: [u64; 6],
-        /// The file whose code made the call, `?` when there is none.
-        mapping: String,
+        /// The call.
+        call: Box<DeniedCall>,
     },
     /// What came out of the runner breaks the rules of the protocol.
     ProtocolViolation {
@@ -80,6 +74,19 @@ pub enum Outcome {
         /// What went wrong, and what would mend it when that is known.
         reason: String,
     },
+}
+
+/// A system call that the allow-list does not have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DeniedCall {
+    /// Its number.
+    pub nr: i64,
+    /// Its name, `?` when it has none.
+    pub name: String,
+    /// Its six arguments.
+    pub args: [u64; 6],
+    /// The file whose code made the call, `?` when there is none.
+    pub mapping: String,
 }
 
 /// What the plugin was asked to do when it ended.
@@ -150,12 +157,15 @@ impl fmt::Display for Outcome {
             Outcome::OutputLimit { limit_bytes } => {
                 write!(f, "The plugin wrote more than the {limit_bytes} bytes allowed to its standard error.")
             }
-            Outcome::SyscallDenied { phase, nr, name, args, mapping } => write!(
-                f,
-                "The plugin made the forbidden system call {name} (number {nr}, arguments {:#x} {:#x} {:#x}) from \
-                 {mapping} {phase}.",
-                args[0], args[1], args[2]
-            ),
+            Outcome::SyscallDenied { phase, call } => {
+                let DeniedCall { nr, name, args, mapping } = &**call;
+                write!(
+                    f,
+                    "The plugin made the forbidden system call {name} (number {nr}, arguments {:#x} {:#x} {:#x}) from \
+                     {mapping} {phase}.",
+                    args[0], args[1], args[2]
+                )
+            }
             Outcome::ProtocolViolation { phase, rule } => {
                 write!(f, "The plugin tampered with its runner {phase}: {rule}.")
             }

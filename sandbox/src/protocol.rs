@@ -8,9 +8,7 @@
 //! Parsing is pure: it takes words that were copied once and returns values or the broken rule.
 
 use nalgebra::Point3;
-use ocb_core::mesh::Mesh;
 use ocb_core::query::{Answer, Counters, Query};
-use serde::{Deserialize, Serialize};
 
 use crate::descriptor::Descriptor;
 
@@ -257,69 +255,6 @@ pub fn clean_text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).chars().filter(|c| !c.is_control() || *c == '\n' || *c == '\t').collect()
 }
 
-/// Head of the trial file: what the runner needs to know beside the meshes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct TrialHead {
-    /// Id of the algorithm.
-    pub algorithm: String,
-    /// Parameters by name.
-    pub parameters: Vec<(String, f64)>,
-    /// One mesh, or two.
-    pub meshes: Vec<MeshPlace>,
-}
-
-/// Where a mesh lies in the trial file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct MeshPlace {
-    /// Number of vertices.
-    pub vertices: u32,
-    /// Number of triangles.
-    pub triangles: u32,
-    /// Byte offset of the positions, 3 f64 each.
-    pub positions_at: usize,
-    /// Byte offset of the triangles, 3 u32 each.
-    pub triangles_at: usize,
-}
-
-/// The trial file: length of the head, head, meshes, each part at a multiple of 64 bytes.
-pub fn write_trial(algorithm: &str, parameters: &[(String, f64)], meshes: &[&Mesh]) -> Vec<u8> {
-    const HEAD_ROOM: usize = 1 << 10;
-    let align = |n: usize| n.next_multiple_of(64);
-    let named = algorithm.len() + parameters.iter().map(|(name, _)| name.len() + 64).sum::<usize>();
-    // JSON writes one byte in six at worst.
-    let mut at = align(8 + HEAD_ROOM + 6 * named);
-    let places: Vec<MeshPlace> = meshes
-        .iter()
-        .map(|mesh| {
-            let positions_at = at;
-            let triangles_at = align(positions_at + 24 * mesh.positions().len());
-            at = align(triangles_at + 12 * mesh.triangles().len());
-            MeshPlace {
-                vertices: mesh.positions().len() as u32,
-                triangles: mesh.triangles().len() as u32,
-                positions_at,
-                triangles_at,
-            }
-        })
-        .collect();
-    let head = TrialHead { algorithm: algorithm.into(), parameters: parameters.to_vec(), meshes: places };
-    let json = serde_json::to_vec(&head).expect("plain data is always JSON");
-    let mut bytes = vec![0; at];
-    bytes[..8].copy_from_slice(&(json.len() as u64).to_le_bytes());
-    bytes[8..8 + json.len()].copy_from_slice(&json);
-    for (mesh, place) in meshes.iter().zip(&head.meshes) {
-        let coordinates = mesh.positions().iter().flat_map(|p| [p.x, p.y, p.z]);
-        for (to, x) in bytes[place.positions_at..].chunks_exact_mut(8).zip(coordinates) {
-            to.copy_from_slice(&x.to_le_bytes());
-        }
-        let corners = mesh.triangles().iter().flatten();
-        for (to, corner) in bytes[place.triangles_at..].chunks_exact_mut(4).zip(corners) {
-            to.copy_from_slice(&corner.to_le_bytes());
-        }
-    }
-    bytes
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -402,26 +337,5 @@ mod tests {
             assert_eq!(Command::from_word(command as u64), Some(command));
         }
         assert_eq!(Command::from_word(99), None);
-    }
-
-    #[test]
-    fn a_trial_says_where_its_meshes_lie() {
-        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]].map(Point3::from).to_vec();
-        let mesh = Mesh::new(corners, vec![[0, 1, 2]]).unwrap();
-        let parameters = [("\u{1}\"é".repeat(30), 0.5)];
-        let bytes = write_trial("box-tree", &parameters, &[&mesh, &mesh]);
-        let len = u64::from_le_bytes(bytes[..8].try_into().unwrap()) as usize;
-        let head: TrialHead = serde_json::from_slice(&bytes[8..8 + len]).unwrap();
-        assert_eq!(
-            (head.algorithm.as_str(), &head.parameters[..], head.meshes.len()),
-            ("box-tree", &parameters[..], 2)
-        );
-        for place in head.meshes {
-            assert!(place.positions_at.is_multiple_of(64) && place.positions_at >= 8 + len);
-            assert!(place.triangles_at >= place.positions_at + 24 * 3);
-            let y = &bytes[place.positions_at + 7 * 8..][..8];
-            assert_eq!(y, 2.0f64.to_le_bytes());
-            assert_eq!(bytes[place.triangles_at..][..12], [0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]);
-        }
     }
 }

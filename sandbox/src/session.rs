@@ -15,7 +15,8 @@ use crate::exchange::{Exchange, Timed};
 use crate::launch::{Jail, Killer};
 use crate::outcome::{Ending, Outcome, Phase};
 use crate::policy::{ClockChoice, Policy};
-use crate::protocol::{Command, parse_answer, parse_counters, parse_descriptors, write_trial};
+use crate::protocol::{Command, parse_answer, parse_counters, parse_descriptors};
+use crate::trial::write_trial;
 
 /// Null round trips before the first one that counts, and those that count.
 const NULL_WARM_UP: usize = 100;
@@ -67,10 +68,14 @@ impl Launcher {
     /// started a process ends), so call this and everything on the [`Session`] from one thread that outlives it; the
     /// session cannot be sent elsewhere.
     pub fn start(&self, trial: &Trial<'_>) -> Result<Session, Ending> {
-        let pinned = Pinned::to(self.policy.supervisor_cpu)?;
         let meshes: Vec<&Mesh> = std::iter::once(trial.mesh_a).chain(trial.mesh_b).collect();
         let sheet = write_trial(trial.algorithm, trial.parameters, &meshes);
         let (mut exchange, _) = self.open(trial.plugin, &sheet)?;
+        // Not before the jail has started: it would inherit the choice.
+        let pinned = match Pinned::to(self.policy.supervisor_cpu) {
+            Ok(pinned) => pinned,
+            Err(outcome) => return Err(exchange.jail.end(outcome)),
+        };
         let mut prepare = || -> Result<(f64, ClockFacts), Outcome> {
             let policy = &self.policy;
             exchange.obeyed(Command::Prepare, Phase::Load, policy.load_seconds)?;
@@ -281,11 +286,11 @@ impl Session {
 struct Pinned(Option<Vec<usize>>);
 
 impl Pinned {
-    fn to(cpu: Option<usize>) -> Result<Self, Ending> {
+    fn to(cpu: Option<usize>) -> Result<Self, Outcome> {
         let Some(cpu) = cpu else { return Ok(Pinned(None)) };
         match pin(&[cpu]) {
             Ok(before) => Ok(Pinned(Some(before))),
-            Err(error) => Err(Outcome::fault("Cpu", format!("the supervisor cannot run on CPU {cpu}: {error}")).into()),
+            Err(error) => Err(Outcome::fault("Cpu", format!("the supervisor cannot run on CPU {cpu}: {error}"))),
         }
     }
 }

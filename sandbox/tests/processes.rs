@@ -18,9 +18,11 @@ fn main() {
     match arguments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
         [_, "hang", plugin] => hang(Path::new(plugin)),
         [_, "ordinary", folder] => ordinary(Path::new(folder)),
+        [_, "refused", folder] => where_namespaces_are_refused(Path::new(folder)),
         _ => {
             the_death_of_the_supervisor_ends_the_jail();
-            an_ordinary_user_can_run_plugins();
+            another_user("ordinary");
+            another_user("refused");
         }
     }
 }
@@ -61,8 +63,8 @@ fn gone_within(pid: i32, time: Duration) -> bool {
     true
 }
 
-fn an_ordinary_user_can_run_plugins() {
-    // A folder that everybody may enter, with everything in it that the other user needs.
+/// Plays a part as an ordinary user, from a folder that everybody may enter with everything in it that is needed.
+fn another_user(part: &str) {
     let folder = tempfile::Builder::new().prefix("ocb-ordinary").tempdir_in("/tmp").unwrap();
     let open = std::os::unix::fs::PermissionsExt::from_mode(0o755);
     std::fs::set_permissions(folder.path(), open).unwrap();
@@ -71,21 +73,23 @@ fn an_ordinary_user_can_run_plugins() {
     place(&runner(), "ocb-runner");
     place(&fixture(&[]), "honest.so");
     place(&fixture(&["FAULT_SOCKET"]), "socket.so");
+    place(&fixture(&["FAULT_OPEN"]), "open.so");
+    // In a user namespace of its own a process may forbid further ones to itself and its children.
+    let refuse = "echo 0 > /proc/sys/user/max_user_namespaces && exec \"$@\"";
     // SAFETY: reads a number.
-    if unsafe { libc::geteuid() } == 0 {
-        let mut other = command(Path::new("runuser"));
-        other.args(["-u", "nobody", "--"]).arg(folder.path().join("test")).arg("ordinary").arg(folder.path());
-        let output = other.current_dir("/").output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    } else {
-        ordinary(folder.path());
+    let root = unsafe { libc::geteuid() } == 0;
+    let mut words: Vec<&str> = if root { vec!["runuser", "-u", "nobody", "--"] } else { Vec::new() };
+    if part == "refused" {
+        words.extend(["unshare", "-Ur", "sh", "-c", refuse, "sh"]);
     }
-    println!("test an_ordinary_user_can_run_plugins ... ok");
+    let program = folder.path().join("test");
+    words.extend([program.to_str().unwrap(), part, folder.path().to_str().unwrap()]);
+    let output = command(Path::new(words[0])).args(&words[1..]).current_dir("/").output().unwrap();
+    assert!(output.status.success(), "{part}: {}", String::from_utf8_lossy(&output.stderr));
+    println!("test plugins run for an ordinary user ({part}) ... ok");
 }
 
 fn ordinary(folder: &Path) {
-    // SAFETY: reads a number.
-    assert_ne!(unsafe { libc::geteuid() }, 0);
     let launcher = Launcher::new(folder.join("ocb-runner"), policy());
     let mut session = start(&launcher, &folder.join("honest.so")).unwrap();
     let layers = session.layers().join("; ");
@@ -94,5 +98,27 @@ fn ordinary(folder: &Path) {
     assert_eq!(session.finish().outcome, Outcome::Completed);
     let mut session = start(&launcher, &folder.join("socket.so")).unwrap();
     let outcome = session.query(Query::CollisionFirst, &apart(0.5)).unwrap_err();
-    assert!(matches!(outcome, Outcome::SyscallDenied { nr: libc::SYS_socket, .. }), "{outcome}");
+    assert!(matches!(&outcome, Outcome::SyscallDenied { call, .. } if call.nr == libc::SYS_socket), "{outcome}");
+}
+
+/// Foreign plugins are refused with the reason; the ones we built run under the layers that remain.
+fn where_namespaces_are_refused(folder: &Path) {
+    let foreign = Launcher::new(folder.join("ocb-runner"), policy());
+    let Err(refused) = start(&foreign, &folder.join("honest.so")) else { panic!("it ran without namespaces") };
+    let Outcome::SandboxFault { step, reason } = &refused.outcome else { panic!("{refused}") };
+    assert!(step == "Namespaces" && reason.contains("max_user_namespaces"), "{refused}");
+
+    let ours = Launcher::new(folder.join("ocb-runner"), Policy { trusted: true, ..policy() });
+    let mut session = start(&ours, &folder.join("honest.so")).unwrap();
+    let layers = session.layers().join("; ");
+    assert!(layers.contains("NO namespaces") && layers.contains("Landlock"), "{layers}");
+    session.query(Query::CollisionFirst, &apart(0.5)).unwrap();
+    assert_eq!(session.finish().outcome, Outcome::Completed);
+    let mut session = start(&ours, &folder.join("socket.so")).unwrap();
+    let outcome = session.query(Query::CollisionFirst, &apart(0.5)).unwrap_err();
+    assert!(matches!(&outcome, Outcome::SyscallDenied { call, .. } if call.nr == libc::SYS_socket), "{outcome}");
+    // Without a root of its own it is Landlock that keeps files shut.
+    let mut session = start(&ours, &folder.join("open.so")).unwrap();
+    let outcome = session.query(Query::CollisionFirst, &apart(0.5)).unwrap_err();
+    assert!(outcome.to_string().contains("open: Permission denied"), "{outcome}");
 }

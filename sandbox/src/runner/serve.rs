@@ -8,9 +8,10 @@ use std::time::{Duration, Instant};
 use ocb_sandbox::confine::{ConfineError, close_from, harden};
 use ocb_sandbox::control::{Control, Report};
 use ocb_sandbox::doorbell::{futex_wait, futex_wake};
-use ocb_sandbox::protocol::{Command, SLOT_WORDS, TrialHead, answer, request, slot};
+use ocb_sandbox::protocol::{Command, SLOT_WORDS, answer, request, slot};
 use ocb_sandbox::seccomp;
 use ocb_sandbox::shared::Segment;
+use ocb_sandbox::trial::TrialHead;
 
 use crate::jail::{ANSWER, CONTROL, REQUEST, TRIAL, inherited};
 use crate::library::Failure;

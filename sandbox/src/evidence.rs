@@ -1,0 +1,218 @@
+//! How a runner ended: every piece of evidence is gathered here, from outside.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::os::fd::{AsFd, AsRawFd, BorrowedFd, OwnedFd};
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+use nix::poll::{PollFd, PollFlags, PollTimeout, poll};
+
+use crate::control::Report;
+use crate::launch::Jail;
+use crate::memory::MemoryGroup;
+use crate::outcome::{DeniedCall, Ending, Outcome, Phase};
+use crate::protocol::clean_text;
+use crate::seccomp;
+
+/// How long the kernel may take to end a killed jail.
+const END: Duration = Duration::from_secs(5);
+
+/// The launcher's process, reaped exactly once.
+pub(crate) struct Launched {
+    pub pid: i32,
+    pub handle: OwnedFd,
+    pub usage: Option<f64>,
+}
+
+/// What the plugin writes, capped.
+pub(crate) struct Messages {
+    pub pipe: File,
+    pub bytes: Vec<u8>,
+    pub cap: u64,
+}
+
+/// SIGKILL through a process descriptor, which cannot hit anybody else.
+pub(crate) fn kill(process: BorrowedFd<'_>) {
+    // SAFETY: a borrowed descriptor and integers; no signal information.
+    unsafe {
+        libc::syscall(
+            libc::SYS_pidfd_send_signal,
+            process.as_raw_fd(),
+            libc::SIGKILL,
+            std::ptr::null::<libc::siginfo_t>(),
+            0,
+        )
+    };
+}
+
+impl Jail {
+    /// One look at everything that may have happened; `Some` when the runner's life is over.
+    pub fn watch(&mut self, phase: Phase) -> Option<Outcome> {
+        if self.cancelled.load(Ordering::SeqCst) {
+            return Some(Outcome::Cancelled);
+        }
+        let (listener, runner) = (self.listener.as_ref()?, self.runner.as_ref()?);
+        let mut wait = [
+            PollFd::new(listener.as_fd(), PollFlags::POLLIN),
+            PollFd::new(runner.as_fd(), PollFlags::POLLIN),
+            PollFd::new(self.messages.pipe.as_fd(), PollFlags::POLLIN),
+        ];
+        if poll(&mut wait, PollTimeout::ZERO).unwrap_or(0) == 0 {
+            return None;
+        }
+        let [denied, ended, spoke] = wait.map(|w| w.revents().is_some_and(|r| r.contains(PollFlags::POLLIN)));
+        if spoke && self.messages.drain() {
+            return Some(Outcome::OutputLimit { limit_bytes: self.messages.cap });
+        }
+        if denied && let Some(outcome) = self.denied_call(phase) {
+            return Some(outcome);
+        }
+        ended.then(|| self.how_it_ended(phase))
+    }
+
+    /// Reads the notification of a forbidden call. It is never answered: the caller is killed instead.
+    fn denied_call(&self, phase: Phase) -> Option<Outcome> {
+        let listener = self.listener.as_ref()?;
+        // SAFETY: all zeros is a valid value, and the one the kernel wants.
+        let mut call: libc::seccomp_notif = unsafe { std::mem::zeroed() };
+        // SAFETY: a live struct of the request's type.
+        let result = unsafe { libc::ioctl(listener.as_raw_fd(), libc::SECCOMP_IOCTL_NOTIF_RECV as _, &raw mut call) };
+        if result < 0 {
+            return None;
+        }
+        let maps = std::fs::read_to_string(format!("/proc/{}/maps", call.pid)).unwrap_or_default();
+        let nr = i64::from(call.data.nr);
+        let mapping = mapping_of(&maps, call.data.instruction_pointer);
+        let call = DeniedCall { nr, name: seccomp::name_of(nr), args: call.data.args, mapping };
+        Some(Outcome::SyscallDenied { phase, call: Box::new(call) })
+    }
+
+    /// The runner is dead: by whose hand?
+    fn how_it_ended(&mut self, phase: Phase) -> Outcome {
+        if self.cancelled.load(Ordering::SeqCst) {
+            return Outcome::Cancelled;
+        }
+        let status = match self.report_before(Instant::now() + END) {
+            Ok((Report::RunnerEnded { status }, _)) => Some(status),
+            Ok((Report::Fault { step, reason }, _)) => return Outcome::SandboxFault { step, reason },
+            _ => None,
+        };
+        if self.group.as_ref().is_some_and(|group| group.kills() > 0) {
+            return Outcome::OutOfMemory { phase, limit_bytes: self.limits.memory_bytes };
+        }
+        match status {
+            None => Outcome::fault("Watch", "the jail's first process was killed from outside"),
+            Some(status) if libc::WIFSIGNALED(status) => {
+                let signal = libc::WTERMSIG(status);
+                let limit = self.cpu_limit() as f64;
+                let spent = signal == libc::SIGXCPU || (signal == libc::SIGKILL && self.cpu_seconds() >= limit);
+                match spent {
+                    true => Outcome::TimedOut { phase, limit_seconds: limit, cpu: true },
+                    false => Outcome::Signaled { phase, signal },
+                }
+            }
+            Some(status) => Outcome::Failed {
+                phase,
+                reason: format!("it ended its process with exit status {}", libc::WEXITSTATUS(status)),
+            },
+        }
+    }
+
+    fn cpu_seconds(&mut self) -> f64 {
+        self.reap();
+        self.launcher.usage.unwrap_or(0.0)
+    }
+
+    /// Kills what is left, reaps it, and gathers what is known.
+    pub fn end(mut self, outcome: Outcome) -> Ending {
+        let resident_peak = self.runner.is_some().then(|| status_kib(self.pid, "VmHWM")).flatten();
+        self.reap();
+        self.messages.drain();
+        let peak = self.group.as_ref().and_then(MemoryGroup::peak).or(resident_peak);
+        Ending {
+            outcome,
+            stderr: clean_text(&self.messages.bytes),
+            memory_peak_bytes: peak.map(|peak| peak.saturating_sub(self.baseline_bytes)),
+            cpu_seconds: self.launcher.usage,
+        }
+    }
+
+    pub(crate) fn reap(&mut self) {
+        for process in [self.runner.as_ref(), self.init.as_deref()].into_iter().flatten() {
+            kill(process.as_fd());
+        }
+        self.launcher.reap(self.init.is_none());
+    }
+}
+
+impl Launched {
+    /// Waits for the launcher, which waits for init, which the kernel empties the jail with.
+    fn reap(&mut self, at_once: bool) {
+        if self.usage.is_some() {
+            return;
+        }
+        let mut wait = [PollFd::new(self.handle.as_fd(), PollFlags::POLLIN)];
+        let patience = if at_once { PollTimeout::ZERO } else { PollTimeout::from(END.as_millis() as u16) };
+        if poll(&mut wait, patience) != Ok(1) {
+            kill(self.handle.as_fd());
+        }
+        // SAFETY: all zeros is a valid rusage.
+        let mut usage: libc::rusage = unsafe { std::mem::zeroed() };
+        // SAFETY: our own child, reaped here and nowhere else; a live struct.
+        while unsafe { libc::wait4(self.pid, std::ptr::null_mut(), 0, &raw mut usage) } < 0 {
+            if io::Error::last_os_error().kind() != io::ErrorKind::Interrupted {
+                break;
+            }
+        }
+        let seconds = |time: libc::timeval| time.tv_sec as f64 + time.tv_usec as f64 * 1e-6;
+        self.usage = Some(seconds(usage.ru_utime) + seconds(usage.ru_stime));
+    }
+}
+
+impl Messages {
+    /// Reads what is there; true when it is more than allowed.
+    fn drain(&mut self) -> bool {
+        let mut chunk = [0; 4096];
+        while let Ok(n @ 1..) = self.pipe.read(&mut chunk) {
+            let room = (self.cap as usize).saturating_sub(self.bytes.len());
+            self.bytes.extend_from_slice(&chunk[..n.min(room)]);
+            if n > room {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+/// A size from /proc/PID/status, bytes.
+pub(crate) fn status_kib(pid: i32, name: &str) -> Option<u64> {
+    let status = std::fs::read_to_string(format!("/proc/{pid}/status")).ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(':'))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kib| kib << 10)
+}
+
+/// The file whose mapping holds an address; `?` when there is none.
+fn mapping_of(maps: &str, address: u64) -> String {
+    let holds = |line: &&str| {
+        let mut ends = line.split([' ', '-']).map(|end| u64::from_str_radix(end, 16).unwrap_or(0));
+        let (start, end) = (ends.next().unwrap_or(0), ends.next().unwrap_or(0));
+        (start..end).contains(&address)
+    };
+    let name = maps.lines().find(holds).and_then(|line| line.split_whitespace().nth(5));
+    name.unwrap_or("?").to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_mapping_of_a_call_is_named() {
+        let maps = "7f00-7f10 r-xp 00000000 00:01 5                          /lib/libc.so.6\n\
+                    7f20-7f30 rw-p 00000000 00:00 0\n";
+        assert_eq!(mapping_of(maps, 0x7f08), "/lib/libc.so.6");
+        assert_eq!(mapping_of(maps, 0x7f10), "?");
+        assert_eq!(mapping_of(maps, 0x7f28), "?");
+    }
+}
