@@ -16,7 +16,7 @@ use crate::protocol::clean_text;
 use crate::seccomp;
 
 /// How long the kernel may take to end a killed jail.
-const END: Duration = Duration::from_secs(5);
+const END: Duration = Duration::from_secs(3);
 
 /// The launcher's process, reaped exactly once.
 pub(crate) struct Launched {
@@ -139,24 +139,36 @@ impl Jail {
     }
 
     pub(crate) fn reap(&mut self) {
-        for process in [self.runner.as_ref(), self.init.as_deref()].into_iter().flatten() {
-            kill(process.as_fd());
+        if self.launcher.usage.is_some() {
+            return;
         }
-        self.launcher.reap(self.init.is_none());
+        // Runner first: then init reaps it and leaves by itself, and its processor time is handed up. What an init
+        // killed at once leaves behind is emptied by the kernel, but counted nowhere.
+        if let Some(runner) = &self.runner {
+            kill(runner.as_fd());
+            if self.launcher.ended_within(END) {
+                return self.launcher.reap();
+            }
+        }
+        if let Some(init) = &self.init {
+            kill(init.as_fd());
+            if self.launcher.ended_within(END) {
+                return self.launcher.reap();
+            }
+        }
+        kill(self.launcher.handle.as_fd());
+        self.launcher.reap();
     }
 }
 
 impl Launched {
-    /// Waits for the launcher, which waits for init, which the kernel empties the jail with.
-    fn reap(&mut self, at_once: bool) {
-        if self.usage.is_some() {
-            return;
-        }
+    /// Waits for the launcher, which waits for init, which waits for the runner.
+    fn ended_within(&self, time: Duration) -> bool {
         let mut wait = [PollFd::new(self.handle.as_fd(), PollFlags::POLLIN)];
-        let patience = if at_once { PollTimeout::ZERO } else { PollTimeout::from(END.as_millis() as u16) };
-        if poll(&mut wait, patience) != Ok(1) {
-            kill(self.handle.as_fd());
-        }
+        poll(&mut wait, PollTimeout::from(time.as_millis() as u16)) == Ok(1)
+    }
+
+    fn reap(&mut self) {
         // SAFETY: all zeros is a valid rusage.
         let mut usage: libc::rusage = unsafe { std::mem::zeroed() };
         // SAFETY: our own child, reaped here and nowhere else; a live struct.

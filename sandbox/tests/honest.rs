@@ -95,6 +95,8 @@ fn both_clocks_see_work() {
         let expected = (sample.raw_ns - facts.null_median_ns).max(facts.resolution_ns());
         assert_eq!(sample.time_ns, expected);
         assert_eq!(sample.below_resolution, expected == facts.resolution_ns());
+        // The jail's processor time reaches us through all its processes.
+        assert!(session.finish().cpu_seconds.unwrap() * 1e9 > 500_000.0);
     }
 }
 
