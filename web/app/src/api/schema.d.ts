@@ -374,6 +374,8 @@ export interface components {
             plugin_sha256: string;
             /** @description The questions it answers. */
             queries: components["schemas"]["Query"][];
+            /** @description It computes in f32: its answers are judged in the wider band. */
+            single_precision: boolean;
             /** @description Home page or source. */
             url: string;
             /** @description Version as the plugin says it. */
