@@ -55,6 +55,10 @@ pub async fn work(inner: Arc<Inner>) {
 async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
     let stop = Stop::default();
     inner.set_current(Some((id.to_owned(), stop.clone())));
+    // A shutdown that came between the claim and this line found nothing to stop; it is noticed here.
+    if inner.closing() {
+        stop.stop();
+    }
     announce(inner).await?;
     let (sender, ended) = tokio::sync::oneshot::channel();
     let (for_run, for_id, handle) = (inner.clone(), id.to_owned(), Handle::current());
