@@ -30,9 +30,18 @@ pub async fn bench(store: &Store, args: &BenchArgs, json: bool) -> Result<ExitCo
     if let Some(folder) = &args.out {
         std::fs::create_dir_all(folder).map_err(|e| Failure::file("make the folder", folder, &e))?;
     }
-    let engine = open::open(store, Purpose::Measure).await?;
-    let done = measure(&engine, args, inputs, json).await;
-    engine.shutdown().await;
+    let done = match open::open(store, Purpose::Measure).await {
+        Ok(engine) => {
+            let done = measure(&engine, args, inputs, json).await;
+            engine.shutdown().await;
+            done
+        }
+        Err(failure) => Err(failure),
+    };
+    if let (Err(_), Some(folder)) = (&done, &args.out) {
+        // Nothing stays of what was refused: this removes an empty folder only.
+        let _ = std::fs::remove_dir(folder);
+    }
     done
 }
 

@@ -25,7 +25,11 @@ pub async fn serve(store: &Store, args: &ServeArgs, json: bool) -> Result<ExitCo
     let engine = open::open(store, Purpose::Serve).await?;
     let url = format!("http://{address}");
     if json {
-        output::print_json(&json!({ "url": url }))?;
+        // On one line, which arrives whole; whoever started us may then stop reading without ending the service.
+        match output::print(&json!({ "url": url }).to_string()) {
+            Ok(()) | Err(Failure::ReaderGone) => {}
+            Err(failure) => return Err(failure),
+        }
     } else {
         eprintln!("OpenCollBench serves on {url}; stop it with Ctrl-C.");
     }

@@ -91,7 +91,7 @@ fn two_files_and_a_proximity_query() {
         "--algorithm",
         "box-tree",
     ]);
-    assert_eq!((&run["object_a_name"], &run["object_b_name"]), (&"a.obj".into(), &"b.obj".into()));
+    assert_eq!((&run["object_a_name"], &run["object_b_name"]), (&"a".into(), &"b".into()));
     assert_eq!(run["spec"]["query"], "proximity");
     assert_eq!(run["results"][0]["wrong"], 0, "{run:#}");
     let objects = desk.json(&["object", "list"]);

@@ -19,7 +19,7 @@ fn bad_objects_are_refused_and_nothing_is_kept() {
     let cases = [
         (desk.file("empty.obj", ""), "empty"),
         (desk.file("junk.obj", junk), ""),
-        (big.display().to_string(), "256 MiB"),
+        (big.display().to_string(), "256 mib"),
         (desk.file("nan.obj", TETRAHEDRON.replace("v 1 0 0", "v nan 0 0")), "line 2"),
         (desk.file("range.obj", TETRAHEDRON.replace("f 1 3 2", "f 1 3 99")), "line 5"),
         (desk.file("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "face"),
