@@ -152,3 +152,12 @@ pub fn descendants(pid: u32) -> Vec<u32> {
     }
     found
 }
+
+/// The process below `pid` that holds a plugin, if there is one now.
+pub fn runner_below(pid: u32) -> Option<u32> {
+    descendants(pid).into_iter().find(|p| {
+        let arguments = std::fs::read(format!("/proc/{p}/cmdline")).unwrap_or_default();
+        let mut arguments = arguments.split(|b| *b == 0);
+        arguments.next().is_some_and(|program| program.ends_with(b"ocb-runner")) && arguments.next() == Some(b"run")
+    })
+}

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
-use ocb_tests::service::{Guest, Service, descendants};
+use ocb_tests::service::{Guest, Service, descendants, runner_below};
 use serde_json::{Value, json};
 
 /// One data folder for all of these tests, one after the other: a new one would measure its start page first.
@@ -120,9 +120,8 @@ fn a_killed_runner_is_marked_and_the_next_algorithm_goes_on() {
     let id = guest.submit(&service, &spec(300));
     guest.wait(&service, &id, "brute-force is measured", |r| stage_state(r, "measuring", Some("brute-force")) == "running");
     let end = Instant::now() + Duration::from_secs(5);
-    // The innermost process is the one that holds the plugin.
     let runner = loop {
-        if let Some(pid) = descendants(service.pid()).last().copied() {
+        if let Some(pid) = runner_below(service.pid()) {
             break pid;
         }
         assert!(Instant::now() < end, "no runner was seen");
