@@ -30,6 +30,7 @@ test('an uploaded object is measured and coloured', async (t) => {
   await v.page.getByText('ball').first().waitFor()
   await v.at('by-count').click()
   await v.at('count').fill('60')
+  await v.at('budget').fill('3')
   await until('an estimate', async () => (await v.value('estimate-configurations')) === 60)
   await v.at('query-pq').click()
   await v.at('start').click()

@@ -40,16 +40,8 @@ export const getEcdf = (id: string, algorithm: string): Promise<Ecdf> =>
 export const getHeatmap = (id: string, request: HeatmapRequest): Promise<Heatmap> =>
   answer(http.GET('/api/v1/runs/{id}/heatmap', { params: { path: { id }, query: request } }))
 
-/** The featured run, or null while there is none. */
-export async function getFeatured(): Promise<RunInfo | null> {
-  try {
-    return await answer(http.GET('/api/v1/featured'))
-  } catch (thrown) {
-    const error = asApiError(thrown)
-    if (error.status === 404) return null
-    throw error
-  }
-}
+/** The run of the start page, or null while there is none. */
+export const getFeatured = (): Promise<RunInfo | null> => answer(http.GET('/api/v1/featured'))
 
 /** Sends a file; the service reads and checks it before it answers. */
 export const uploadObject = (file: File): Promise<ObjectInfo> => {

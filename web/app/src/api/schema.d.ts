@@ -41,7 +41,10 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** The finished run that the start page shows. */
+        /**
+         * The finished run that the start page shows; null until the first one is finished.
+         * @description No 404: nothing has gone wrong then, and a browser would note every look of a waiting page as an error.
+         */
         get: operations["featured_run"];
         put?: never;
         post?: never;
@@ -1086,16 +1089,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["RunInfo"];
-                };
-            };
-            /** @description Not measured yet */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/json": components["schemas"]["RunInfo"] | null;
                 };
             };
         };
