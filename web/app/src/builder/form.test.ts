@@ -5,7 +5,8 @@ import { chosenAlgorithms, fromSpec, initialForm, toSpec, whyUnfit } from './for
 import { find, objectKey, sliderToTriangles, trianglesToSlider, withTriangles } from './objects'
 
 const algorithm = (id: string, queries: Query[]): AlgorithmInfo => ({
-  id, name: id, version: '1', authors: '', license: '', url: '', paper: '', queries, counters: true, witness_points: true, parameters: [], plugin_sha256: '',
+  id, name: id, version: '1', authors: '', license: '', url: '', paper: '', queries, counters: true, witness_points: true, single_precision: false, parameters: [],
+  plugin_sha256: '',
 })
 const ALL = [algorithm('both', ['collision_first', 'collision_all', 'proximity']), algorithm('collider', ['collision_first'])]
 const form = () => ({ ...initialForm(), objectA: 'stock:bunny' })
