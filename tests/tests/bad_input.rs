@@ -96,7 +96,11 @@ fn the_command_line_refuses_bad_files_and_bad_runs() {
     refused(&data, &["bench", "no-such-file.obj"], "no-such-file.obj");
     let configurations = folder.path().join("configurations.f64");
     std::fs::write(&configurations, [0_u8; 100]).expect("a file is written");
-    refused(&data, &["bench", "stock:sphere@100", "--configurations", configurations.to_str().expect("a path")], "configuration");
+    refused(
+        &data,
+        &["bench", "stock:sphere@100", "--configurations", configurations.to_str().expect("a path")],
+        "configuration",
+    );
     assert_eq!(blobs(&data), Vec::<std::path::PathBuf>::new(), "nothing may stay behind");
 }
 
@@ -135,7 +139,11 @@ fn the_api_refuses_bad_files_and_bad_runs() {
         refused(&spec.to_string(), guest.post(&service, "/runs", &spec), word);
         refused(&spec.to_string(), guest.post(&service, "/estimates", &spec), word);
     }
-    refused("an unknown field", guest.post(&service, "/runs", &spec(json!({ "relative_distanec": 1 }))), "relative_distanec");
+    refused(
+        "an unknown field",
+        guest.post(&service, "/runs", &spec(json!({ "relative_distanec": 1 }))),
+        "relative_distanec",
+    );
     refused("no object", guest.post(&service, "/runs", &json!({})), "");
 
     let after = (guest.get(&service, "/objects"), guest.get(&service, "/runs"), blobs(folder.path()));

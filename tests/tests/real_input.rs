@@ -30,13 +30,18 @@ fn bench(set: &str, query: &str) -> (Value, BTreeMap<String, Vec<BTreeMap<String
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("out");
     let mut bench = command(built("ocb"));
-    bench.arg("bench").arg(shared("meshes/bunny65k.obj")).args(["--query", query, "--budget", BUDGET, "--passes", "1", "--json"]);
+    bench
+        .arg("bench")
+        .arg(shared("meshes/bunny65k.obj"))
+        .args(["--query", query, "--budget", BUDGET, "--passes", "1", "--json"]);
     bench.arg("--configurations").arg(shared(&format!("configurations/bunny65k.{set}.f64")));
     bench.arg("--out").arg(&out).arg("--data").arg(folder.path().join("data"));
     let run: Value = serde_json::from_str(&output(&mut bench)).expect("--json prints JSON");
-    let names = run["results"].as_array().expect("results").iter().map(|r| r["algorithm"].as_str().expect("a name").to_owned());
+    let names =
+        run["results"].as_array().expect("results").iter().map(|r| r["algorithm"].as_str().expect("a name").to_owned());
     let records = names.map(|name| {
-        let text = std::fs::read_to_string(out.join(format!("{name}.csv"))).unwrap_or_else(|e| panic!("records of {name}: {e}"));
+        let text = std::fs::read_to_string(out.join(format!("{name}.csv")))
+            .unwrap_or_else(|e| panic!("records of {name}: {e}"));
         (name, rows(&text))
     });
     let records = records.collect();
@@ -60,7 +65,10 @@ fn check_run(run: &Value, set: &str, query: &str) {
         assert_eq!(r["outcome"]["name"], "Completed", "{set} {query} {name}: {}", r["outcome"]["message"]);
         assert_eq!(r["wrong"], 0, "{set} {query} {name}: {}", r["verdicts"]);
         assert!(n == 1000 || r["budget_limited"] == true, "{set} {query} {name}: only {n} and not for want of time");
-        assert!(n >= if name == "brute-force" { 1 } else { 100 }, "{set} {query} {name}: only {n} configurations measured");
+        assert!(
+            n >= if name == "brute-force" { 1 } else { 100 },
+            "{set} {query} {name}: only {n} configurations measured"
+        );
     }
 }
 
@@ -92,7 +100,10 @@ fn distances_equal_the_known_ones() {
                 let distance: f64 = row["distance"].parse().expect("a distance");
                 let expected = if let Known::Apart(all) = &known { all[i] } else { 0.0 };
                 // The bounding box has diagonal 1: coordinates carry errors of about 1e-16, distances of 1e-4 and more.
-                assert!((distance - expected).abs() <= 1e-11 * expected.max(1e-2), "{set} {name} configuration {i}: {distance} is not {expected}");
+                assert!(
+                    (distance - expected).abs() <= 1e-11 * expected.max(1e-2),
+                    "{set} {name} configuration {i}: {distance} is not {expected}"
+                );
             }
         }
     }

@@ -61,9 +61,13 @@ fn finishes_after_a_kill(what: &str, count: u32, there: impl Fn(&Value) -> bool)
         service.kill();
         assert_gone(&runners);
         let service = Service::start(&data);
-        let run = guest.wait(&service, &id, "the run to end", |r| !["queued", "running"].iter().any(|s| r["state"] == *s));
+        let run =
+            guest.wait(&service, &id, "the run to end", |r| !["queued", "running"].iter().any(|s| r["state"] == *s));
         assert_complete(&run);
-        assert_eq!(guest.get(&service, "/runs").as_array().expect("runs").iter().filter(|r| r["id"] == id.as_str()).count(), 1);
+        assert_eq!(
+            guest.get(&service, "/runs").as_array().expect("runs").iter().filter(|r| r["id"] == id.as_str()).count(),
+            1
+        );
         if seen["state"] != "done" {
             assert_eq!(run["mine"], true, "the guest's cookie still owns the run");
             return;
@@ -98,7 +102,9 @@ fn killed_while_finding_configurations() {
 
 #[test]
 fn killed_while_measuring_the_first_algorithm() {
-    finishes_after_a_kill("brute-force is measured", 100, |r| stage_state(r, "measuring", Some("brute-force")) == "running");
+    finishes_after_a_kill("brute-force is measured", 100, |r| {
+        stage_state(r, "measuring", Some("brute-force")) == "running"
+    });
 }
 
 #[test]
@@ -118,7 +124,9 @@ fn a_killed_runner_is_marked_and_the_next_algorithm_goes_on() {
     let data = DATA.lock().unwrap_or_else(PoisonError::into_inner);
     let (guest, service) = (Guest::default(), Service::start(&data));
     let id = guest.submit(&service, &spec(300));
-    guest.wait(&service, &id, "brute-force is measured", |r| stage_state(r, "measuring", Some("brute-force")) == "running");
+    guest.wait(&service, &id, "brute-force is measured", |r| {
+        stage_state(r, "measuring", Some("brute-force")) == "running"
+    });
     let end = Instant::now() + Duration::from_secs(5);
     let runner = loop {
         if let Some(pid) = runner_below(service.pid()) {
@@ -131,7 +139,9 @@ fn a_killed_runner_is_marked_and_the_next_algorithm_goes_on() {
 
     let run = guest.wait(&service, &id, "the run to end", |r| !["queued", "running"].iter().any(|s| r["state"] == *s));
     assert_eq!(run["state"], "done", "{run}");
-    let result = |name: &str| run["results"].as_array().expect("results").iter().find(|r| r["algorithm"] == name).cloned().expect(name);
+    let result = |name: &str| {
+        run["results"].as_array().expect("results").iter().find(|r| r["algorithm"] == name).cloned().expect(name)
+    };
     let killed = result("brute-force");
     assert_eq!(killed["outcome"]["name"], "Signaled", "{killed}");
     for other in ["box-tree", "parry"] {

@@ -13,14 +13,19 @@ fn is_code(path: &Path) -> bool {
 /// Written by a program and checked against its source by a test of its own.
 fn is_generated(path: &Path) -> bool {
     let path = path.to_string_lossy();
-    path.contains("snapshots/") || path.ends_with("schema.d.ts") || path.ends_with(".lock") || path.ends_with("package-lock.json")
+    path.contains("snapshots/")
+        || path.ends_with("schema.d.ts")
+        || path.ends_with(".lock")
+        || path.ends_with("package-lock.json")
 }
 
 /// The lines of tracked files that contain one of `needles`, as `path:line: text`.
 fn lines_with(needles: &[&str], which: impl Fn(&Path) -> bool) -> Vec<String> {
     let mut found = Vec::new();
     for path in tracked().into_iter().filter(|p| which(p)) {
-        for (i, line) in text(&path).iter().flat_map(|t| t.lines().enumerate().map(|(i, l)| (i, l.to_owned())).collect::<Vec<_>>()) {
+        for (i, line) in
+            text(&path).iter().flat_map(|t| t.lines().enumerate().map(|(i, l)| (i, l.to_owned())).collect::<Vec<_>>())
+        {
             if needles.iter().any(|n| line.contains(n)) {
                 found.push(format!("{}:{}: {}", path.display(), i + 1, line.trim()));
             }
@@ -51,7 +56,14 @@ fn no_tracked_file_is_large() {
 #[test]
 fn nothing_names_a_machine_or_a_package_registry() {
     // Put together here, so that this file is not its own finding.
-    let hosts = [["registry", "npmjs"], ["crates", "io:"], ["crates", "io/"], ["files", "pythonhosted"], ["pypi", "org"], ["deb", "debian"]];
+    let hosts = [
+        ["registry", "npmjs"],
+        ["crates", "io:"],
+        ["crates", "io/"],
+        ["files", "pythonhosted"],
+        ["pypi", "org"],
+        ["deb", "debian"],
+    ];
     let mut needles: Vec<String> = hosts.map(|h| h.join(".")).to_vec();
     needles.extend(["root", "home", "Users", "work", "farm"].map(|d| format!("/{d}/")));
     let needles: Vec<&str> = needles.iter().map(String::as_str).collect();
@@ -74,7 +86,11 @@ fn nothing_names_a_machine_or_a_package_registry() {
 #[test]
 fn lock_files_hold_no_download_addresses() {
     let found = lines_with(&["\"resolved\":"], |p| p.ends_with("package-lock.json"));
-    assert!(found.is_empty(), "add omit-lockfile-registry-resolved=true to .npmrc and lock again:\n{}", found.join("\n"));
+    assert!(
+        found.is_empty(),
+        "add omit-lockfile-registry-resolved=true to .npmrc and lock again:\n{}",
+        found.join("\n")
+    );
     let cargo = text(Path::new("Cargo.lock")).expect("Cargo.lock");
     let sources: std::collections::BTreeSet<&str> = cargo.lines().filter(|l| l.starts_with("source = ")).collect();
     assert_eq!(sources.len(), 1, "Cargo.lock names more than the usual registry: {sources:?}");

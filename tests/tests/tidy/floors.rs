@@ -8,7 +8,8 @@ use serde_json::Value;
 
 /// What `cargo metadata` says of the workspace and everything it depends on.
 pub fn metadata() -> Value {
-    let text = output(command(env!("CARGO")).current_dir(root()).args(["metadata", "--format-version", "1", "--locked"]));
+    let text =
+        output(command(env!("CARGO")).current_dir(root()).args(["metadata", "--format-version", "1", "--locked"]));
     serde_json::from_str(&text).expect("cargo metadata prints JSON")
 }
 
@@ -41,7 +42,8 @@ fn closure(metadata: &Value, name: &str) -> BTreeSet<String> {
     while let Some(id) = open.pop() {
         if seen.insert(id) {
             let deps = node[id]["deps"].as_array().expect("deps").iter();
-            let normal = deps.filter(|d| d["dep_kinds"].as_array().is_some_and(|k| k.iter().any(|k| k["kind"].is_null())));
+            let normal =
+                deps.filter(|d| d["dep_kinds"].as_array().is_some_and(|k| k.iter().any(|k| k["kind"].is_null())));
             open.extend(normal.map(|d| d["pkg"].as_str().expect("pkg")));
         }
     }
@@ -68,7 +70,9 @@ fn a_floor_knows_only_the_floors_below() {
     may.extend(PLUGINS.map(|p| (p, &[PLUGIN_API, TRIANGLES] as &[&str])));
     let members = dependencies(&metadata());
     for (name, needs) in &members {
-        let allowed = may.get(name.as_str()).unwrap_or_else(|| panic!("{name} has no floor yet: say in this test whom it may know"));
+        let allowed = may
+            .get(name.as_str())
+            .unwrap_or_else(|| panic!("{name} has no floor yet: say in this test whom it may know"));
         let ours = needs.iter().filter(|n| members.contains_key(*n));
         let wrong: Vec<_> = ours.filter(|n| !allowed.contains(&n.as_str())).collect();
         assert!(wrong.is_empty(), "{name} must not depend on {wrong:?} (floors in ARCHITECTURE.md)");
@@ -78,7 +82,10 @@ fn a_floor_knows_only_the_floors_below() {
 #[test]
 fn only_the_sandbox_can_load_a_library() {
     for (name, needs) in dependencies(&metadata()) {
-        assert!(name == "ocb-sandbox" || !needs.contains("libloading"), "{name} depends on libloading: foreign code is loaded by the runner alone");
+        assert!(
+            name == "ocb-sandbox" || !needs.contains("libloading"),
+            "{name} depends on libloading: foreign code is loaded by the runner alone"
+        );
     }
 }
 
@@ -90,7 +97,9 @@ fn the_oracle_shares_no_code_with_a_contestant() {
     for plugin in PLUGINS {
         let own = closure(&metadata, plugin);
         // Plumbing such as serde may be shared; geometry and arithmetic on coordinates may not.
-        let geometry = |n: &str| ["parry", "robust", "nalgebra", "dashu", "ocb-"].iter().any(|g| n.starts_with(g)) || n == PLUGIN_API;
+        let geometry = |n: &str| {
+            ["parry", "robust", "nalgebra", "dashu", "ocb-"].iter().any(|g| n.starts_with(g)) || n == PLUGIN_API
+        };
         let shared: Vec<_> = own.intersection(&core).filter(|n| geometry(n)).collect();
         assert!(shared.is_empty(), "{plugin} and the oracle are both built from {shared:?}");
     }

@@ -31,7 +31,17 @@ fn hits(files: &[(PathBuf, String)], needles: &[&str]) -> Vec<String> {
 
 #[test]
 fn the_core_does_no_io_and_knows_no_clock() {
-    let needles = ["std::fs", "std::net", "std::process", "std::thread", "std::time", "std::env", "println!", "SystemTime", "Instant"];
+    let needles = [
+        "std::fs",
+        "std::net",
+        "std::process",
+        "std::thread",
+        "std::time",
+        "std::env",
+        "println!",
+        "SystemTime",
+        "Instant",
+    ];
     let mut files = rust_below("host/core/src");
     files.retain(|(p, _)| !p.ends_with("tests.rs"));
     let found = hits(&files, &needles);
@@ -43,10 +53,14 @@ fn the_core_does_no_io_and_knows_no_clock() {
 #[test]
 fn unsafe_stands_in_few_files() {
     // The ABI on both of its sides, the jail, and the place that pins threads to CPUs; a test's support may play the host.
-    const ALLOWED: [&str; 4] = ["plugin-api/", "sandbox/", "host/engine/src/machine.rs", "plugins/common/tests/support/"];
+    const ALLOWED: [&str; 4] =
+        ["plugin-api/", "sandbox/", "host/engine/src/machine.rs", "plugins/common/tests/support/"];
     let mut found = Vec::new();
-    for (path, text) in ["host", "plugin-api", "plugins", "sandbox", "web", "tests"].iter().flat_map(|f| rust_below(f)) {
-        let uses = text.lines().any(|l| ["{", "fn", "impl", "extern", "trait"].iter().any(|k| code(l).contains(&["unsafe ", k].concat())));
+    for (path, text) in ["host", "plugin-api", "plugins", "sandbox", "web", "tests"].iter().flat_map(|f| rust_below(f))
+    {
+        let uses = text
+            .lines()
+            .any(|l| ["{", "fn", "impl", "extern", "trait"].iter().any(|k| code(l).contains(&["unsafe ", k].concat())));
         if uses && !ALLOWED.iter().any(|a| path.starts_with(a)) {
             found.push(path);
         }
@@ -63,7 +77,11 @@ fn the_reference_never_enters_the_runner() {
 #[test]
 fn plugins_are_opened_in_the_runner_alone() {
     // The jail loads the system's own libraries before it closes itself off, which is no foreign code.
-    let may = |p: &Path| p.starts_with("sandbox/src/runner") || p.starts_with("sandbox/src/confine") || p.components().any(|c| c.as_os_str() == "tests");
+    let may = |p: &Path| {
+        p.starts_with("sandbox/src/runner")
+            || p.starts_with("sandbox/src/confine")
+            || p.components().any(|c| c.as_os_str() == "tests")
+    };
     let all = ["host", "web", "sandbox", "plugins", "plugin-api"].iter().flat_map(|f| rust_below(f));
     let found = hits(&all.filter(|(p, _)| !may(p)).collect::<Vec<_>>(), &["libloading", "dlopen("]);
     assert!(found.is_empty(), "only the runner opens a plugin:\n{}", found.join("\n"));
