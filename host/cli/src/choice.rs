@@ -1,0 +1,89 @@
+//! Choices of the command line that are enums of the domain.
+
+use clap::ValueEnum;
+
+/// A choice of the command line that is an enum of the domain: the same variants, named as clap names them.
+macro_rules! choice {
+    ($(#[$doc:meta])* $name:ident => $domain:ty { $($(#[$variant_doc:meta])* $variant:ident),+ $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+        pub enum $name { $($(#[$variant_doc])* $variant),+ }
+
+        impl From<$name> for $domain {
+            fn from(choice: $name) -> Self {
+                match choice { $($name::$variant => Self::$variant),+ }
+            }
+        }
+    };
+}
+
+choice! {
+    /// What to show.
+    MeasureArg => ocb_engine::model::Measure {
+        /// Time per query.
+        Time,
+        /// Bounding volume tests per query.
+        BvTests,
+        /// Primitive tests per query.
+        PrimitiveTests,
+        /// Configurations with their witness point at a vertex.
+        Density,
+    }
+}
+choice! {
+    /// Which statistic.
+    StatisticArg => ocb_core::statistics::Statistic {
+        /// Arithmetic mean.
+        Mean,
+        /// Median.
+        Median,
+        /// Smallest.
+        Min,
+        /// Largest.
+        Max,
+        /// Standard deviation.
+        StandardDeviation,
+        /// Median absolute deviation.
+        Mad,
+    }
+}
+choice! {
+    /// What happens to outliers.
+    OutliersArg => ocb_core::statistics::Outliers {
+        /// All values count.
+        Keep,
+        /// One fence per vertex.
+        PerVertex,
+        /// One fence over all configurations, as in the 2020 paper.
+        Global,
+    }
+}
+choice! {
+    /// Which object.
+    SideArg => ocb_engine::model::Side {
+        /// The fixed object.
+        A,
+        /// The moving object.
+        B,
+    }
+}
+choice! {
+    /// Colours.
+    ColormapArg => ocb_core::colormap::Colormap {
+        /// As in the 2020 paper.
+        Turbo,
+        /// Perceptually uniform.
+        Viridis,
+        /// Reads the same with colour vision deficiency.
+        Cividis,
+    }
+}
+choice! {
+    /// How values are spread over the colours.
+    ScaleArg => ocb_core::colormap::Scale {
+        /// Evenly.
+        Linear,
+        /// By logarithm.
+        Log,
+    }
+}
