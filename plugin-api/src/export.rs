@@ -1,4 +1,4 @@
-//! [`export!`]: from traits to the C interface. What C calls is in `calls.rs`; authors need not read either.
+//! [`export!`](crate::export!): from traits to the C interface. What C calls is in `calls.rs`; authors need not read either.
 
 mod calls;
 

@@ -1,6 +1,6 @@
 //! The culling hierarchy of oracle and sampling: oriented boxes, eight to a node, in f32 with bounds widened outward.
 //!
-//! A box in the tree certainly contains its triangles, and a distance reported by [`Frame`] is certainly a lower bound:
+//! A box in the tree certainly contains its triangles, and a distance reported by `Frame` is certainly a lower bound:
 //! every rounding of f32, every deviation of a pose from a rotation and the size of the numbers is paid for by one
 //! `slack` that is computed per configuration and subtracted. So culling can cost time, never an answer.
 //!

@@ -17,15 +17,15 @@
 //! * The **distance** is the smallest length between a point of one and a point of the other; 0 when they collide.
 //!
 //! A program that computes in f64 or f32 cannot always see this truth, because its own roundings move every point a
-//! little. [`Truth`](crate::configuration::Truth) therefore carries, beside the answer, how far the configuration is from
+//! little. [`Truth`] therefore carries, beside the answer, how far the configuration is from
 //! changing it: `distance_lo` when apart, `margin` when colliding. Where that is no more than
 //! `tau = 32 u S` (`u` is 2^-53 for f64 and 2^-24 for f32; `S` the size of the scene's coordinates, see
 //! [`Pair::scene_size`]), the class is `Grazing` and the answer is reported but not scored.
 //!
 //! # How it is found
 //!
-//! f64 arithmetic with certified error bounds decides nearly everything ([`closest`], `filter`); what it cannot decide goes
-//! to exact integers ([`exact`]). No code is shared with any plugin.
+//! f64 arithmetic with certified error bounds decides nearly everything (`closest`, `filter`); what it cannot decide goes
+//! to exact integers (`exact`). No code is shared with any plugin.
 
 mod claims;
 mod closest;
