@@ -24,7 +24,7 @@ fn bad_files() -> Vec<(&'static str, Vec<u8>, &'static str)> {
 
 fn spec(changes: Value) -> Value {
     let mut spec = json!({
-        "object_a": "stock:sphere@100", "query": "collision_first", "relative_distance": 0.0,
+        "object_a": "stock:sphere@500", "query": "collision_first", "relative_distance": 0.0,
         "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 10 } },
     });
     spec.as_object_mut().expect("an object").extend(changes.as_object().expect("an object").clone());
@@ -90,7 +90,7 @@ fn the_command_line_refuses_bad_files_and_bad_runs() {
         refused(&data, &["bench", file.to_str().expect("a path"), "--count", "10"], word);
     }
     for (_, arguments, word) in bad_runs() {
-        let object = if arguments[0].starts_with("stock:") { &[][..] } else { &["stock:sphere@100"][..] };
+        let object = if arguments[0].starts_with("stock:") { &[][..] } else { &["stock:sphere@500"][..] };
         refused(&data, &[&["bench"][..], object, &arguments].concat(), word);
     }
     refused(&data, &["bench", "no-such-file.obj"], "no-such-file.obj");
@@ -98,7 +98,7 @@ fn the_command_line_refuses_bad_files_and_bad_runs() {
     std::fs::write(&configurations, [0_u8; 100]).expect("a file is written");
     refused(
         &data,
-        &["bench", "stock:sphere@100", "--configurations", configurations.to_str().expect("a path")],
+        &["bench", "stock:sphere@500", "--configurations", configurations.to_str().expect("a path")],
         "configuration",
     );
     assert_eq!(blobs(&data), Vec::<std::path::PathBuf>::new(), "nothing may stay behind");
