@@ -54,7 +54,7 @@ fn rows(csv: &str) -> Vec<BTreeMap<String, String>> {
     lines.map(|l| header.iter().cloned().zip(l.split(',').map(str::to_owned)).collect()).collect()
 }
 
-/// All three algorithms answered, none wrongly, and the fast ones answered for a good part of the set at least.
+/// All three algorithms answered, none wrongly, and box-tree answered for the whole set.
 fn check_run(run: &Value, set: &str, query: &str) {
     assert_eq!(run["set"]["configurations"], 1000, "{set}");
     let results = run["results"].as_array().expect("results");
@@ -65,10 +65,8 @@ fn check_run(run: &Value, set: &str, query: &str) {
         assert_eq!(r["outcome"]["name"], "Completed", "{set} {query} {name}: {}", r["outcome"]["message"]);
         assert_eq!(r["wrong"], 0, "{set} {query} {name}: {}", r["verdicts"]);
         assert!(n == 1000 || r["budget_limited"] == true, "{set} {query} {name}: only {n} and not for want of time");
-        assert!(
-            n >= if name == "brute-force" { 1 } else { 100 },
-            "{set} {query} {name}: only {n} configurations measured"
-        );
+        // Brute force, and parry's distance, take a second and more for one of these queries.
+        assert!(n >= if name == "box-tree" { 1000 } else { 1 }, "{set} {query} {name}: only {n} configurations measured");
     }
 }
 
