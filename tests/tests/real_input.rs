@@ -66,7 +66,10 @@ fn check_run(run: &Value, set: &str, query: &str) {
         assert_eq!(r["wrong"], 0, "{set} {query} {name}: {}", r["verdicts"]);
         assert!(n == 1000 || r["budget_limited"] == true, "{set} {query} {name}: only {n} and not for want of time");
         // Brute force, and parry's distance, take a second and more for one of these queries.
-        assert!(n >= if name == "box-tree" { 1000 } else { 1 }, "{set} {query} {name}: only {n} configurations measured");
+        assert!(
+            n >= if name == "box-tree" { 1000 } else { 1 },
+            "{set} {query} {name}: only {n} configurations measured"
+        );
     }
 }
 
