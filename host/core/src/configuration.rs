@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 
+use crate::oracle::U64;
 use crate::pose::Pose;
 
 /// The poses of A and B for one query: a point of the pair's configuration space.
@@ -71,6 +72,49 @@ pub struct Placed {
     pub truth: Truth,
     /// Which root along its ray (0 = the first position found from outside).
     pub root_index: u32,
+    /// What was looked for; `None` where the pose was given.
+    pub wanted: Option<Separation>,
+}
+
+/// How far apart, or how deep in each other, the surfaces shall be.
+///
+/// One rule for all: a wanted *step* `x` of the scene's size S ([`Pair::scene_size`](crate::oracle::Pair::scene_size))
+/// is met by a certified value in `(x S, 2 x S]`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
+#[serde(rename_all = "snake_case", tag = "kind")]
+pub enum Separation {
+    /// So far apart, as a share of L (the longest side of A's bounding box), up to `tau32`; at 0 the certified distance
+    /// is in `(2 tau32, 4 tau32]`, the step `2 tau32 / S`, so that the question is fair even in single precision.
+    Relative {
+        /// Surface distance divided by L; at least 0.
+        distance: f64,
+    },
+    /// A share `x` of the scene's size S. Above 0: the certified distance is in `(x S, 2 x S]`. Below 0: the objects
+    /// cross, with a certified margin in `(|x| S, 2 |x| S]` where that can be reached.
+    Step {
+        /// `x`; its size is at least [`Separation::SMALLEST_STEP`].
+        of_size: f64,
+    },
+    /// The [`Separation::LADDER`] of steps, one configuration each in turn.
+    Ladder,
+}
+
+impl Separation {
+    /// `2 tau64 / S`: what an algorithm in f64 must still be able to tell from touching.
+    pub const SMALLEST_STEP: f64 = 64.0 * U64;
+    /// The largest step.
+    pub const LARGEST_STEP: f64 = 0.1;
+    /// The steps on which the resolution of decisions is measured, apart and crossing in turn.
+    pub const LADDER: [f64; 10] =
+        [1e-2, -1e-2, 1e-4, -1e-4, 1e-6, -1e-6, 1e-8, -1e-8, Self::SMALLEST_STEP, -Self::SMALLEST_STEP];
+
+    /// What configuration `index` shall meet: a distance or a step.
+    pub fn of(self, index: u64) -> Self {
+        match self {
+            Self::Ladder => Self::Step { of_size: Self::LADDER[(index % Self::LADDER.len() as u64) as usize] },
+            one => one,
+        }
+    }
 }
 
 /// How the configurations of a set were found.
@@ -119,13 +163,13 @@ pub enum Sampling {
     },
 }
 
-/// The sampled configurations of a scene at one relative distance.
+/// The sampled configurations of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ConfigurationSet {
     /// How they were found.
     pub method: Method,
-    /// Surface-to-surface distance divided by `longest_side`.
-    pub relative_distance: f64,
+    /// How far apart the surfaces shall be; `None` where the method does not ask for it.
+    pub separation: Option<Separation>,
     /// L: the longest side of A's bounding box.
     pub longest_side: f64,
     /// The configurations with their truth, in the set's own order.

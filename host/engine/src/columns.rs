@@ -22,7 +22,7 @@ pub use records::{RecordColumns, RecordsOf, read_records, records_csv, records_p
 pub use sets::{SetOf, read_poses, read_set, set_parquet};
 
 /// Version of the columns; grows when a column changes its meaning.
-pub const SCHEMA_VERSION: &str = "1";
+pub const SCHEMA_VERSION: &str = "2";
 
 /// One ZSTD-compressed Parquet file with the given metadata in its schema.
 fn to_parquet(batch: &RecordBatch) -> Result<Vec<u8>> {

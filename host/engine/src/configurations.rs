@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use ocb_core::configuration::{Class, Configuration, ConfigurationSet, Method, Placed};
+use ocb_core::configuration::{Class, Configuration, ConfigurationSet, Method, Placed, Separation};
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::pose::Pose;
 use ocb_core::sampling::sphere::{MAX_CONFIGURATIONS, Plan};
@@ -53,7 +53,7 @@ pub fn make(
             let pair = Pair::new(a, b);
             on_all_cpus(poses.len() as u64, gauge, |i| {
                 let configuration = poses[i as usize];
-                Some(Placed { configuration, truth: pair.truth(&configuration), root_index: 0 })
+                Some(Placed { configuration, truth: pair.truth(&configuration), root_index: 0, wanted: None })
             })
         }
         (Method::File { .. }, None) => return Err(EngineError::Fault("The file of configurations is missing.".into())),
@@ -64,7 +64,10 @@ pub fn make(
     let missed_rays = found.iter().filter(|placed| placed.is_none()).count() as u32;
     let set = ConfigurationSet {
         method: spec.method.clone(),
-        relative_distance: spec.relative_distance,
+        separation: match spec.method {
+            Method::Sphere { .. } => Some(Separation::Relative { distance: spec.relative_distance }),
+            Method::File { .. } => None,
+        },
         longest_side,
         placed: found.into_iter().flatten().collect(),
         missed_rays,

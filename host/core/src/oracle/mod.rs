@@ -110,6 +110,11 @@ impl Shape {
         self.soup.parts().1
     }
 
+    /// Largest absolute coordinate.
+    pub(crate) fn largest(&self) -> f64 {
+        self.largest
+    }
+
     pub(crate) fn tree(&self) -> &Tree {
         &self.tree
     }

@@ -8,9 +8,10 @@
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
+use super::window::Window;
 use crate::bvh::{BestFirst, Frame};
-use crate::configuration::{Configuration, Placed, Truth};
-use crate::oracle::{Pair, Shape, U32, closest_points};
+use crate::configuration::{Configuration, Placed, Separation, Truth};
+use crate::oracle::{Pair, Shape, closest_points};
 use crate::pose::Pose;
 
 /// What all rays of a plan share.
@@ -21,8 +22,7 @@ pub(super) struct Approach<'a> {
     centre_b: Point3<f64>,
     /// Distance of the centres at which B starts: the surfaces are then further apart than wanted.
     start: f64,
-    /// The wanted distance; 0 stands for `3 tau32`.
-    distance: f64,
+    window: Window,
 }
 
 /// A position on the ray.
@@ -51,14 +51,17 @@ impl Ray<'_> {
 }
 
 impl<'a> Approach<'a> {
-    pub(super) fn new(a: &'a Shape, b: &'a Shape, relative_distance: f64) -> Self {
+    pub(super) fn new(a: &'a Shape, b: &'a Shape, separation: Separation) -> Self {
         let (centre_a, radius_a) = ball(a);
         let (centre_b, radius_b) = ball(b);
         let bounds = bounds(a);
-        let distance = relative_distance * (bounds.1 - bounds.0).amax();
-        // A little further than needed, so that even the band of f32 is passed on the way.
-        let start = (radius_a + radius_b) * 1.01 + distance;
-        Self { pair: Pair::new(a, b), centre_a, centre_b, start, distance }
+        let pair = Pair::new(a, b);
+        let window = Window::new(separation, (bounds.1 - bounds.0).amax());
+        // A little further than needed, so that even the band of f32 is passed on the way. Steps are shares of S, which
+        // grows with the translation: for the largest step, it is less than this at the start.
+        let size = 6.0 * (a.largest() + b.largest());
+        let start = (radius_a + radius_b) * 1.01 + window.most(size);
+        Self { pair, centre_a, centre_b, start, window }
     }
 
     /// The first position on the ray with the wanted distance, certified; `None` when there is none.
@@ -72,7 +75,7 @@ impl<'a> Approach<'a> {
             let truth = self.pair.truth_near(&configuration, Some(root.pair));
             let (wanted, tau) = self.wanted(&configuration);
             if within(&truth, wanted, tau) {
-                return Some(Placed { configuration, truth, root_index: 0 });
+                return Some(Placed { configuration, truth, root_index: 0, wanted: Some(self.window.separation) });
             }
             if truth.distance_lo < wanted - 2.0 * tau {
                 break; // another pair is nearer: not the first root after all
@@ -84,8 +87,7 @@ impl<'a> Approach<'a> {
 
     /// The wanted distance in a configuration, and the half-width of the window around it.
     fn wanted(&self, configuration: &Configuration) -> (f64, f64) {
-        let tau = self.pair.tau(configuration, U32);
-        if self.distance == 0.0 { (3.0 * tau, tau) } else { (self.distance, tau) }
+        self.window.middle(self.pair.scene_size(configuration))
     }
 
     /// The smallest way after which some pair of triangles is the wanted distance apart.
@@ -164,7 +166,7 @@ impl<'a> Approach<'a> {
             let truth = self.pair.truth_near(&configuration, near);
             let (wanted, tau) = self.wanted(&configuration);
             if within(&truth, wanted, tau) {
-                return Some(Placed { configuration, truth, root_index: 0 });
+                return Some(Placed { configuration, truth, root_index: 0, wanted: Some(self.window.separation) });
             }
             way += truth.distance_lo - wanted;
             if truth.hit || way > ray.length {

@@ -4,3 +4,4 @@ mod approach;
 mod low_discrepancy;
 mod paper_pattern;
 pub mod sphere;
+mod window;

@@ -4,7 +4,7 @@
 use super::approach::Approach;
 use super::low_discrepancy::{self, Sample};
 use super::paper_pattern::Pattern;
-use crate::configuration::{Placed, Sampling};
+use crate::configuration::{Placed, Sampling, Separation};
 use crate::oracle::Shape;
 
 /// No set has more configurations than this.
@@ -92,7 +92,8 @@ impl<'a> Plan<'a> {
             Sampling::PaperCompat { rotate, move_by } => Some(Pattern::new(rotate, move_by)),
             Sampling::Steps { .. } | Sampling::Count { .. } => None,
         };
-        Ok(Self { approach: Approach::new(a, b, relative_distance), pattern, len, seed })
+        let separation = Separation::Relative { distance: relative_distance };
+        Ok(Self { approach: Approach::new(a, b, separation), pattern, len, seed })
     }
 
     /// Number of rays.

@@ -8,7 +8,7 @@ use arrow::array::{
 };
 use arrow::datatypes::{DataType, Field};
 use nalgebra::Point3;
-use ocb_core::configuration::{Class, Configuration, ConfigurationSet, Placed, Truth, Witness};
+use ocb_core::configuration::{Class, Configuration, ConfigurationSet, Placed, Separation, Truth, Witness};
 use ocb_core::pose::Pose;
 
 use super::{SCHEMA_VERSION, batch, column, from_parquet, to_parquet};
@@ -25,15 +25,14 @@ pub struct SetOf<'a> {
 /// The set as Parquet. Poses are the first three rows of the 4x4 matrix, row-major, bit for bit.
 pub fn set_parquet(of: &SetOf, set: &ConfigurationSet) -> Result<Vec<u8>> {
     let placed = &set.placed;
-    let method = serde_json::to_string(&set.method).map_err(|e| EngineError::fault("Naming the method failed", e))?;
     let metadata = HashMap::from(
         [
             ("opencollbench.schema", SCHEMA_VERSION.to_owned()),
             ("opencollbench.version", env!("CARGO_PKG_VERSION").to_owned()),
             ("opencollbench.mesh_a_sha256", of.mesh_a.to_owned()),
             ("opencollbench.mesh_b_sha256", of.mesh_b.to_owned()),
-            ("opencollbench.method", method),
-            ("opencollbench.relative_distance", set.relative_distance.to_string()),
+            ("opencollbench.method", json(&set.method)?),
+            ("opencollbench.separation", json(&set.separation)?),
             ("opencollbench.longest_side", set.longest_side.to_string()),
             ("opencollbench.missed_rays", set.missed_rays.to_string()),
         ]
@@ -64,8 +63,26 @@ pub fn set_parquet(of: &SetOf, set: &ConfigurationSet) -> Result<Vec<u8>> {
             ("triangle_b", u32s(&|p| p.truth.witness.triangle_b)),
             ("exact_used", flags(&|p| p.truth.exact_used)),
             ("root_index", u32s(&|p| p.root_index)),
+            (
+                "relative_distance",
+                wanted(placed, |w| match w {
+                    Separation::Relative { distance } => Some(distance),
+                    Separation::Step { .. } | Separation::Ladder => None,
+                }),
+            ),
+            (
+                "step",
+                wanted(placed, |w| match w {
+                    Separation::Step { of_size } => Some(of_size),
+                    Separation::Relative { .. } | Separation::Ladder => None,
+                }),
+            ),
         ],
     )?)
+}
+
+fn json(value: &impl serde::Serialize) -> Result<String> {
+    serde_json::to_string(value).map_err(|e| EngineError::fault("Naming the method failed", e))
 }
 
 /// Reads back a stored set.
@@ -79,7 +96,7 @@ pub fn read_set(bytes: &[u8]) -> Result<ConfigurationSet> {
     let number = |key: &str| said(key)?.parse::<f64>().map_err(|e| damaged(format!("{key}: {e}")));
     let mut set = ConfigurationSet {
         method: serde_json::from_str(&said("method")?).map_err(|e| damaged(e.to_string()))?,
-        relative_distance: number("relative_distance")?,
+        separation: serde_json::from_str(&said("separation")?).map_err(|e| damaged(e.to_string()))?,
         longest_side: number("longest_side")?,
         placed: Vec::new(),
         missed_rays: number("missed_rays")? as u32,
@@ -112,6 +129,7 @@ fn append_placed(placed: &mut Vec<Placed>, batch: &RecordBatch) -> std::result::
     let (hit, exact_used) = (flag("hit")?, flag("exact_used")?);
     let (lo, hi, margin) = (real("distance_lo")?, real("distance_hi")?, real("margin")?);
     let (class64, class32) = (text("class64")?, text("class32")?);
+    let (relative_distance, step) = (real("relative_distance")?, real("step")?);
     let (triangle_a, triangle_b, root_index) = (whole("triangle_a")?, whole("triangle_b")?, whole("root_index")?);
     for row in 0..batch.num_rows() {
         placed.push(Placed {
@@ -132,9 +150,19 @@ fn append_placed(placed: &mut Vec<Placed>, batch: &RecordBatch) -> std::result::
                 exact_used: exact_used.value(row),
             },
             root_index: root_index.value(row),
+            wanted: if relative_distance.is_valid(row) {
+                Some(Separation::Relative { distance: relative_distance.value(row) })
+            } else {
+                step.is_valid(row).then(|| Separation::Step { of_size: step.value(row) })
+            },
         });
     }
     Ok(())
+}
+
+/// What was looked for, where it was this.
+fn wanted(placed: &[Placed], this: fn(Separation) -> Option<f64>) -> ArrayRef {
+    Arc::new(placed.iter().map(|p| p.wanted.and_then(this)).collect::<Float64Array>())
 }
 
 fn lists(placed: &[Placed], width: i32, of: impl Fn(&Placed) -> Vec<f64>) -> Result<ArrayRef> {
@@ -215,13 +243,15 @@ mod tests {
                     exact_used: i == 0,
                 },
                 root_index: 0,
+                wanted: [Some(Separation::Step { of_size: -1e-8 }), Some(Separation::Relative { distance: 0.1 }), None]
+                    [i as usize],
             }
         };
         ConfigurationSet {
             method: Method::Sphere { sampling: Sampling::Count { count: 3 }, seed: 5 },
-            relative_distance: 0.1,
+            separation: Some(Separation::Ladder),
             longest_side: 2.0 / 3.0,
-            placed: (0..2).map(placed).collect(),
+            placed: (0..3).map(placed).collect(),
             missed_rays: 1,
         }
     }

@@ -181,7 +181,7 @@ fn smoke_configurations(shape: &Shape) -> Result<Vec<Placed>> {
             // Half the way to A's centre: a certain collision, which the sphere method alone never gives.
             let mut configuration = placed.configuration;
             configuration.pose_b.translation *= 0.5;
-            all.push(Placed { configuration, truth: pair.truth(&configuration), root_index: 0 });
+            all.push(Placed { configuration, truth: pair.truth(&configuration), root_index: 0, wanted: None });
         }
     }
     Ok(all)
