@@ -5,6 +5,8 @@
 //! of few directions with few rotations would approach A along the same few rays again and again, and the heatmap would
 //! show the rays. Every prefix of the sequence is evenly spread, so a smaller N is a prefix of a larger one.
 
+use std::f64::consts::TAU;
+
 use nalgebra::{Matrix3, Vector3};
 
 /// The direction in which B stands and B's rotation.
@@ -36,15 +38,15 @@ fn splitmix(state: &mut u64) -> f64 {
 /// Unit vector; equal areas of the unit square become equal areas of the sphere (Lambert's cylinder).
 pub(super) fn direction(u: f64, v: f64) -> Vector3<f64> {
     let z = 1.0 - 2.0 * u;
-    let (sin, cos) = (std::f64::consts::TAU * v).sin_cos();
+    let (sin, cos) = libm::sincos(TAU * v);
     let radius = (1.0 - z * z).sqrt();
     Vector3::new(radius * cos, radius * sin, z)
 }
 
 /// Rotation; equal volumes of the unit cube become equal volumes of SO(3) (Shoemake 1992, "Uniform random rotations").
 fn rotation(u: f64, v: f64, w: f64) -> Matrix3<f64> {
-    let (s1, c1) = (std::f64::consts::TAU * v).sin_cos();
-    let (s2, c2) = (std::f64::consts::TAU * w).sin_cos();
+    let (s1, c1) = libm::sincos(TAU * v);
+    let (s2, c2) = libm::sincos(TAU * w);
     let (r1, r2) = ((1.0 - u).sqrt(), u.sqrt());
     from_quaternion([r2 * c2, r1 * s1, r1 * c1, r2 * s2])
 }

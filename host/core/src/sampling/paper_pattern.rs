@@ -23,7 +23,7 @@ impl Rows {
         let mut starts = vec![0];
         for row in 0..rows {
             let theta = polar_angle(row, rows);
-            let places = (360.0 / step_degrees * theta.sin()).round().max(1.0) as u64;
+            let places = (360.0 / step_degrees * libm::sin(theta)).round().max(1.0) as u64;
             starts.push(starts[row as usize] + places);
         }
         Self { starts }
@@ -72,13 +72,14 @@ impl Pattern {
         let rotations = self.axes.len() * self.turns;
         let (place, rotation) = (index / rotations, index % rotations);
         let (theta, phi) = self.directions.angles(place);
-        let direction = Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos());
+        let ((sin, cos), (sin_phi, cos_phi)) = (libm::sincos(theta), libm::sincos(phi));
+        let direction = Vector3::new(sin * cos_phi, sin * sin_phi, cos);
         // Euler angles z-y-z: R = Rz(alpha) Ry(beta) Rz(gamma), as a quaternion.
         let (beta, alpha) = self.axes.angles(rotation / self.turns);
         let gamma = (rotation % self.turns) as f64 / self.turns as f64 * std::f64::consts::TAU;
-        let (sb, cb) = (beta / 2.0).sin_cos();
-        let (ss, cs) = ((alpha + gamma) / 2.0).sin_cos();
-        let (sd, cd) = ((alpha - gamma) / 2.0).sin_cos();
+        let (sb, cb) = libm::sincos(beta / 2.0);
+        let (ss, cs) = libm::sincos((alpha + gamma) / 2.0);
+        let (sd, cd) = libm::sincos((alpha - gamma) / 2.0);
         (direction, from_quaternion([cb * cs, -sb * sd, sb * cd, cb * ss]))
     }
 }
