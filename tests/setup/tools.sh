@@ -30,6 +30,8 @@ if [ "$purpose" = test ]; then
   have chromium || packages+=(chromium)
   [ -d /usr/share/fonts/truetype/dejavu ] || packages+=(fonts-dejavu-core)
   compgen -G '/usr/lib/postgresql/*/bin/initdb' >/dev/null || packages+=(postgresql)
+  # CGAL's exact kernel is the oracle's second opinion; development only, nothing of the product is linked with it.
+  echo '#include <CGAL/version.h>' | c++ -E -x c++ - >/dev/null 2>&1 || packages+=(libcgal-dev)
   python3 -c 'import venv, ensurepip' 2>/dev/null || packages+=(python3 python3-venv)
 fi
 

@@ -3,6 +3,8 @@
 use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
+use families::Case;
+
 use super::closest::closest;
 use super::exact::ExactPair;
 use super::filter;
@@ -10,23 +12,56 @@ use super::margin::crossing;
 use super::triangle::Triangle;
 use crate::pose::Pose;
 
+#[allow(dead_code, reason = "the tests outside need more")]
+#[path = "../../tests/common/families.rs"]
+mod families;
+#[allow(dead_code, reason = "the tests outside need more")]
+#[path = "../../tests/common/random.rs"]
+mod random;
+
 type Corners = [Point3<f64>; 3];
 
-/// Everything f64 says about a pair must be confirmed.
-fn check(pose_a: &Pose, a: &Corners, pose_b: &Pose, b: &Corners) {
+/// Everything f64 says about a pair must be confirmed; true when the filter decided.
+fn check(pose_a: &Pose, a: &Corners, pose_b: &Pose, b: &Corners) -> bool {
     let exact = ExactPair::new(pose_a, a, pose_b, b);
     let hit = exact.hit();
     let (lo, hi) = exact.distance();
     assert_eq!(hit, hi == 0.0);
+    let mut decided = true;
     for scale in [1.0, 0.25] {
         let (ta, tb) = (Triangle::mapped(pose_a, a, scale), Triangle::mapped(pose_b, b, scale));
-        if let Some(said) = filter::hit(&ta, &tb) {
-            assert_eq!(said, hit, "{a:?} {b:?}");
+        match filter::hit(&ta, &tb) {
+            Some(said) => assert_eq!(said, hit, "{a:?} {b:?}"),
+            None => decided = false,
         }
         let near = closest(&ta, &tb);
         assert!(near.lo <= hi * scale && lo * scale <= near.hi, "{near:?} {lo} {hi} {a:?} {b:?}");
         assert!(crossing(&ta, &tb).is_none() || hit, "a crossing of {a:?} {b:?}");
     }
+    decided
+}
+
+/// `OCB_PAIRS` of them; `make soak` asks for ten million.
+#[test]
+fn the_filters_never_contradict_exact_arithmetic_on_troublesome_pairs() {
+    let count: u64 = std::env::var("OCB_PAIRS").map_or(200_000, |n| n.parse().expect("OCB_PAIRS is a number"));
+    let threads = std::thread::available_parallelism().map_or(1, |n| n.get() as u64);
+    let decided: u64 = std::thread::scope(|scope| {
+        let parts: Vec<_> = (0..threads)
+            .map(|first| {
+                let numbers = (first..count).step_by(threads as usize);
+                let decided = move |number: &u64| {
+                    let Case { a, b, configuration: c, .. } = Case::draw(*number);
+                    check(&c.pose_a, &a, &c.pose_b, &b)
+                };
+                scope.spawn(move || numbers.filter(decided).count() as u64)
+            })
+            .collect();
+        parts.into_iter().map(|part| part.join().expect("a pair failed, see above")).sum()
+    });
+    println!("{count} pairs, {decided} of them decided without integers: 0 contradictions");
+    // A filter that never decides contradicts nothing.
+    assert!(decided > count / 2, "only {decided} of {count} decided");
 }
 
 /// Numbers of all the kinds that make trouble.

@@ -9,6 +9,10 @@ use ocb_core::configuration::Configuration;
 use ocb_core::mesh::{Mesh, obj};
 use ocb_core::pose::Pose;
 
+pub mod families;
+pub mod random;
+pub mod reference;
+
 /// A file of the data shared by the project's checkouts.
 pub fn shared(file: &str) -> Vec<u8> {
     let folder = std::env::var_os("OCB_SHARED")
@@ -53,43 +57,8 @@ pub fn number(text: &str) -> f64 {
     sign * value as f64 * 2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2)
 }
 
-/// Three corners.
-pub type Triangle = [Point3<f64>; 3];
-
 /// Nine numbers per triangle.
-pub fn triangles(numbers: &[f64]) -> Vec<Triangle> {
+pub fn triangles(numbers: &[f64]) -> Vec<families::Triangle> {
     let points: Vec<Point3<f64>> = numbers.as_chunks::<3>().0.iter().map(|&p| Point3::from(p)).collect();
     points.as_chunks::<3>().0.to_vec()
-}
-
-/// A small deterministic generator (SplitMix64).
-pub struct Random(pub u64);
-
-impl Random {
-    /// Uniform in [0, 1).
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Uniform in [-1, 1).
-    pub fn signed(&mut self) -> f64 {
-        2.0 * self.unit() - 1.0
-    }
-
-    /// Uniform below `n`.
-    pub fn below(&mut self, n: usize) -> usize {
-        (self.unit() * n as f64) as usize
-    }
-
-    /// A rotation up to rounding, and a translation in a cube.
-    pub fn pose(&mut self, reach: f64) -> Pose {
-        let q = nalgebra::Quaternion::new(self.signed(), self.signed(), self.signed(), self.signed());
-        let linear = *nalgebra::UnitQuaternion::from_quaternion(q).to_rotation_matrix().matrix();
-        let translation = nalgebra::Vector3::new(self.signed(), self.signed(), self.signed()) * reach;
-        Pose { linear, translation }
-    }
 }

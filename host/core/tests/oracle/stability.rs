@@ -1,8 +1,7 @@
 //! The oracle against pairs whose exact answers are known.
 
-mod common;
-
-use common::{Triangle, number, placed, shared, triangles};
+use crate::common::families::Triangle;
+use crate::common::{number, placed, shared, triangles};
 use nalgebra::{Matrix3, Vector3};
 use ocb_core::configuration::{Class, Configuration, Truth};
 use ocb_core::oracle::{Pair, Shape};
