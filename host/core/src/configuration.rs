@@ -42,7 +42,32 @@ pub enum Class {
     Grazing,
 }
 
-/// The oracle's answer for one configuration.
+/// Is a closed object, or a part of it that hangs together, wholly inside the other? Asked where the surfaces do not meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, utoipa::ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Containment {
+    /// Neither; as solid bodies the objects are apart, too.
+    Apart,
+    /// A part of A is inside B.
+    AInB,
+    /// A part of B is inside A.
+    BInA,
+    /// Both: nested parts of either object.
+    Both,
+}
+
+impl Containment {
+    /// Every case with its name in files.
+    pub const NAMES: [(Self, &'static str); 4] =
+        [(Self::Apart, "apart"), (Self::AInB, "a_in_b"), (Self::BInA, "b_in_a"), (Self::Both, "both")];
+
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize].1
+    }
+}
+
+/// The oracle's answer for one configuration, about the surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Truth {
     /// Do the surfaces meet (closed triangles, touching counts).
@@ -57,6 +82,9 @@ pub struct Truth {
     pub class64: Class,
     /// Class for plugins that compute in f32.
     pub class32: Class,
+    /// Certified; absent when it is no question: the surfaces meet, or an object is not closed.
+    #[serde(default)]
+    pub containment: Option<Containment>,
     /// Where; a colliding configuration names one intersecting pair.
     pub witness: Witness,
     /// Whether exact arithmetic was needed.

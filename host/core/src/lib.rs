@@ -18,6 +18,7 @@ pub mod oracle;
 pub mod pose;
 pub mod query;
 pub mod record;
+pub mod resolution;
 pub mod sampling;
 pub mod statistics;
 pub mod stock;

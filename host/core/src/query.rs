@@ -15,6 +15,18 @@ pub enum Query {
     Proximity,
 }
 
+/// What counts as an object.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, utoipa::ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Semantics {
+    /// Its triangles alone: an object wholly inside another one, without touching its surface, is apart from it.
+    #[default]
+    Surface,
+    /// For closed meshes: its triangles and what they enclose. An object inside another one collides with it, and the
+    /// distance is 0.
+    Solid,
+}
+
 /// What an algorithm says; every number in it is unchecked.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Answer {

@@ -6,9 +6,9 @@ use nalgebra::{Point3, Vector3};
 use ocb_core::configuration::{Class, Placed};
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::pose::Pose;
-use ocb_core::query::{Answer, Query};
-use ocb_core::record::Verdict;
-use ocb_core::validation::{Precision, judge};
+use ocb_core::query::{Answer, Query, Semantics};
+use ocb_core::record::{ContactScore, Verdict};
+use ocb_core::validation::{Judged, Precision, Terms, judge};
 
 /// A horizontal triangle and a vertical one whose lowest corner stands `height` above its middle.
 struct Stage {
@@ -36,7 +36,11 @@ impl Stage {
     }
 
     fn judge_as(&self, query: Query, answer: Answer, precision: Precision) -> Verdict {
-        judge(&Pair::new(&self.a, &self.b), &self.placed, query, &answer, precision)
+        self.judged(Terms { query, semantics: Semantics::Surface, precision }, &answer).verdict
+    }
+
+    fn judged(&self, terms: Terms, answer: &Answer) -> Judged {
+        judge(&Pair::new(&self.a, &self.b), &self.placed, terms, answer)
     }
 
     fn says(&self, hit: bool, pair: Option<[u32; 2]>) -> Verdict {
@@ -102,6 +106,36 @@ fn the_band_depends_on_the_precision() {
     let answer = Answer::Collision { hit: true, pair: None };
     assert_eq!(stage.judge_as(Query::CollisionFirst, answer.clone(), Precision::Double), Verdict::FalsePositive);
     assert_eq!(stage.judge_as(Query::CollisionFirst, answer, Precision::Single), Verdict::Undecidable);
+}
+
+#[test]
+fn lists_of_contacts_are_scored_by_precision_and_recall() {
+    let terms = Terms { query: Query::CollisionAll, semantics: Semantics::Surface, precision: Precision::Double };
+    let score = |stage: &Stage, total: u64, pairs: &[[u32; 2]]| {
+        stage.judged(terms, &Answer::Contacts { total, pairs: pairs.to_vec() }).contacts
+    };
+    let crossing = Stage::new(-0.25);
+    let of = |listed, genuine, robust, found| Some(ContactScore { listed, genuine, robust, found });
+    assert_eq!(score(&crossing, 1, &[[0, 0]]), of(1, 1, 1, Some(1)));
+    assert_eq!(score(&crossing, 2, &[[0, 0], [1, 0]]), of(2, 1, 1, Some(1)));
+    assert_eq!(score(&crossing, 1, &[[1, 0]]), of(1, 0, 1, Some(0)));
+    assert_eq!(score(&crossing, 0, &[]), of(0, 0, 1, Some(0)));
+    // Cut short by the buffer: what was found beyond it nobody knows.
+    assert_eq!(score(&crossing, 3, &[[0, 0]]), of(1, 1, 1, None));
+    // No list at all.
+    assert_eq!(score(&crossing, 2, &[[0, 0], [0, 0]]), None);
+    // A pair that only touches is free: neither needed nor wrong.
+    let touching = Stage::new(0.0);
+    assert_eq!(score(&touching, 0, &[]), of(0, 0, 0, Some(0)));
+    assert_eq!(score(&touching, 1, &[[0, 0]]), of(1, 1, 0, Some(0)));
+    let apart = Stage::new(0.25);
+    assert_eq!(score(&apart, 1, &[[0, 0]]), of(1, 0, 0, Some(0)));
+
+    let half = ContactScore { listed: 4, genuine: 2, robust: 8, found: Some(2) };
+    assert_eq!((half.precision(), half.recall()), (Some(0.5), Some(0.25)));
+    let nothing = ContactScore { listed: 0, genuine: 0, robust: 0, found: Some(0) };
+    assert_eq!((nothing.precision(), nothing.recall()), (None, None));
+    assert_eq!(ContactScore { found: None, ..half }.recall(), None);
 }
 
 #[test]

@@ -11,6 +11,7 @@ mod best_first;
 mod build;
 mod frame;
 mod obb;
+mod probe;
 mod wide_node;
 
 pub(crate) use best_first::BestFirst;

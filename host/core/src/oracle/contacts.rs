@@ -1,5 +1,6 @@
-//! All pairs of triangles that meet.
+//! All pairs of triangles that meet, or come near.
 
+use super::closest::closest;
 use super::filter;
 use super::scene::Scene;
 use super::triangle::Triangle;
@@ -31,4 +32,30 @@ pub(crate) fn each(scene: &Scene, mut visit: impl FnMut([u32; 2], &Triangle, &Tr
             });
         }
     }
+}
+
+/// A pair of triangles that may be within a distance (in units); `None` when certainly none is.
+pub(crate) fn within(scene: &Scene, distance: f64) -> Option<[u32; 2]> {
+    let near = |pair: &[u32; 2]| {
+        let (a, b) = scene.triangles(*pair);
+        closest(&a, &b).lo <= distance
+    };
+    let Some(frame) = &scene.frame else { return scene.all_pairs().next() };
+    let mut found = None;
+    let mut stack = vec![frame.roots()];
+    while let Some((a, b)) = stack.pop() {
+        if let Some(pair) = frame.triangles(a, b) {
+            found = Some(pair).filter(near);
+            if found.is_some() {
+                break;
+            }
+        } else {
+            frame.expand(a, b, |a, b, bound| {
+                if f64::from(bound) <= distance {
+                    stack.push((a, b));
+                }
+            });
+        }
+    }
+    found
 }

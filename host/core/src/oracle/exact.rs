@@ -13,10 +13,10 @@ use crate::pose::Pose;
 
 /// Two triangles on a common integer grid.
 pub(crate) struct ExactPair {
-    a: [Vector; 3],
-    b: [Vector; 3],
+    pub(super) a: [Vector; 3],
+    pub(super) b: [Vector; 3],
     /// Grid spacing is two to this power.
-    exponent: i32,
+    pub(super) exponent: i32,
 }
 
 /// A number `mantissa * 2^exponent`.
@@ -115,7 +115,7 @@ impl ExactPair {
     }
 }
 
-fn signum(x: &IBig) -> i32 {
+pub(super) fn signum(x: &IBig) -> i32 {
     match x.cmp(&IBig::ZERO) {
         std::cmp::Ordering::Less => -1,
         std::cmp::Ordering::Equal => 0,

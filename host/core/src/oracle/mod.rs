@@ -13,7 +13,9 @@
 //!   area is a segment or a point, and counts like any other.
 //! * Two objects **collide** when a triangle of one and a triangle of the other share at least one point. Touching is
 //!   colliding. One object wholly inside the other, without touching its surface, does *not* collide: a mesh is a skin,
-//!   nothing is assumed about its inside.
+//!   nothing is assumed about its inside. For meshes that are closed, whether a part of one lies inside the other is
+//!   answered apart ([`Truth::containment`]); a scene may ask for solid bodies
+//!   ([`Semantics::Solid`](crate::query::Semantics)), and then it counts as colliding.
 //! * The **distance** is the smallest length between a point of one and a point of the other; 0 when they collide.
 //!
 //! A program that computes in f64 or f32 cannot always see this truth, because its own roundings move every point a
@@ -31,8 +33,11 @@ mod claims;
 mod closest;
 mod contacts;
 mod exact;
+mod exact_margin;
+mod exact_ray;
 mod exact_vector;
 mod filter;
+mod inside;
 mod margin;
 mod nearest;
 mod rational;
@@ -40,6 +45,7 @@ mod scene;
 mod straddle;
 #[cfg(test)]
 mod tests;
+mod topology;
 mod triangle;
 
 use std::sync::Arc;
@@ -47,12 +53,14 @@ use std::sync::Arc;
 use nalgebra::{Point3, Vector3};
 
 use crate::bvh::Tree;
-use crate::configuration::{Class, Configuration, Truth, Witness};
+use crate::configuration::{Class, Configuration, Containment, Truth, Witness};
+use crate::query::Semantics;
 use crate::mesh::Mesh;
 pub use claims::Side;
 pub(crate) use closest::closest_points;
 use nearest::{Effort, Nearest};
 use scene::Scene;
+use topology::Topology;
 
 /// Unit roundoff of f64.
 pub const U64: f64 = 1.0 / (1u64 << 53) as f64;
@@ -64,6 +72,7 @@ pub const U32: f64 = 1.0 / (1u64 << 24) as f64;
 pub struct Shape {
     soup: Soup,
     tree: Tree,
+    topology: Topology,
     /// Largest absolute coordinate.
     largest: f64,
 }
@@ -97,7 +106,8 @@ impl Shape {
         let (positions, triangles) = soup.parts();
         let largest = positions.iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
         let tree = Tree::new(positions, triangles);
-        Self { soup, tree, largest }
+        let topology = Topology::new(positions, triangles);
+        Self { soup, tree, topology, largest }
     }
 
     /// Vertex coordinates.
@@ -113,6 +123,12 @@ impl Shape {
     /// Largest absolute coordinate.
     pub(crate) fn largest(&self) -> f64 {
         self.largest
+    }
+
+    /// Does it enclose a volume? Every edge belongs to an even number of triangles; corners with the same coordinates are
+    /// one vertex. Only of closed objects it can be said what lies inside.
+    pub fn is_closed(&self) -> bool {
+        self.topology.closed
     }
 
     pub(crate) fn tree(&self) -> &Tree {
@@ -207,19 +223,56 @@ impl<'a> Pair<'a> {
         self.truth_near(configuration, None)
     }
 
+    /// The same where anything is near; `None` when the objects are certainly further apart than the band of single
+    /// precision, of whose distance nothing more is asked. Cheaper than the distance of objects far apart.
+    pub fn truth_unless_clear(&self, configuration: &Configuration) -> Option<Truth> {
+        Scene::with(self, configuration, |scene| {
+            let near = contacts::within(scene, self.tau(configuration, U32) / scene.unit)?;
+            Some(self.describe(scene, nearest::nearest(scene, Some(near), Effort::Enough), Effort::Enough))
+        })
+    }
+
+    /// Is part of one object inside the other? `None` when one of them is not closed. The surfaces must not meet.
+    pub fn containment(&self, configuration: &Configuration) -> Option<Containment> {
+        Scene::with(self, configuration, inside::containment)
+    }
+
     /// The same, when a pair of triangles is known to be near.
     pub(crate) fn truth_near(&self, configuration: &Configuration, start: Option<[u32; 2]>) -> Truth {
-        Scene::with(self, configuration, |scene| self.describe(scene, nearest::nearest(scene, start, Effort::Enough)))
+        self.truth_with(configuration, start, Effort::Enough)
     }
 
-    /// As [`Pair::truth`], with the distance between neighbouring f64 numbers, always by exact arithmetic.
+    /// As [`Pair::truth`], always by exact arithmetic: the distance between neighbouring f64 numbers, and the margin of
+    /// the best crossing pair rounded down to one.
     pub fn tightest_truth(&self, configuration: &Configuration) -> Truth {
-        Scene::with(self, configuration, |scene| self.describe(scene, nearest::nearest(scene, None, Effort::Tightest)))
+        self.truth_with(configuration, None, Effort::Tightest)
     }
 
-    fn describe(&self, scene: &Scene, found: Nearest) -> Truth {
+    fn truth_with(&self, configuration: &Configuration, start: Option<[u32; 2]>, effort: Effort) -> Truth {
+        Scene::with(self, configuration, |scene| {
+            self.describe(scene, nearest::nearest(scene, start, effort), effort)
+        })
+    }
+
+    /// The truth of what a scene asks. For solid bodies one of which is inside the other, the surfaces may be far apart
+    /// and still the answer is a collision at distance 0, which holds until the surfaces meet: that is its margin.
+    pub fn asked(&self, configuration: &Configuration, truth: &Truth, semantics: Semantics) -> Truth {
+        let apart = matches!(truth.containment, None | Some(Containment::Apart));
+        if semantics == Semantics::Surface || apart {
+            return *truth;
+        }
+        // Every vertex may move, those of either surface by half the way between them.
+        let margin = truth.distance_lo / 2.0;
+        let class = |unit_roundoff: f64| {
+            if margin > self.tau(configuration, unit_roundoff) { Class::Colliding } else { Class::Grazing }
+        };
+        let (class64, class32) = (class(U64), class(U32));
+        Truth { hit: true, distance_lo: 0.0, distance_hi: 0.0, margin, class64, class32, ..*truth }
+    }
+
+    fn describe(&self, scene: &Scene, found: Nearest, effort: Effort) -> Truth {
         let (witness, margin, exact_used) = if found.hit {
-            deepest_crossing(scene, &found)
+            deepest_crossing(scene, &found, effort)
         } else {
             let (a, b) = scene.triangles(found.pair);
             let near = closest::closest(&a, &b);
@@ -243,37 +296,49 @@ impl<'a> Pair<'a> {
             margin,
             class64: class(U64),
             class32: class(U32),
+            containment: if found.hit { None } else { inside::containment(scene) },
             witness,
             exact_used,
         }
     }
 }
 
+/// Meeting pairs whose corners the second bound of the margin looks at.
+const REMEMBERED: usize = 16;
+
 /// The meeting pair with the largest margin, that margin, and whether any contact needed exact arithmetic.
-fn deepest_crossing(scene: &Scene, found: &Nearest) -> (Witness, f64, bool) {
+fn deepest_crossing(scene: &Scene, found: &Nearest, effort: Effort) -> (Witness, f64, bool) {
+    // Margins in the objects' lengths.
     let mut best: (f64, [u32; 2], Option<Vector3<f64>>) = (0.0, found.pair, None);
     let mut exact_used = found.exact_used;
+    let mut some = Vec::new();
     contacts::each(scene, |pair, a, b, exact| {
         exact_used |= exact;
-        if let Some(c) = margin::crossing(a, b)
-            // Equal margins: the first pair in order, so that the answer does not depend on the hierarchy.
-            && (c.margin > best.0 || (c.margin == best.0 && pair < best.1))
-        {
-            best = (c.margin, pair, Some(c.point));
+        let crossing = margin::crossing(a, b);
+        let margin = match effort {
+            Effort::Enough => crossing.map_or(0.0, |c| c.margin * scene.unit),
+            Effort::Tightest => scene.exact(pair).margin(),
+        };
+        // Equal margins: the first pair in order, so that the answer does not depend on the hierarchy.
+        if margin > best.0 || (margin == best.0 && pair < best.1) {
+            best = (margin, pair, crossing.map(|c| c.point));
+        }
+        if some.len() < REMEMBERED {
+            some.push(pair);
         }
         true
     });
     let (mut margin, pair, point) = best;
     // Where no pair of triangles crosses robustly, the meshes still may.
-    if margin * scene.unit <= scene.pair.tau(scene.configuration, U32) {
-        margin = margin.max(straddle::margin(scene));
+    if margin <= scene.pair.tau(scene.configuration, U32) {
+        margin = margin.max(straddle::margin(scene, &some) * scene.unit);
     }
     let point = point.unwrap_or_else(|| {
         let (a, b) = scene.triangles(pair);
         let near = closest::closest(&a, &b);
         (near.point_a + near.point_b) / 2.0
     });
-    (witness(scene, pair, point, point), margin * scene.unit, exact_used)
+    (witness(scene, pair, point, point), margin, exact_used || effort == Effort::Tightest)
 }
 
 fn witness(scene: &Scene, [triangle_a, triangle_b]: [u32; 2], a: Vector3<f64>, b: Vector3<f64>) -> Witness {
