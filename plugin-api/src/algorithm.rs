@@ -22,7 +22,7 @@ pub struct About {
     pub url: &'static CStr,
     /// The paper that the method comes from.
     pub paper: &'static CStr,
-    /// [`raw::CAPABILITY_SINGLE_PRECISION`] and [`raw::CAPABILITY_COHERENT`] bits; 0 for most.
+    /// [`raw::CAPABILITY_SINGLE_PRECISION`], [`raw::CAPABILITY_COHERENT`] and [`raw::CAPABILITY_SOLID`] bits; 0 for most.
     pub capabilities: u32,
 }
 
@@ -65,6 +65,12 @@ pub trait Algorithm: Default + 'static {
     /// `a` and `b` may be one and the same object in two poses. Work is reported to `work`, which costs nothing in
     /// timed passes; an algorithm that does not count ignores it (and does not export the extension `counters`).
     fn collide(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<Collision>;
+
+    /// For solid bodies, when the surfaces do not meet: is a part of one object inside the other? Both are closed. Asked
+    /// only of algorithms that declare [`raw::CAPABILITY_SOLID`], as the second half of a collision or distance query.
+    fn inside(&mut self, _a: Placed<'_, Self>, _b: Placed<'_, Self>, _work: &mut impl Count) -> Answer<bool> {
+        Err(Refusal::Unsupported)
+    }
 }
 
 /// `ocb.distance/1`.

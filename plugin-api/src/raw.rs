@@ -13,7 +13,7 @@ pub mod parameters;
 /// `OCB_ABI_MAJOR`: two sides fit when theirs are equal.
 pub const ABI_MAJOR: u32 = 1;
 /// `OCB_ABI_MINOR`: grows when something is appended.
-pub const ABI_MINOR: u32 = 0;
+pub const ABI_MINOR: u32 = 1;
 /// `OCB_NO_TRIANGLE`.
 pub const NO_TRIANGLE: u32 = u32::MAX;
 /// Name of the one symbol that a plugin exports, with the final 0 that dlsym wants.
@@ -36,6 +36,11 @@ pub const ERROR: Status = 3;
 pub const CAPABILITY_SINGLE_PRECISION: u32 = 1;
 /// `OCB_CAPABILITY_COHERENT`.
 pub const CAPABILITY_COHERENT: u32 = 2;
+/// `OCB_CAPABILITY_SOLID`.
+pub const CAPABILITY_SOLID: u32 = 4;
+
+/// `OCB_REQUEST_SOLID`.
+pub const REQUEST_SOLID: u32 = 1;
 
 /// `ocb_plugin_v1`.
 pub type Entry = unsafe extern "C" fn(host_abi_major: u32) -> *const Plugin;
@@ -140,7 +145,7 @@ pub struct Algorithm {
 pub struct CollideRequest {
     /// Size as the host was compiled.
     pub struct_size: u32,
-    /// No flag is defined yet.
+    /// [`REQUEST_SOLID`] or 0.
     pub flags: u32,
 }
 

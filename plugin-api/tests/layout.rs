@@ -60,6 +60,8 @@ fn c_assertions() -> String {
         ("OCB_ERROR", raw::ERROR as u32),
         ("OCB_CAPABILITY_SINGLE_PRECISION", raw::CAPABILITY_SINGLE_PRECISION),
         ("OCB_CAPABILITY_COHERENT", raw::CAPABILITY_COHERENT),
+        ("OCB_CAPABILITY_SOLID", raw::CAPABILITY_SOLID),
+        ("OCB_REQUEST_SOLID", raw::REQUEST_SOLID),
         ("OCB_DISTANCE_HAS_POINTS", distance::HAS_POINTS),
         ("OCB_DISTANCE_HAS_TRIANGLES", distance::HAS_TRIANGLES),
         ("OCB_COUNTS_BV_TESTS", counters::BV_TESTS),

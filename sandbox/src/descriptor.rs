@@ -28,6 +28,8 @@ pub struct Descriptor {
     pub witness_points: bool,
     /// Computes in f32: its answers are judged in the wider band.
     pub single_precision: bool,
+    /// It also answers for solid bodies.
+    pub solid: bool,
     /// Earlier queries speed up later ones: the order of queries matters.
     pub coherent: bool,
     /// Its parameters.

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use ocb_core::configuration::Configuration;
 use ocb_core::mesh::Mesh;
-use ocb_core::query::{Answer, Counters, Query};
+use ocb_core::query::{Answer, Counters, Query, Semantics};
 
 use crate::clock::{Clock, ClockFacts, ClockKind};
 use crate::confine::pin;
@@ -47,6 +47,8 @@ pub struct Trial<'a> {
     pub mesh_b: Option<&'a Mesh>,
     /// Parameters by name; those not named keep their default.
     pub parameters: &'a [(String, f64)],
+    /// What counts as an object; an algorithm that does not know solid bodies answers "unsupported" for them.
+    pub semantics: Semantics,
 }
 
 impl Launcher {
@@ -57,7 +59,7 @@ impl Launcher {
 
     /// Lists the algorithms of a plugin, from inside the jail.
     pub fn describe(&self, plugin: &Path) -> Result<Vec<Descriptor>, Ending> {
-        let (exchange, descriptors) = self.open(plugin, &write_trial("", &[], &[]))?;
+        let (exchange, descriptors) = self.open(plugin, &write_trial("", &[], Semantics::Surface, &[]))?;
         exchange.jail.end(Outcome::Completed);
         Ok(descriptors)
     }
@@ -69,7 +71,7 @@ impl Launcher {
     /// session cannot be sent elsewhere.
     pub fn start(&self, trial: &Trial<'_>) -> Result<Session, Ending> {
         let meshes: Vec<&Mesh> = std::iter::once(trial.mesh_a).chain(trial.mesh_b).collect();
-        let sheet = write_trial(trial.algorithm, trial.parameters, &meshes);
+        let sheet = write_trial(trial.algorithm, trial.parameters, trial.semantics, &meshes);
         let (mut exchange, _) = self.open(trial.plugin, &sheet)?;
         // Not before the jail has started: it would inherit the choice.
         let pinned = match Pinned::to(self.policy.supervisor_cpu) {

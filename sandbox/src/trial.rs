@@ -1,6 +1,7 @@
 //! The trial file: what the runner is started for, sealed before it starts.
 
 use ocb_core::mesh::Mesh;
+use ocb_core::query::Semantics;
 use serde::{Deserialize, Serialize};
 
 /// Head of the trial file: what the runner needs to know beside the meshes.
@@ -10,6 +11,8 @@ pub struct TrialHead {
     pub algorithm: String,
     /// Parameters by name.
     pub parameters: Vec<(String, f64)>,
+    /// What counts as an object.
+    pub semantics: Semantics,
     /// One mesh, or two.
     pub meshes: Vec<MeshPlace>,
 }
@@ -28,7 +31,7 @@ pub struct MeshPlace {
 }
 
 /// The trial file: length of the head, head, meshes, each part at a multiple of 64 bytes.
-pub fn write_trial(algorithm: &str, parameters: &[(String, f64)], meshes: &[&Mesh]) -> Vec<u8> {
+pub fn write_trial(algorithm: &str, parameters: &[(String, f64)], semantics: Semantics, meshes: &[&Mesh]) -> Vec<u8> {
     const HEAD_ROOM: usize = 1 << 10;
     let align = |n: usize| n.next_multiple_of(64);
     let named = algorithm.len() + parameters.iter().map(|(name, _)| name.len() + 64).sum::<usize>();
@@ -48,7 +51,7 @@ pub fn write_trial(algorithm: &str, parameters: &[(String, f64)], meshes: &[&Mes
             }
         })
         .collect();
-    let head = TrialHead { algorithm: algorithm.into(), parameters: parameters.to_vec(), meshes: places };
+    let head = TrialHead { algorithm: algorithm.into(), parameters: parameters.to_vec(), semantics, meshes: places };
     let json = serde_json::to_vec(&head).expect("plain data is always JSON");
     let mut bytes = vec![0; at];
     bytes[..8].copy_from_slice(&(json.len() as u64).to_le_bytes());
@@ -77,7 +80,7 @@ mod tests {
         let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]].map(Point3::from).to_vec();
         let mesh = Mesh::new(corners, vec![[0, 1, 2]]).unwrap();
         let parameters = [("\u{1}\"é".repeat(30), 0.5)];
-        let bytes = write_trial("box-tree", &parameters, &[&mesh, &mesh]);
+        let bytes = write_trial("box-tree", &parameters, Semantics::Surface, &[&mesh, &mesh]);
         let len = u64::from_le_bytes(bytes[..8].try_into().unwrap()) as usize;
         let head: TrialHead = serde_json::from_slice(&bytes[8..8 + len]).unwrap();
         assert_eq!(

@@ -22,7 +22,7 @@ pub struct Cli {
 
 const EXIT_CODES: &str = "Exit codes:
   0    done; for a benchmark: every algorithm completed and no answer was wrong
-  1    our fault or the machine's
+  1    our fault or the machine's; for `ocb truth pairs`: an answer differs from the truth in the file
   2    bad input; nothing of it was kept
   3    the run finished, but an algorithm failed or gave wrong answers
   130  stopped by Ctrl-C; the run is cancelled and nothing goes on running";
@@ -64,6 +64,8 @@ pub enum Command {
     Serve(ServeArgs),
     /// Measure algorithms on a pair of objects, print the table, write the result files.
     Bench(BenchArgs),
+    /// Certified answers: do they collide, how far apart are they, how sure is that.
+    Truth(TruthArgs),
     /// Look at plugins.
     Plugin {
         #[command(subcommand)]
@@ -107,6 +109,9 @@ pub struct BenchArgs {
     /// For cd: stop at the first contact, or list all [default: first].
     #[arg(long, value_enum)]
     pub contacts: Option<Contacts>,
+    /// Solid bodies: an object wholly inside the other one collides, too. For closed objects, and algorithms that know it.
+    #[arg(long)]
+    pub solid: bool,
     /// How configurations are found.
     #[arg(long, value_enum, default_value_t = SamplingMethod::Sphere)]
     pub method: SamplingMethod,
@@ -141,6 +146,58 @@ pub struct BenchArgs {
     /// Folder for the result files: records as Parquet and CSV, configurations, run.json, heatmaps as GLB and PLY.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// `ocb truth`
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true)]
+pub struct TruthArgs {
+    /// Object A: an OBJ file, or a stock object such as `stock:castle@5000`.
+    pub a: Option<String>,
+    /// Object B [default: the same as A].
+    pub b: Option<String>,
+    /// Configurations from a file, as for `ocb bench`.
+    #[arg(long, value_name = "FILE")]
+    pub configurations: Option<PathBuf>,
+    /// The question.
+    #[arg(long, value_enum, default_value_t = TruthQuestion::Pq)]
+    pub query: TruthQuestion,
+    /// File to write: .parquet, .csv or .json [default: a table on stdout].
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    #[command(subcommand)]
+    pub command: Option<TruthCommand>,
+}
+
+/// `ocb truth pairs`
+#[derive(Debug, Subcommand)]
+pub enum TruthCommand {
+    /// Answer a file of triangle pairs, a case a line; compare with the truth it gives, if it does.
+    #[command(after_help = PAIRS_FORMAT)]
+    Pairs {
+        /// The file.
+        file: PathBuf,
+        /// File to write: .parquet, .csv or .json [default: a table on stdout].
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
+}
+
+const PAIRS_FORMAT: &str = "A line is one of
+  NAME FAMILY nA nB <9 coordinates for each of nA + nB triangles> [| hit distance margin size]
+  <9 + 9 coordinates> <9 entries of a rotation, by rows> <3 of a translation> [hit distance]
+with decimal or C99 hexadecimal numbers; the rotation and translation place the second triangle. What stands in brackets
+may be missing. Empty lines and lines that begin with # are skipped.";
+
+/// What is asked of the oracle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TruthQuestion {
+    /// Do they collide, and how robustly? No distances.
+    Cd,
+    /// Everything, with the distance as a certified interval.
+    Pq,
+    /// All pairs of triangles that meet, each with its margin.
+    All,
 }
 
 /// The question.

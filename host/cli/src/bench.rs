@@ -2,7 +2,7 @@
 
 mod files;
 mod progress;
-mod spec;
+pub mod spec;
 pub mod table;
 mod verdict;
 

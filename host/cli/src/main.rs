@@ -11,6 +11,7 @@ mod output;
 mod plugin;
 mod run;
 mod serve;
+mod truth;
 mod units;
 
 use std::process::ExitCode;
@@ -41,6 +42,7 @@ async fn command(cli: Cli) -> Result<ExitCode> {
     match command {
         Command::Serve(args) => serve::serve(&store, &args, json).await,
         Command::Bench(args) => bench::bench(&store, &args, json).await,
+        Command::Truth(args) => truth::truth(&store, &args, json).await,
         Command::Plugin { command } => plugin::plugin(&store, &command, json).await,
         Command::Object { command } => object::object(&store, &command, json).await,
         Command::Run { command } => run::run(&store, &command, json).await,

@@ -17,6 +17,11 @@ use crate::validation::Terms;
 /// eps* of one algorithm on one set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
 pub struct Resolution {
+    /// eps*: the largest distance or margin, divided by S, at which an answer is wrong. When none is, eps* is at most
+    /// this: the larger of the smallest ones tried on either side. Absent when nothing was tried.
+    pub eps: Option<f64>,
+    /// Some answer is wrong, so that `eps` is a value and no bound.
+    pub seen: bool,
     /// Configurations that are apart, by distance / S: which are called a hit?
     pub false_hits: Threshold,
     /// Configurations that cross, by margin / S: which are missed?
@@ -76,6 +81,9 @@ impl Resolution {
                 all.misses.add(truth.margin / size, truth.margin / size, says_apart);
             }
         }
+        let sides = [all.false_hits, all.misses];
+        all.seen = sides.iter().any(|side| side.wrong > 0);
+        all.eps = sides.iter().filter(|side| !all.seen || side.wrong > 0).filter_map(|side| side.at).reduce(f64::max);
         all
     }
 }

@@ -79,7 +79,9 @@ pub fn judge(pair: &Pair, placed: &Placed, terms: Terms, answer: &Answer) -> Jud
             plain(judge.distance(*distance, points.as_ref(), *triangles))
         }
         // An answer to a question that was not asked.
-        (Answer::Collision { .. } | Answer::Contacts { .. } | Answer::Distance { .. }, _) => plain(Err(Verdict::Invalid)),
+        (Answer::Collision { .. } | Answer::Contacts { .. } | Answer::Distance { .. }, _) => {
+            plain(Err(Verdict::Invalid))
+        }
     }
 }
 

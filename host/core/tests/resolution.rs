@@ -29,7 +29,12 @@ impl Ladder {
             let mut pose = Pose::identity();
             pose.translation.z = height;
             let configuration = common::placed(pose);
-            Placed { configuration, truth: Pair::new(&a, &b).tightest_truth(&configuration), root_index: 0 }
+            Placed {
+                configuration,
+                truth: Pair::new(&a, &b).tightest_truth(&configuration),
+                root_index: 0,
+                wanted: None,
+            }
         };
         let placed = HEIGHTS.map(place).to_vec();
         Self { a, b, placed }
@@ -74,6 +79,7 @@ fn without_errors_the_narrowest_decision_bounds_it() {
     assert_eq!(all.misses, Threshold { n: 2, wrong: 0, at: Some(ladder.placed[4].truth.margin / ladder.size(4)) });
     assert!(ladder.placed[4].truth.margin > 0.0);
     assert_eq!(all.distance, None);
+    assert_eq!((all.eps, all.seen), (all.false_hits.at, false));
 }
 
 #[test]
@@ -82,8 +88,12 @@ fn with_errors_the_widest_one_counts() {
     let eager = ladder.says(|height| height < 0.01);
     assert_eq!(eager.false_hits, Threshold { n: 3, wrong: 2, at: Some(1e-3 / ladder.size(1)) });
     assert_eq!(eager.misses.wrong, 0);
+    assert_eq!((eager.eps, eager.seen), (Some(1e-3 / ladder.size(1)), true));
+    let both = ladder.says(|height| height > 0.0);
+    assert_eq!((both.eps, both.seen), (Some(0.25 / ladder.size(0)), true));
     let shy = ladder.says(|height| height < -1e-5);
     assert_eq!(shy.false_hits.wrong, 0);
+    assert_eq!((shy.eps, shy.seen), (shy.misses.at, true));
     assert_eq!(shy.misses, Threshold { n: 2, wrong: 1, at: Some(ladder.placed[4].truth.margin / ladder.size(4)) });
 }
 

@@ -10,14 +10,14 @@ use std::time::{Duration, Instant};
 
 use ocb_core::configuration::{ConfigurationSet, Method};
 use ocb_core::mesh::Mesh;
-use ocb_core::oracle::Shape;
+use ocb_core::oracle::{Pair, Shape};
 use tokio::runtime::Handle;
 
 use crate::columns::{RecordsOf, SetOf, records_parquet, set_parquet};
 use crate::configurations::{self, Gauge};
 use crate::engine::Inner;
 use crate::machine::MeasuringRight;
-use crate::measure::{self, Measured, News, Stop, Task};
+use crate::measure::{self, Asked, Measured, News, Stop, Task};
 use crate::model::{Environment, RunSpec, SetInfo, State};
 use crate::registry::Contestant;
 use crate::runlog::RunLog;
@@ -188,6 +188,7 @@ impl Bench<'_> {
             same: pairing.same,
             set,
             query: spec.query,
+            semantics: spec.semantics,
             passes: spec.passes,
             budget: Duration::from_secs_f64(spec.budget_seconds),
             seed: seed_of(&info.sha256),
@@ -216,11 +217,23 @@ impl Bench<'_> {
         if self.stop.asked() {
             return Ok(End::Stopped);
         }
-        self.keep(pairing, info, finished)
+        self.keep(pairing, set, info, finished)
     }
 
     /// Stores what was measured; the run fails only when there is nothing to show at all.
-    fn keep(&mut self, pairing: &Pairing, info: &SetInfo, finished: Vec<(usize, Measured)>) -> Result<End> {
+    fn keep(
+        &mut self,
+        pairing: &Pairing,
+        set: &ConfigurationSet,
+        info: &SetInfo,
+        finished: Vec<(usize, Measured)>,
+    ) -> Result<End> {
+        let asked = Asked {
+            pair: Pair::new(&pairing.a, &pairing.b),
+            placed: &set.placed,
+            query: self.row.spec.query,
+            semantics: self.row.spec.semantics,
+        };
         let (lanes, measured): (Vec<usize>, Vec<Measured>) = finished.into_iter().unzip();
         let environment = measure::environment(&self.inner.machine, &measured);
         if let Some(environment) = &environment {
@@ -229,7 +242,7 @@ impl Bench<'_> {
         let mut nothing = None;
         let mut any = false;
         for (lane, measured) in lanes.into_iter().zip(&measured) {
-            let stored = self.keep_one(lane, pairing, info, measured, environment.as_ref())?;
+            let stored = self.keep_one(lane, asked, info, measured, environment.as_ref())?;
             any |= stored.result.n > 0;
             nothing.get_or_insert_with(|| stored.result.outcome.message.clone());
             self.end_lane(lane, stored)?;
@@ -243,7 +256,7 @@ impl Bench<'_> {
     fn keep_one(
         &mut self,
         lane: usize,
-        pairing: &Pairing,
+        asked: Asked,
         info: &SetInfo,
         measured: &Measured,
         environment: Option<&Environment>,
@@ -266,12 +279,12 @@ impl Bench<'_> {
             Some(blob)
         };
         let stored = StoredResult {
-            result: measure::summarise(measured),
+            result: measure::summarise(measured, asked),
             records,
             plugin_sha256: algorithm.plugin_sha256.clone(),
             seconds_per_query: measured.seconds_per_query,
         };
-        let triangles = self.triangles(pairing);
+        let triangles = (asked.pair.a().triangles().len() + asked.pair.b().triangles().len()) as u64;
         self.log.wait(self.inner.store.keep_result(&self.row.id, lane, &stored, triangles, self.row.spec.query))?;
         Ok(stored)
     }

@@ -5,12 +5,16 @@
 
 mod records;
 mod sets;
+mod truths;
 
+use std::borrow::Cow;
 use std::collections::HashMap;
+use std::fmt::Write;
 use std::sync::Arc;
 
 use arrow::array::{ArrayRef, RecordBatch};
 use arrow::datatypes::Schema;
+use arrow::util::display::{ArrayFormatter, FormatOptions};
 use parquet::arrow::ArrowWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::basic::{Compression, ZstdLevel};
@@ -18,8 +22,9 @@ use parquet::file::properties::WriterProperties;
 
 use crate::{EngineError, Result};
 
-pub use records::{RecordColumns, RecordsOf, read_records, records_csv, records_parquet};
+pub use records::{RecordColumns, RecordsOf, read_records, records_parquet};
 pub use sets::{SetOf, read_poses, read_set, set_parquet};
+pub use truths::{contacts_parquet, truths_parquet};
 
 /// Version of the columns; grows when a column changes its meaning.
 pub const SCHEMA_VERSION: &str = "2";
@@ -33,6 +38,40 @@ fn to_parquet(batch: &RecordBatch) -> Result<Vec<u8>> {
     writer.write(batch).map_err(fault)?;
     writer.close().map_err(fault)?;
     Ok(bytes)
+}
+
+/// The rows of a Parquet file without lists as CSV with a header line; an absent value is an empty field.
+pub fn csv(parquet: &[u8]) -> Result<Vec<u8>> {
+    let fault = |e: String| EngineError::Fault(format!("Writing the rows as CSV failed: {e}."));
+    let (schema, batches) = from_parquet(parquet).map_err(fault)?;
+    let mut text = schema.fields().iter().map(|f| f.name().as_str()).collect::<Vec<_>>().join(",");
+    text.push('\n');
+    for batch in &batches {
+        let columns = batch
+            .columns()
+            .iter()
+            .map(|c| ArrayFormatter::try_new(c.as_ref(), &FormatOptions::default()))
+            .collect::<std::result::Result<Vec<_>, _>>()
+            .map_err(|e| fault(e.to_string()))?;
+        for row in 0..batch.num_rows() {
+            for (i, column) in columns.iter().enumerate() {
+                let comma = if i == 0 { "" } else { "," };
+                let value = column.value(row).to_string();
+                write!(text, "{comma}{}", quoted(&value)).map_err(|e| fault(e.to_string()))?;
+            }
+            text.push('\n');
+        }
+    }
+    Ok(text.into_bytes())
+}
+
+/// As RFC 4180 has it.
+fn quoted(value: &str) -> Cow<'_, str> {
+    if value.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", value.replace('"', "\"\"")).into()
+    } else {
+        value.into()
+    }
 }
 
 /// All rows of a Parquet file in batches, or why it is none.

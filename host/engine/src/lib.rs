@@ -22,6 +22,7 @@ mod results;
 mod runlog;
 mod spec;
 mod store;
+pub mod truth;
 
 pub use config::EngineConfig;
 pub use engine::Engine;

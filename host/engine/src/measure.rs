@@ -14,15 +14,15 @@ use std::time::{Duration, Instant};
 use ocb_core::configuration::ConfigurationSet;
 use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
-use ocb_core::query::Query;
+use ocb_core::query::{Query, Semantics};
 use ocb_sandbox::{Killer, Outcome, Policy, Session, Trial};
 
 use crate::machine::Machine;
 use crate::model::OutcomeInfo;
 use crate::registry::{Contestant, Registry, plugin_hash};
 
-pub use lane::{Lane, Measured};
-pub use summary::{environment, summarise};
+pub use lane::{Lane, Measured, precision};
+pub use summary::{Asked, environment, summarise};
 
 /// How often a lane may report, so that pages live and nothing else suffers.
 const REPORT_EVERY: Duration = Duration::from_millis(200);
@@ -74,6 +74,8 @@ pub struct Task<'a> {
     pub set: &'a ConfigurationSet,
     /// The question.
     pub query: Query,
+    /// What counts as an object.
+    pub semantics: Semantics,
     /// Timed passes.
     pub passes: u32,
     /// Measuring time allowed per algorithm.
@@ -190,7 +192,7 @@ impl Turn<'_> {
         if ending.outcome != Outcome::Completed {
             lane.end(outcome_info(&ending.outcome));
         }
-        lane.judge(&Pair::new(self.task.a, self.task.b), placed, self.task.query);
+        lane.judge(&Pair::new(self.task.a, self.task.b), placed, self.task.query, self.task.semantics);
         self.report(lane);
     }
 
@@ -219,6 +221,7 @@ impl Turn<'_> {
             mesh_a: self.task.mesh_a,
             mesh_b: (!self.task.same).then_some(self.task.mesh_b),
             parameters: &[],
+            semantics: self.task.semantics,
         };
         self.registry.launcher(contestant, policy).start(&trial).map_err(|ending| outcome_info(&ending.outcome))
     }

@@ -4,14 +4,17 @@
 
 mod heatmap;
 mod plugin;
+mod truth;
 
 use ocb_core::configuration::{Class, Method};
-use ocb_core::query::Query;
+use ocb_core::query::{Query, Semantics};
+use ocb_core::resolution::Resolution;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
 pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport};
+pub use truth::{ContactRow, TruthRow};
 
 /// An object as the lists show it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -51,6 +54,9 @@ pub struct RunSpec {
     pub object_b: Option<String>,
     /// The question.
     pub query: Query,
+    /// What counts as an object: surfaces, or solid bodies, which need closed objects and an algorithm that knows them.
+    #[serde(default)]
+    pub semantics: Semantics,
     /// How the configurations are found.
     pub method: Method,
     /// Surface distance divided by L, the longest side of A's bounding box; at least 0.
@@ -248,10 +254,19 @@ pub struct AlgorithmResult {
     pub budget_limited: bool,
     /// Time per query; absent when nothing was measured.
     pub time: Option<TimeSummary>,
-    /// Wrong answers by verdict name (`correct`, `false_negative`, ...).
+    /// All answers by verdict (`correct`, `false_negative`, `gave_up`, ...); those that do not occur are left out.
     pub verdicts: Vec<VerdictCount>,
-    /// Wrong answers in all.
+    /// Wrong answers in all. Giving up and not supporting the question are none.
     pub wrong: u32,
+    /// The answers that are not scored, because the configuration is narrower than the precision of the algorithm.
+    #[serde(default)]
+    pub grazing: Agreement,
+    /// eps*: how finely it tells apart from colliding. Absent in runs of older versions.
+    #[serde(default)]
+    pub resolution: Option<Resolution>,
+    /// Of lists of all contacts.
+    #[serde(default)]
+    pub contacts: Option<ContactQuality>,
     /// Mean BV tests per query.
     pub bv_tests_mean: Option<f64>,
     /// Mean primitive tests per query.
@@ -260,6 +275,29 @@ pub struct AlgorithmResult {
     pub build_ms: Option<f64>,
     /// Peak memory of the runner above its baseline, bytes.
     pub memory_bytes: Option<u64>,
+}
+
+/// How many of some answers agree with exact arithmetic.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct Agreement {
+    /// Answers.
+    pub n: u32,
+    /// Those that say what exact arithmetic says.
+    pub agree: u32,
+}
+
+/// Lists of contacts against the complete ones, all configurations together. Pairs within the precision band are free.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ContactQuality {
+    /// Share of the listed pairs that meet or are within tau of it; absent when nothing was listed.
+    pub precision: Option<f64>,
+    /// Pairs listed.
+    pub listed: u64,
+    /// Share of the pairs crossing by more than tau that were listed, over the lists that fit the host's buffer; absent
+    /// when there is no such pair.
+    pub recall: Option<f64>,
+    /// Such pairs.
+    pub robust: u64,
 }
 
 /// Count of one verdict.

@@ -177,6 +177,7 @@ fn info(d: Descriptor, plugin_sha256: &str) -> AlgorithmInfo {
         counters: d.counters,
         witness_points: d.witness_points,
         single_precision: d.single_precision,
+        solid: d.solid,
         parameters: d.parameters.into_iter().map(parameter).collect(),
         plugin_sha256: plugin_sha256.to_owned(),
     }

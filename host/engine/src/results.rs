@@ -157,7 +157,7 @@ impl Inner {
     /// The same rows as CSV.
     pub async fn records_csv(&self, run: &str, algorithm: &str) -> Result<Vec<u8>> {
         let parquet = self.records_parquet(run, algorithm).await?;
-        blocking(move || columns::records_csv(&parquet)).await
+        blocking(move || columns::csv(&parquet)).await
     }
 
     /// The run's set as it is stored.

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use ocb_core::configuration::Method;
-use ocb_core::query::Query;
+use ocb_core::query::{Query, Semantics};
 use ocb_core::sampling::sphere;
 
 use crate::blobs::Blobs;
 use crate::configurations;
-use crate::model::{ObjectInfo, RunSpec};
+use crate::model::{AlgorithmInfo, ObjectInfo, RunSpec};
 use crate::objects::Objects;
 use crate::registry::{Contestant, Registry};
 use crate::store::Store;
@@ -76,6 +76,9 @@ pub async fn check(
         Some(id) => objects.info(id).await?,
         None => object_a.clone(),
     };
+    if spec.semantics == Semantics::Solid {
+        check_solid(&[&object_a, &object_b])?;
+    }
     let mut spec = spec.clone();
     spec.object_a = object_a.id.clone();
     spec.object_b = Some(object_b.id.clone()).filter(|id| *id != object_a.id);
@@ -83,11 +86,30 @@ pub async fn check(
     Ok(Checked { spec, object_a, object_b, contestants, configurations })
 }
 
+/// Only a closed surface has an inside.
+fn check_solid(objects: &[&ObjectInfo]) -> Result<()> {
+    match objects.iter().find(|object| !object.closed) {
+        Some(open) => Err(EngineError::Invalid(format!(
+            "Solid bodies need closed objects, and {:?} is open (an edge of it does not belong to two triangles); choose a \
+             closed object, or ask for surfaces.",
+            open.name
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// The named algorithms, each once, or all that answer the question.
 fn contestants(spec: &RunSpec, registry: &Registry) -> Result<Vec<Arc<Contestant>>> {
-    let question = question_name(spec.query);
+    if spec.semantics == Semantics::Solid && spec.query == Query::CollisionAll {
+        return Err(EngineError::Invalid(
+            "All contacts are pairs of triangles that meet, and an object inside another one has none; ask solid bodies \
+             for the first contact or for the distance."
+                .into(),
+        ));
+    }
+    let question = question_name(spec.query, spec.semantics);
     let known = registry.algorithms();
-    let fitting: Vec<&str> = known.iter().filter(|a| a.queries.contains(&spec.query)).map(|a| a.id.as_str()).collect();
+    let fitting: Vec<&str> = known.iter().filter(|a| answers(a, spec)).map(|a| a.id.as_str()).collect();
     let mut names: Vec<&str> = spec.algorithms.iter().map(String::as_str).collect();
     if names.is_empty() {
         names.clone_from(&fitting);
@@ -101,7 +123,7 @@ fn contestants(spec: &RunSpec, registry: &Registry) -> Result<Vec<Arc<Contestant
         let contestant = registry.contestant(name).ok_or_else(|| {
             EngineError::Invalid(format!("There is no algorithm {name:?}; for {question} there are: {}.", there_are()))
         })?;
-        if !contestant.info.queries.contains(&spec.query) {
+        if !answers(&contestant.info, spec) {
             return Err(EngineError::Invalid(format!(
                 "The algorithm {name:?} does not answer {question}; these do: {}.",
                 there_are()
@@ -114,10 +136,19 @@ fn contestants(spec: &RunSpec, registry: &Registry) -> Result<Vec<Arc<Contestant
     Ok(chosen)
 }
 
-fn question_name(query: Query) -> &'static str {
-    match query {
+fn answers(algorithm: &AlgorithmInfo, spec: &RunSpec) -> bool {
+    algorithm.queries.contains(&spec.query) && (spec.semantics == Semantics::Surface || algorithm.solid)
+}
+
+fn question_name(query: Query, semantics: Semantics) -> String {
+    let query = match query {
         Query::CollisionFirst => "the collision query (first contact)",
         Query::CollisionAll => "the collision query (all contacts)",
         Query::Proximity => "the proximity query",
-    }
+    };
+    let of = match semantics {
+        Semantics::Surface => "",
+        Semantics::Solid => " of solid bodies",
+    };
+    format!("{query}{of}")
 }

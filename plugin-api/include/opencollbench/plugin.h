@@ -33,7 +33,8 @@
  * - Frames. Mesh vertices are in the object's own frame. A pose takes an object's frame to the world frame, and all
  *   points that a plugin returns are in the world frame.
  * - Triangles are closed sets: touching counts as colliding. "Collide" means that the two surfaces have a point in
- *   common; a closed object wholly inside another one does not collide with it.
+ *   common; a closed object wholly inside another one does not collide with it, unless the host asks for solid bodies
+ *   (OCB_REQUEST_SOLID), which it asks only of algorithms that say that they can tell (OCB_CAPABILITY_SOLID).
  * - Structs grow only by appending. Each begins (after the version, in `ocb_plugin`) with `struct_size`, which its
  *   owner sets to the sizeof it was compiled with. Do not read or write beyond the other side's `struct_size`.
  *   Reserved fields are 0.
@@ -45,7 +46,7 @@
 
 /* Two sides fit when their major versions are equal. The minor version grows when something is appended. */
 #define OCB_ABI_MAJOR 1u
-#define OCB_ABI_MINOR 0u
+#define OCB_ABI_MINOR 1u
 
 /* Put before the definition of `ocb_plugin_v1`. Everything else should be static or hidden. */
 #if defined(__GNUC__)
@@ -81,10 +82,21 @@ enum {
 typedef struct ocb_instance ocb_instance;
 typedef struct ocb_object ocb_object;
 
+/* Bits of the flags of a request for `collide` and for `distance` (ext/distance.h). */
+enum {
+    /*
+     * The objects are solid bodies: each is its surface and what this encloses (every mesh of such a run is closed: each
+     * edge has an even number of triangles). They also collide, at distance 0, when one of them, or a part of one that
+     * hangs together, is wholly inside the other; then there is no pair of triangles to name. Set in every request of a
+     * run or in none, and only for algorithms with OCB_CAPABILITY_SOLID. Since 1.1.
+     */
+    OCB_REQUEST_SOLID = 1
+};
+
 /* What is asked of `collide`. Made by the host. */
 typedef struct ocb_collide_request {
     uint32_t struct_size;
-    /* No flag is defined yet; ignore bits that you do not know. */
+    /* OCB_REQUEST_* bits; ignore bits that you do not know. */
     uint32_t flags;
 } ocb_collide_request;
 
@@ -94,7 +106,7 @@ typedef struct ocb_collide_request {
  */
 typedef struct ocb_collide_result {
     uint32_t struct_size;
-    /* 1: the surfaces have a point in common; 0: they have none. Nothing else. */
+    /* 1: the surfaces (or solid bodies) have a point in common; 0: they have none. Nothing else. */
     uint32_t hit;
     /*
      * One pair of triangles, one of each object, that have a point in common: 0-based positions in the `triangles`
@@ -113,7 +125,9 @@ enum {
      */
     OCB_CAPABILITY_SINGLE_PRECISION = 1,
     /* Answering is sped up by earlier queries (temporal coherence, front tracking): the order of queries matters. */
-    OCB_CAPABILITY_COHERENT = 2
+    OCB_CAPABILITY_COHERENT = 2,
+    /* `collide` and `distance` heed OCB_REQUEST_SOLID. Without this bit the host never asks for solid bodies. Since 1.1. */
+    OCB_CAPABILITY_SOLID = 4
 };
 
 /* One algorithm: who made it, and its functions. Owned by the plugin, static. */

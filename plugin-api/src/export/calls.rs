@@ -8,7 +8,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use crate::algorithm::{
     Algorithm, Answer, Collision, ContactList, Contacts, Distance, Mesh, Parameters, Placed, Pose, Refusal, Separation,
 };
-use crate::count::{Counts, Uncounted};
+use crate::count::{Count, Counts, Uncounted};
 use crate::raw;
 use crate::raw::contacts::{Contact, ContactsRequest, ContactsResult};
 use crate::raw::distance::{DistanceRequest, DistanceResult};
@@ -128,14 +128,14 @@ pub unsafe extern "C" fn collide<A: Algorithm>(
     pose_a: *const f64,
     b: *mut Object,
     pose_b: *const f64,
-    _request: *const CollideRequest,
+    request: *const CollideRequest,
     result: *mut CollideResult,
 ) -> Status {
-    // SAFETY: the host passes its instance, two objects of it, two poses and a place for the result.
+    // SAFETY: the host passes its instance, two objects of it, two poses, a request and a place for the result.
     unsafe {
         let (a, b) = (placed::<A>(a, pose_a), placed::<A>(b, pose_b));
         run::<A>(instance, |algorithm| {
-            write_collision(&mut *result, algorithm.collide(a, b, &mut Uncounted)?);
+            write_collision(&mut *result, collision(algorithm, a, b, (*request).flags, &mut Uncounted)?);
             Ok(())
         })
     }
@@ -147,7 +147,7 @@ pub unsafe extern "C" fn count_collide<A: Algorithm>(
     pose_a: *const f64,
     b: *mut Object,
     pose_b: *const f64,
-    _request: *const CollideRequest,
+    request: *const CollideRequest,
     result: *mut CollideResult,
     counts: *mut raw::counters::Counts,
 ) -> Status {
@@ -156,7 +156,7 @@ pub unsafe extern "C" fn count_collide<A: Algorithm>(
         let mut work = borrow_counts::<A>(counts, a, b);
         let (a, b) = (placed::<A>(a, pose_a), placed::<A>(b, pose_b));
         let status = run::<A>(instance, |algorithm| {
-            write_collision(&mut *result, algorithm.collide(a, b, &mut work)?);
+            write_collision(&mut *result, collision(algorithm, a, b, (*request).flags, &mut work)?);
             Ok(())
         });
         return_counts(counts, &work);
@@ -170,14 +170,14 @@ pub unsafe extern "C" fn distance<A: Distance>(
     pose_a: *const f64,
     b: *mut Object,
     pose_b: *const f64,
-    _request: *const DistanceRequest,
+    request: *const DistanceRequest,
     result: *mut DistanceResult,
 ) -> Status {
-    // SAFETY: the host passes its instance, two objects of it, two poses and a place for the result.
+    // SAFETY: the host passes its instance, two objects of it, two poses, a request and a place for the result.
     unsafe {
         let (a, b) = (placed::<A>(a, pose_a), placed::<A>(b, pose_b));
         run::<A>(instance, |algorithm| {
-            write_separation(&mut *result, &algorithm.distance(a, b, &mut Uncounted)?);
+            write_separation(&mut *result, &separation(algorithm, a, b, (*request).flags, &mut Uncounted)?);
             Ok(())
         })
     }
@@ -189,7 +189,7 @@ pub unsafe extern "C" fn count_distance<A: Distance>(
     pose_a: *const f64,
     b: *mut Object,
     pose_b: *const f64,
-    _request: *const DistanceRequest,
+    request: *const DistanceRequest,
     result: *mut DistanceResult,
     counts: *mut raw::counters::Counts,
 ) -> Status {
@@ -198,7 +198,7 @@ pub unsafe extern "C" fn count_distance<A: Distance>(
         let mut work = borrow_counts::<A>(counts, a, b);
         let (a, b) = (placed::<A>(a, pose_a), placed::<A>(b, pose_b));
         let status = run::<A>(instance, |algorithm| {
-            write_separation(&mut *result, &algorithm.distance(a, b, &mut work)?);
+            write_separation(&mut *result, &separation(algorithm, a, b, (*request).flags, &mut work)?);
             Ok(())
         });
         return_counts(counts, &work);
@@ -246,6 +246,33 @@ pub unsafe extern "C" fn count_contacts<A: Contacts>(
         return_counts(counts, &work);
         status
     }
+}
+
+/// The answer for the surfaces, or for solid bodies.
+fn collision<A: Algorithm>(
+    algorithm: &mut A,
+    a: Placed<'_, A>,
+    b: Placed<'_, A>,
+    flags: u32,
+    work: &mut impl Count,
+) -> Answer<Collision> {
+    let surfaces = algorithm.collide(a, b, work)?;
+    let apart = surfaces == Collision::Apart && flags & raw::REQUEST_SOLID != 0;
+    Ok(if apart && algorithm.inside(a, b, work)? { Collision::Somewhere } else { surfaces })
+}
+
+/// The same for the distance.
+fn separation<A: Distance>(
+    algorithm: &mut A,
+    a: Placed<'_, A>,
+    b: Placed<'_, A>,
+    flags: u32,
+    work: &mut impl Count,
+) -> Answer<Separation> {
+    let surfaces = algorithm.distance(a, b, work)?;
+    let apart = surfaces.distance > 0.0 && flags & raw::REQUEST_SOLID != 0;
+    let inside = apart && algorithm.inside(a, b, work)?;
+    Ok(if inside { Separation { distance: 0.0, points: None, triangles: None } } else { surfaces })
 }
 
 fn write_collision(result: &mut CollideResult, answer: Collision) {

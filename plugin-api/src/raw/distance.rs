@@ -16,7 +16,7 @@ pub const HAS_TRIANGLES: u32 = 2;
 pub struct DistanceRequest {
     /// Size as the host was compiled.
     pub struct_size: u32,
-    /// No flag is defined yet.
+    /// [`super::REQUEST_SOLID`] or 0.
     pub flags: u32,
 }
 

@@ -1,15 +1,22 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+mod inside;
 mod pair;
 
 use core::ops::ControlFlow;
 
 use ocb_triangles::{Closest, Triangle, distance, distance_below, meet};
 use opencollbench_plugin::{
-    About, Algorithm, Answer, Collision, ContactList, Contacts, Count, Distance, Mesh, Placed, Separation,
+    About, Algorithm, Answer, Collision, ContactList, Contacts, Count, Distance, Mesh, Placed, Separation, raw,
 };
 use pair::{Boxed, Pair};
+
+/// One object: its triangles in its own frame, and one of them for each part that hangs together.
+pub struct Body {
+    triangles: Vec<Triangle>,
+    parts: Vec<usize>,
+}
 
 /// Every triangle of A against every triangle of B.
 #[derive(Debug, Default)]
@@ -23,14 +30,15 @@ impl Algorithm for BruteForce {
         name: c"Brute force",
         authors: c"The OpenCollBench contributors",
         license: c"MIT OR Apache-2.0",
+        capabilities: raw::CAPABILITY_SOLID,
         ..About::new()
     };
 
-    /// The triangles in the object's own frame.
-    type Object = Vec<Triangle>;
+    type Object = Body;
 
-    fn load_mesh(&mut self, mesh: Mesh<'_>) -> Answer<Vec<Triangle>> {
-        Ok((0..mesh.triangles.len()).map(|triangle| mesh.corners(triangle)).collect())
+    fn load_mesh(&mut self, mesh: Mesh<'_>) -> Answer<Body> {
+        let triangles = (0..mesh.triangles.len()).map(|triangle| mesh.corners(triangle)).collect();
+        Ok(Body { triangles, parts: inside::one_of_each_part(&mesh) })
     }
 
     fn collide(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<Collision> {
@@ -45,6 +53,21 @@ impl Algorithm for BruteForce {
         });
         Ok(found)
     }
+
+    fn inside(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, _: &mut impl Count) -> Answer<bool> {
+        let pair = Pair::new(a, b);
+        // Where one corner of a part is, all of it is: the surfaces do not meet.
+        let holds = |whole: &[Boxed], other: &[Boxed], parts: &[usize]| {
+            let corners = parts.iter().map(|&triangle| other[triangle].triangle[0]);
+            any(corners.map(|corner| inside::encloses(whole.iter().map(|t| &t.triangle), corner)))
+        };
+        Ok(holds(&pair.a, &pair.b, &b.object.parts)? || holds(&pair.b, &pair.a, &a.object.parts)?)
+    }
+}
+
+/// Is one of the answers yes? Those after the first yes, or the first refusal, are not asked for.
+fn any(mut answers: impl Iterator<Item = Answer<bool>>) -> Answer<bool> {
+    answers.find(|answer| !matches!(answer, Ok(false))).unwrap_or(Ok(false))
 }
 
 impl Contacts for BruteForce {

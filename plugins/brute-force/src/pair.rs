@@ -33,8 +33,8 @@ impl Pair {
     pub fn new(a: Placed<'_, BruteForce>, b: Placed<'_, BruteForce>) -> Self {
         let frame = Frame::new(a.pose.rotation(), a.pose.translation(), b.pose.rotation(), b.pose.translation());
         let boxed = |(id, triangle): (usize, Triangle)| Boxed { id: id as u32, triangle, bounds: Aabb::of(&triangle) };
-        let a = a.object.iter().map(|triangle| frame.place_a(triangle)).enumerate().map(boxed).collect();
-        let b = b.object.iter().map(|triangle| frame.place_b(triangle)).enumerate().map(boxed).collect();
+        let a = a.object.triangles.iter().map(|triangle| frame.place_a(triangle)).enumerate().map(boxed).collect();
+        let b = b.object.triangles.iter().map(|triangle| frame.place_b(triangle)).enumerate().map(boxed).collect();
         Self { frame, a, b }
     }
 

@@ -208,9 +208,15 @@ impl Algorithm {
             counters: self.counters.is_some(),
             witness_points: self.distance.is_some_and(|d| d.distance.is_some()),
             single_precision: raw.capabilities & raw::CAPABILITY_SINGLE_PRECISION != 0,
+            solid: self.knows_solids(),
             coherent: raw.capabilities & raw::CAPABILITY_COHERENT != 0,
             parameters: self.knobs()?.into_iter().map(knob).collect(),
         })
+    }
+
+    /// Does it heed the flag for solid bodies?
+    pub fn knows_solids(&self) -> bool {
+        self.raw.capabilities & raw::CAPABILITY_SOLID != 0
     }
 
     fn knobs(&self) -> Result<Vec<&'static parameters::Parameter>, Failure> {

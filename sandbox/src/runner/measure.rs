@@ -4,6 +4,7 @@
 //! supervisor. So this file keeps what lies around the plugin's call short and the same for all of them, and
 //! [`Measured::null`] does exactly that without the call; its median is subtracted.
 
+use ocb_core::query::Semantics;
 use ocb_sandbox::protocol::{Command, answer, slot};
 use opencollbench_plugin::raw::contacts::{Contact, ContactsRequest, ContactsResult};
 use opencollbench_plugin::raw::counters::Counts;
@@ -20,6 +21,10 @@ pub struct Measured {
     algorithm: Option<Algorithm>,
     instance: *mut Instance,
     objects: [*mut Object; 2],
+    /// Flags of every request of this trial.
+    flags: u32,
+    /// The algorithm does not know what this trial asks, so that it is never called for an answer.
+    unasked: bool,
     avx: bool,
 }
 
@@ -28,7 +33,16 @@ impl Measured {
     pub fn new(path: String) -> Self {
         let nothing = std::ptr::null_mut();
         let avx = std::is_x86_feature_detected!("avx");
-        Self { path, plugin: None, algorithm: None, instance: nothing, objects: [std::ptr::null_mut(); 2], avx }
+        Self {
+            path,
+            plugin: None,
+            algorithm: None,
+            instance: nothing,
+            objects: [std::ptr::null_mut(); 2],
+            flags: 0,
+            unasked: false,
+            avx,
+        }
     }
 
     /// The round trip without a plugin's call.
@@ -46,6 +60,10 @@ impl Measured {
             Command::Prepare => self.prepare(shared),
             Command::BuildA => self.build(shared, 0),
             Command::BuildB => self.build(shared, 1),
+            _ if self.unasked => {
+                slot[slot::STATUS] = raw::UNSUPPORTED as u64;
+                Ok(())
+            }
             Command::CollisionFirst => self.collide(shared, slot, false),
             Command::CountCollisionFirst => self.collide(shared, slot, true),
             Command::CollisionAll => self.contacts(shared, slot, false),
@@ -71,6 +89,11 @@ impl Measured {
         let head = shared.head()?;
         let plugin = self.plugin.as_ref().ok_or_else(|| Failure::error("nothing is loaded"))?;
         let algorithm = plugin.algorithm(&head.algorithm)?;
+        if head.semantics == Semantics::Solid {
+            self.flags = raw::REQUEST_SOLID;
+            // It would answer for the surfaces, which is another question.
+            self.unasked = !algorithm.knows_solids();
+        }
         if let Some(create) = algorithm.raw.create {
             let mut instance = std::ptr::null_mut();
             // SAFETY: by plugin.h, with a live place for the instance.
@@ -117,7 +140,7 @@ impl Measured {
         let algorithm = self.algorithm()?;
         let poses = shared.poses();
         let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
-        let ([a, b], request) = (self.objects, CollideRequest::new());
+        let ([a, b], request) = (self.objects, CollideRequest { flags: self.flags, ..CollideRequest::new() });
         let mut result = CollideResult::new();
         let counting = algorithm.counters.and_then(|c| c.count_collide).filter(|_| counted);
         let mut counts = Counts::new(std::ptr::null_mut(), std::ptr::null_mut());
@@ -165,7 +188,7 @@ impl Measured {
         let algorithm = self.algorithm()?;
         let poses = shared.poses();
         let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
-        let ([a, b], request) = (self.objects, DistanceRequest::new());
+        let ([a, b], request) = (self.objects, DistanceRequest { flags: self.flags, ..DistanceRequest::new() });
         let mut result = DistanceResult::new();
         let counting = algorithm.counters.and_then(|c| c.count_distance).filter(|_| counted);
         let mut counts = Counts::new(std::ptr::null_mut(), std::ptr::null_mut());

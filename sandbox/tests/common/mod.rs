@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use ocb_core::configuration::Configuration;
 use ocb_core::mesh::Mesh;
 use ocb_core::pose::Pose;
-use ocb_core::query::Query;
+use ocb_core::query::{Query, Semantics};
 use ocb_sandbox::{Ending, Launcher, Outcome, Policy, Session, Trial};
 
 /// A fixture with these faults, compiled once per test program into a folder beside it.
@@ -79,7 +79,14 @@ pub fn apart(x: f64) -> Configuration {
 
 pub fn start(launcher: &Launcher, plugin: &Path) -> Result<Session, Ending> {
     let mesh = mesh();
-    launcher.start(&Trial { plugin, algorithm: "fixture", mesh_a: &mesh, mesh_b: None, parameters: &[] })
+    launcher.start(&Trial {
+        plugin,
+        algorithm: "fixture",
+        mesh_a: &mesh,
+        mesh_b: None,
+        parameters: &[],
+        semantics: Semantics::Surface,
+    })
 }
 
 /// Starts the fixture, asks one question and ends it.

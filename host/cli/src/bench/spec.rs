@@ -4,7 +4,7 @@ use std::path::Path;
 
 use ocb_core::configuration::{Method, Sampling};
 use ocb_core::mesh::obj;
-use ocb_core::query::Query;
+use ocb_core::query::{Query, Semantics};
 use ocb_core::sampling::sphere;
 use ocb_core::stock;
 use ocb_engine::Engine;
@@ -15,7 +15,7 @@ use crate::failure::{Failure, Result};
 use crate::open::{OWNER, read_bounded};
 
 /// The most that a file of configurations may have: ten million matrices of 16 f64.
-const MAX_CONFIGURATION_BYTES: usize = sphere::MAX_CONFIGURATIONS as usize * 128;
+pub const MAX_CONFIGURATION_BYTES: usize = sphere::MAX_CONFIGURATIONS as usize * 128;
 
 /// Degrees of a step when nothing is said.
 const DEFAULT_STEP: f64 = 20.0;
@@ -103,6 +103,7 @@ fn spec(args: &BenchArgs, query: Query, method: Method, object_a: String, object
         object_a,
         object_b,
         query,
+        semantics: if args.solid { Semantics::Solid } else { Semantics::Surface },
         method,
         relative_distance: args.distance.unwrap_or_default(),
         algorithms: args.algorithm.clone(),

@@ -1,17 +1,19 @@
 //! The table of a run. Rows stand in the run's order, never ranked: a failed or wrong algorithm has no rank to lose.
 
 use ocb_core::record::Verdict;
-use ocb_engine::model::{AlgorithmResult, Estimated, RunInfo};
+use ocb_core::resolution::{Resolution, Threshold};
+use ocb_engine::model::{Agreement, AlgorithmResult, ContactQuality, Estimated, RunInfo};
 
 use crate::{output, plugin, run, units};
 
-const HEADINGS: [&str; 11] = [
+const HEADINGS: [&str; 12] = [
     "algorithm",
     "n of N",
     "median",
     "p95",
     "max",
     "wrong",
+    "eps*",
     "BV tests",
     "primitive tests",
     "build",
@@ -24,9 +26,14 @@ pub fn summary(run: &RunInfo) -> String {
     let mut text = vec![title(run)];
     let rows: Vec<Vec<String>> = run.results.iter().map(row).collect();
     if !rows.is_empty() {
-        text.push(output::table(&HEADINGS, rows, &[1, 2, 3, 4, 5, 6, 7, 8, 9]));
+        text.push(output::table(&HEADINGS, rows, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10]));
         text.push(
             "Times per query with 95 % interval, tests are means per query, build is of both structures.".to_owned(),
+        );
+        text.push(
+            "eps* is the largest distance or margin, as a share of the scene's size, at which an answer is wrong; with <, \
+             none is, down to this."
+                .to_owned(),
         );
     }
     text.extend(run.results.iter().filter_map(note));
@@ -57,6 +64,7 @@ fn row(result: &AlgorithmResult) -> Vec<String> {
         time(|t| t.p95_ns),
         time(|t| t.max_ns),
         wrong(result),
+        result.resolution.as_ref().map_or_else(dash, epsilon),
         result.bv_tests_mean.map_or_else(dash, units::mean),
         result.primitive_tests_mean.map_or_else(dash, units::mean),
         result.build_ms.map_or_else(dash, |ms| units::time(ms * 1e6)),
@@ -73,6 +81,12 @@ fn dash() -> String {
 fn interval(estimated: &Estimated) -> String {
     let Estimated { value, lo, hi } = *estimated;
     format!("{} [{}, {}]", units::time(value), units::time(lo), units::time(hi))
+}
+
+/// A value, or a bound when no error was seen: never 0.
+fn epsilon(resolution: &Resolution) -> String {
+    let bound = if resolution.seen { "" } else { "<" };
+    resolution.eps.map_or_else(dash, |eps| format!("{bound}{eps:.1e}"))
 }
 
 fn wrong(result: &AlgorithmResult) -> String {
@@ -106,7 +120,6 @@ fn note(result: &AlgorithmResult) -> Option<String> {
         (Verdict::DistanceUnder, "distances too small"),
         (Verdict::WrongWitness, "wrong witnesses"),
         (Verdict::Invalid, "invalid answers"),
-        (Verdict::Undecidable, "undecidable in its precision (not scored)"),
         (Verdict::GaveUp, "given up"),
         (Verdict::Unsupported, "unsupported"),
     ] {
@@ -115,8 +128,41 @@ fn note(result: &AlgorithmResult) -> Option<String> {
             parts.push(format!("{count} {words}"));
         }
     }
+    if result.grazing.n > 0 {
+        let Agreement { n, agree } = result.grazing;
+        parts.push(format!("{n} too narrow for its precision (not scored; {agree} agree with exact arithmetic)"));
+    }
+    parts.extend(result.resolution.iter().flat_map(resolution));
+    parts.extend(result.contacts.iter().map(contacts));
     if let Some(below) = result.time.map(|time| time.below_resolution).filter(|below| *below > 0) {
         parts.push(format!("{below} times below the clock's resolution"));
     }
     (!parts.is_empty()).then(|| format!("{}: {}.", result.algorithm, parts.join("; ").trim_end_matches('.')))
+}
+
+/// Where the errors behind eps* are, and how far distances are off.
+fn resolution(resolution: &Resolution) -> Vec<String> {
+    let mut parts = Vec::new();
+    let mut side = |what: &str, of: &str, side: &Threshold| {
+        if let (Some(at), true) = (side.at, side.wrong > 0) {
+            parts.push(format!("{what} up to {at:.1e} of the size ({} of {} {of})", side.wrong, side.n));
+        }
+    };
+    side("calls a hit", "apart", &resolution.false_hits);
+    side("misses", "crossing", &resolution.misses);
+    if let Some(error) = resolution.distance {
+        let worst = |x: Option<f64>| x.map_or_else(|| "never".to_owned(), |x| format!("at most {x:.2}"));
+        let (over, under) = (worst(error.over), worst(error.under));
+        parts.push(format!("distances {over} over and {under} under the certified interval, in roundings u S"));
+    }
+    parts
+}
+
+fn contacts(quality: &ContactQuality) -> String {
+    let percent = |x: Option<f64>| x.map_or_else(dash, |x| format!("{:.4} %", 100.0 * x));
+    let (precision, recall) = (percent(quality.precision), percent(quality.recall));
+    format!(
+        "precision {precision} of {} contacts listed, recall {recall} of {} certain ones",
+        quality.listed, quality.robust
+    )
 }

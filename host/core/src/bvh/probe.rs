@@ -9,13 +9,7 @@ use super::wide_node::Slot;
 impl Tree {
     /// Visits every triangle whose box comes within `slack` of a segment, until the visitor says stop (`false`).
     /// Lengths and points are the object's own.
-    pub(crate) fn along(
-        &self,
-        start: &Point3<f64>,
-        end: &Point3<f64>,
-        slack: f64,
-        mut visit: impl FnMut(u32) -> bool,
-    ) {
+    pub(crate) fn along(&self, start: &Point3<f64>, end: &Point3<f64>, slack: f64, mut visit: impl FnMut(u32) -> bool) {
         let (start, end, slack) = (self.local(start), self.local(end), slack / self.unit + ROUNDING);
         let mut stack = vec![self.root()];
         while let Some(slot) = stack.pop() {

@@ -54,8 +54,8 @@ use nalgebra::{Point3, Vector3};
 
 use crate::bvh::Tree;
 use crate::configuration::{Class, Configuration, Containment, Truth, Witness};
-use crate::query::Semantics;
 use crate::mesh::Mesh;
+use crate::query::Semantics;
 pub use claims::Side;
 pub(crate) use closest::closest_points;
 use nearest::{Effort, Nearest};
@@ -249,9 +249,7 @@ impl<'a> Pair<'a> {
     }
 
     fn truth_with(&self, configuration: &Configuration, start: Option<[u32; 2]>, effort: Effort) -> Truth {
-        Scene::with(self, configuration, |scene| {
-            self.describe(scene, nearest::nearest(scene, start, effort), effort)
-        })
+        Scene::with(self, configuration, |scene| self.describe(scene, nearest::nearest(scene, start, effort), effort))
     }
 
     /// The truth of what a scene asks. For solid bodies one of which is inside the other, the surfaces may be far apart

@@ -31,7 +31,8 @@ impl Topology {
         let (mut components, component_of) = components(positions.len(), triangles, &place);
         for component in &mut components {
             let distance = |v: u32| (positions[v as usize] - centre).norm_squared();
-            let farthest = (0..component.len()).max_by(|&x, &y| distance(component[x]).total_cmp(&distance(component[y])));
+            let farthest =
+                (0..component.len()).max_by(|&x, &y| distance(component[x]).total_cmp(&distance(component[y])));
             component.swap(0, farthest.unwrap_or(0));
         }
         Self { closed: is_closed(triangles, &place), components, component_of, centre, half }

@@ -1,14 +1,12 @@
 //! The records of one algorithm.
 
 use std::collections::HashMap;
-use std::fmt::Write;
 use std::sync::Arc;
 
 use arrow::array::{BooleanArray, Float64Array, RecordBatch, StringArray, UInt32Array, UInt64Array};
-use arrow::util::display::{ArrayFormatter, FormatOptions};
 use nalgebra::Point3;
 use ocb_core::query::Answer;
-use ocb_core::record::{Record, Verdict};
+use ocb_core::record::{ContactScore, Record};
 
 use super::{SCHEMA_VERSION, batch, column, from_parquet, to_parquet};
 use crate::{EngineError, Result};
@@ -48,6 +46,9 @@ pub fn records_parquet(of: &RecordsOf, records: &[Record]) -> Result<Vec<u8>> {
     };
     let triangles =
         |side: usize| -> Arc<UInt32Array> { Arc::new(answers.iter().map(|a| a.triangles.map(|t| t[side])).collect()) };
+    let score = |of: fn(&ContactScore) -> Option<f64>| -> Arc<Float64Array> {
+        Arc::new(records.iter().map(|r| r.contacts.as_ref().and_then(of)).collect())
+    };
     let metadata = HashMap::from(
         [
             ("opencollbench.schema", SCHEMA_VERSION),
@@ -72,10 +73,12 @@ pub fn records_parquet(of: &RecordsOf, records: &[Record]) -> Result<Vec<u8>> {
                 "primitive_tests",
                 Arc::new(records.iter().map(|r| r.counters.map(|c| c.primitive_tests)).collect::<UInt64Array>()),
             ),
-            ("verdict", Arc::new(records.iter().map(|r| Some(verdict_name(r.verdict))).collect::<StringArray>())),
+            ("verdict", Arc::new(records.iter().map(|r| Some(r.verdict.name())).collect::<StringArray>())),
             ("answer", Arc::new(answers.iter().map(|a| Some(a.kind)).collect::<StringArray>())),
             ("hit", Arc::new(answers.iter().map(|a| a.hit).collect::<BooleanArray>())),
             ("contacts", Arc::new(answers.iter().map(|a| a.contacts).collect::<UInt64Array>())),
+            ("precision", score(ContactScore::precision)),
+            ("recall", score(ContactScore::recall)),
             ("distance", Arc::new(answers.iter().map(|a| a.distance).collect::<Float64Array>())),
             ("triangle_a", triangles(0)),
             ("triangle_b", triangles(1)),
@@ -98,31 +101,6 @@ pub fn read_records(bytes: &[u8]) -> Result<RecordColumns> {
         all.append(batch).map_err(damaged)?;
     }
     Ok(all)
-}
-
-/// The same rows as CSV with a header line; an absent value is an empty field.
-pub fn records_csv(parquet: &[u8]) -> Result<Vec<u8>> {
-    let fault = |e: String| EngineError::Fault(format!("Writing the records as CSV failed: {e}."));
-    let (schema, batches) = from_parquet(parquet).map_err(fault)?;
-    // No field needs quotes: the only texts are names of verdicts and answers.
-    let mut text = schema.fields().iter().map(|f| f.name().as_str()).collect::<Vec<_>>().join(",");
-    text.push('\n');
-    for batch in &batches {
-        let columns = batch
-            .columns()
-            .iter()
-            .map(|c| ArrayFormatter::try_new(c.as_ref(), &FormatOptions::default()))
-            .collect::<std::result::Result<Vec<_>, _>>()
-            .map_err(|e| fault(e.to_string()))?;
-        for row in 0..batch.num_rows() {
-            for (i, column) in columns.iter().enumerate() {
-                let comma = if i == 0 { "" } else { "," };
-                write!(text, "{comma}{}", column.value(row)).map_err(|e| fault(e.to_string()))?;
-            }
-            text.push('\n');
-        }
-    }
-    Ok(text.into_bytes())
 }
 
 impl RecordColumns {
@@ -162,25 +140,12 @@ impl From<&Answer> for Flat {
     }
 }
 
-fn verdict_name(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Correct => "correct",
-        Verdict::FalseNegative => "false_negative",
-        Verdict::FalsePositive => "false_positive",
-        Verdict::DistanceOver => "distance_over",
-        Verdict::DistanceUnder => "distance_under",
-        Verdict::WrongWitness => "wrong_witness",
-        Verdict::Invalid => "invalid",
-        Verdict::Undecidable => "undecidable",
-        Verdict::GaveUp => "gave_up",
-        Verdict::Unsupported => "unsupported",
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::columns::csv;
     use ocb_core::query::Counters;
+    use ocb_core::record::Verdict;
 
     fn record(configuration: u32, answer: Answer, counters: Option<Counters>) -> Record {
         Record {
@@ -189,8 +154,14 @@ mod tests {
             below_resolution: configuration == 1,
             passes: 3,
             counters,
-            answer,
             verdict: Verdict::Correct,
+            contacts: matches!(answer, Answer::Contacts { .. }).then_some(ContactScore {
+                listed: 2,
+                genuine: 1,
+                robust: 4,
+                found: Some(1),
+            }),
+            answer,
         }
     }
 
@@ -204,20 +175,23 @@ mod tests {
             ),
             record(1, Answer::Distance { distance: 0.25, points: None, triangles: None }, None),
             record(2, Answer::GaveUp, None),
+            record(3, Answer::Contacts { total: 2, pairs: vec![[1, 1], [1, 2]] }, None),
         ];
         let of = RecordsOf { run: "r", algorithm: "a", plugin_sha256: "p", hardware_class: "h", set_sha256: "s" };
         let file = records_parquet(&of, &records).unwrap();
         let columns = read_records(&file).unwrap();
-        assert_eq!(columns.configuration, [7, 1, 2]);
-        assert_eq!(columns.time_ns, [127.5, 121.5, 122.5]);
-        assert_eq!(columns.bv_tests, [Some(9), None, None]);
-        assert_eq!(columns.primitive_tests, [Some(2), None, None]);
-        let csv = String::from_utf8(records_csv(&file).unwrap()).unwrap();
+        assert_eq!(columns.configuration, [7, 1, 2, 3]);
+        assert_eq!(columns.time_ns, [127.5, 121.5, 122.5, 123.5]);
+        assert_eq!(columns.bv_tests, [Some(9), None, None, None]);
+        assert_eq!(columns.primitive_tests, [Some(2), None, None, None]);
+        let csv = String::from_utf8(csv(&file).unwrap()).unwrap();
         let lines: Vec<&str> = csv.lines().collect();
         assert!(lines[0].starts_with("configuration,time_ns,below_resolution,passes,bv_tests"), "{}", lines[0]);
-        assert_eq!(lines[1], "7,127.5,false,3,9,2,correct,collision,true,,,3,4,,,,,,");
-        assert_eq!(lines[2], "1,121.5,true,3,,,correct,distance,,,0.25,,,,,,,,");
-        assert_eq!(lines.len(), 4);
+        assert_eq!(lines[1], "7,127.5,false,3,9,2,correct,collision,true,,,,,3,4,,,,,,");
+        assert_eq!(lines[2], "1,121.5,true,3,,,correct,distance,,,,,0.25,,,,,,,,");
+        assert_eq!(lines[3], "2,122.5,false,3,,,correct,gave_up,,,,,,,,,,,,,");
+        assert_eq!(lines[4], "3,123.5,false,3,,,correct,contacts,true,2,0.5,0.25,,,,,,,,,");
+        assert_eq!(lines.len(), 5);
         let (schema, _) = from_parquet(&file).unwrap();
         assert_eq!(schema.metadata().get("opencollbench.run").map(String::as_str), Some("r"));
     }

@@ -8,7 +8,9 @@ use arrow::array::{
 };
 use arrow::datatypes::{DataType, Field};
 use nalgebra::Point3;
-use ocb_core::configuration::{Class, Configuration, ConfigurationSet, Placed, Separation, Truth, Witness};
+use ocb_core::configuration::{
+    Class, Configuration, ConfigurationSet, Containment, Placed, Separation, Truth, Witness,
+};
 use ocb_core::pose::Pose;
 
 use super::{SCHEMA_VERSION, batch, column, from_parquet, to_parquet};
@@ -55,6 +57,7 @@ pub fn set_parquet(of: &SetOf, set: &ConfigurationSet) -> Result<Vec<u8>> {
             ("distance_lo", f64s(&|p| p.truth.distance_lo)),
             ("distance_hi", f64s(&|p| p.truth.distance_hi)),
             ("margin", f64s(&|p| p.truth.margin)),
+            ("containment", containment(placed)),
             ("class64", classes(&|p| p.truth.class64)),
             ("class32", classes(&|p| p.truth.class32)),
             ("point_a", lists(placed, 3, |p| p.truth.witness.point_a.coords.as_slice().to_vec())?),
@@ -129,6 +132,7 @@ fn append_placed(placed: &mut Vec<Placed>, batch: &RecordBatch) -> std::result::
     let (hit, exact_used) = (flag("hit")?, flag("exact_used")?);
     let (lo, hi, margin) = (real("distance_lo")?, real("distance_hi")?, real("margin")?);
     let (class64, class32) = (text("class64")?, text("class32")?);
+    let containment = text("containment")?;
     let (relative_distance, step) = (real("relative_distance")?, real("step")?);
     let (triangle_a, triangle_b, root_index) = (whole("triangle_a")?, whole("triangle_b")?, whole("root_index")?);
     for row in 0..batch.num_rows() {
@@ -139,6 +143,10 @@ fn append_placed(placed: &mut Vec<Placed>, batch: &RecordBatch) -> std::result::
                 distance_lo: lo.value(row),
                 distance_hi: hi.value(row),
                 margin: margin.value(row),
+                containment: containment
+                    .is_valid(row)
+                    .then(|| named_containment(containment.value(row)))
+                    .transpose()?,
                 class64: named_class(class64.value(row))?,
                 class32: named_class(class32.value(row))?,
                 witness: Witness {
@@ -163,6 +171,15 @@ fn append_placed(placed: &mut Vec<Placed>, batch: &RecordBatch) -> std::result::
 /// What was looked for, where it was this.
 fn wanted(placed: &[Placed], this: fn(Separation) -> Option<f64>) -> ArrayRef {
     Arc::new(placed.iter().map(|p| p.wanted.and_then(this)).collect::<Float64Array>())
+}
+
+fn containment(placed: &[Placed]) -> ArrayRef {
+    Arc::new(placed.iter().map(|p| p.truth.containment.map(Containment::name)).collect::<StringArray>())
+}
+
+fn named_containment(name: &str) -> std::result::Result<Containment, String> {
+    let known = Containment::NAMES.iter().find(|(_, known)| *known == name).map(|(containment, _)| *containment);
+    known.ok_or_else(|| format!("{name:?} is no containment"))
 }
 
 fn lists(placed: &[Placed], width: i32, of: impl Fn(&Placed) -> Vec<f64>) -> Result<ArrayRef> {
@@ -198,7 +215,7 @@ fn point(batch: &RecordBatch, name: &str, row: usize) -> std::result::Result<Poi
     Ok(Point3::from_slice(&list(batch, name, row, 3)?))
 }
 
-fn class_name(class: Class) -> &'static str {
+pub fn class_name(class: Class) -> &'static str {
     match class {
         Class::Clear => "clear",
         Class::Colliding => "colliding",
@@ -232,6 +249,7 @@ mod tests {
                     distance_lo: 0.1,
                     distance_hi: 0.1 + f64::EPSILON,
                     margin: 1e-9,
+                    containment: (i == 0).then_some(Containment::BInA),
                     class64: Class::Clear,
                     class32: Class::Grazing,
                     witness: Witness {

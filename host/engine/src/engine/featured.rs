@@ -1,7 +1,7 @@
 //! The run that a visitor sees before asking for anything: measured here, never a canned picture.
 
 use ocb_core::configuration::{Method, Sampling};
-use ocb_core::query::Query;
+use ocb_core::query::{Query, Semantics};
 
 use super::{BACKGROUND, Engine};
 use crate::Result;
@@ -31,6 +31,7 @@ impl Engine {
             object_a: object.id.clone(),
             object_b: None,
             query,
+            semantics: Semantics::Surface,
             method: Method::Sphere { sampling: Sampling::Count { count: CONFIGURATIONS }, seed: 0 },
             relative_distance: 0.0,
             algorithms: Vec::new(),

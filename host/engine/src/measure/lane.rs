@@ -5,14 +5,14 @@ use std::time::Duration;
 
 use ocb_core::configuration::Placed;
 use ocb_core::oracle::Pair;
-use ocb_core::query::{Answer, Counters, Query};
-use ocb_core::record::{Record, Verdict};
+use ocb_core::query::{Answer, Counters, Query, Semantics};
+use ocb_core::record::Record;
 use ocb_core::statistics::Statistic;
-use ocb_core::validation::{Precision, judge};
+use ocb_core::validation::{Judged, Precision, Terms, judge};
 use ocb_sandbox::{ClockFacts, Ending, Sample, Session};
 use rayon::prelude::*;
 
-use crate::model::OutcomeInfo;
+use crate::model::{AlgorithmInfo, OutcomeInfo};
 use crate::registry::Contestant;
 
 /// One algorithm while it is measured.
@@ -40,9 +40,23 @@ pub struct Lane {
 struct Cell {
     times: Vec<f64>,
     below: u32,
-    answer: Option<Answer>,
-    verdict: Option<Verdict>,
+    /// The first answer, or the first with a graver verdict.
+    judged: Option<(Answer, Judged)>,
     counters: Option<Counters>,
+}
+
+impl Cell {
+    fn keep(&mut self, answer: Answer, judged: Judged) {
+        let graver = |(_, known): &(Answer, Judged)| judged.verdict.gravity() > known.verdict.gravity();
+        if self.judged.as_ref().is_none_or(graver) {
+            self.judged = Some((answer, judged));
+        }
+    }
+}
+
+/// The arithmetic that an algorithm declares.
+pub fn precision(algorithm: &AlgorithmInfo) -> Precision {
+    if algorithm.single_precision { Precision::Single } else { Precision::Double }
 }
 
 /// All that was measured of one algorithm.
@@ -127,31 +141,23 @@ impl Lane {
         self.answered(configuration, answer);
     }
 
-    /// An answer that was judged in an earlier pass needs no second look; every other one does.
+    /// The answer that was judged in an earlier pass needs no second look; every other one does.
     fn answered(&mut self, configuration: u32, answer: Answer) {
         self.done += 1;
-        if self.cells[configuration as usize].answer.as_ref() != Some(&answer) {
+        let known = self.cells[configuration as usize].judged.as_ref();
+        if known.is_none_or(|(known, _)| *known != answer) {
             self.unjudged.push((configuration, answer));
         }
     }
 
-    /// Compares the new answers with the truth, on the CPUs that do not measure. A wrong answer in any pass makes the
-    /// verdict; an algorithm that is right only sometimes is not right.
-    pub fn judge(&mut self, pair: &Pair, placed: &[Placed], query: Query) {
-        let single = self.contestant.info.single_precision;
-        let precision = || if single { Precision::Single } else { Precision::Double };
-        let verdicts: Vec<Verdict> = self
-            .unjudged
-            .par_iter()
-            .map(|(i, answer)| judge(pair, &placed[*i as usize], query, answer, precision()))
-            .collect();
-        for ((i, answer), verdict) in self.unjudged.drain(..).zip(verdicts) {
-            let cell = &mut self.cells[i as usize];
-            cell.answer.get_or_insert(answer);
-            match cell.verdict {
-                Some(known) if known.is_wrong() || !verdict.is_wrong() => {}
-                _ => cell.verdict = Some(verdict),
-            }
+    /// Compares the new answers with the truth, on the CPUs that do not measure. The gravest verdict of all passes
+    /// stands; an algorithm that is right only sometimes is not right.
+    pub fn judge(&mut self, pair: &Pair, placed: &[Placed], query: Query, semantics: Semantics) {
+        let terms = Terms { query, semantics, precision: precision(&self.contestant.info) };
+        let judged: Vec<Judged> =
+            self.unjudged.par_iter().map(|(i, answer)| judge(pair, &placed[*i as usize], terms, answer)).collect();
+        for ((i, answer), judged) in self.unjudged.drain(..).zip(judged) {
+            self.cells[i as usize].keep(answer, judged);
         }
     }
 
@@ -163,10 +169,19 @@ impl Lane {
         for (configuration, mut cell) in (0..).zip(self.cells) {
             let passes = cell.times.len() as u32;
             let median = Statistic::Median.of(&mut cell.times);
-            if let (Some(time_ns), Some(answer), Some(verdict)) = (median, cell.answer, cell.verdict) {
+            if let (Some(time_ns), Some((answer, Judged { verdict, contacts }))) = (median, cell.judged) {
                 let below_resolution = 2 * cell.below >= passes;
                 let counters = cell.counters;
-                records.push(Record { configuration, time_ns, below_resolution, passes, counters, answer, verdict });
+                records.push(Record {
+                    configuration,
+                    time_ns,
+                    below_resolution,
+                    passes,
+                    counters,
+                    answer,
+                    verdict,
+                    contacts,
+                });
             }
         }
         Measured {
@@ -182,5 +197,27 @@ impl Lane {
             disturbed: self.disturbed,
             seconds_per_query: (queries > 0).then(|| self.spent.as_secs_f64() / queries as f64),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ocb_core::record::Verdict;
+
+    #[test]
+    fn the_gravest_verdict_of_all_passes_stands_with_its_answer() {
+        let hit = |hit| Answer::Collision { hit, pair: None };
+        let judged = |verdict| Judged { verdict, contacts: None };
+        let mut cell = Cell::default();
+        let mut stands = |answer: Answer, verdict| {
+            cell.keep(answer, judged(verdict));
+            cell.judged.clone().map(|(answer, judged)| (answer, judged.verdict))
+        };
+        assert_eq!(stands(hit(true), Verdict::Correct), Some((hit(true), Verdict::Correct)));
+        assert_eq!(stands(Answer::GaveUp, Verdict::GaveUp), Some((Answer::GaveUp, Verdict::GaveUp)));
+        assert_eq!(stands(hit(true), Verdict::Correct), Some((Answer::GaveUp, Verdict::GaveUp)));
+        assert_eq!(stands(hit(false), Verdict::FalseNegative), Some((hit(false), Verdict::FalseNegative)));
+        assert_eq!(stands(hit(true), Verdict::WrongWitness), Some((hit(false), Verdict::FalseNegative)));
     }
 }

@@ -1,18 +1,41 @@
 //! From what was measured to the numbers of tables and pages.
 
-use ocb_core::record::Verdict;
+use ocb_core::configuration::Placed;
+use ocb_core::oracle::Pair;
+use ocb_core::query::{Answer, Query, Semantics};
+use ocb_core::record::{ContactScore, Record, Verdict};
+use ocb_core::resolution::Resolution;
 use ocb_core::statistics::{Statistic, bootstrap_interval, maximum_interval, quantile, quantile_interval};
+use ocb_core::validation::Terms;
 
 use super::Measured;
+use super::lane::precision;
 use crate::machine::Machine;
-use crate::model::{AlgorithmResult, Environment, Estimated, OutcomeInfo, TimeSummary, VerdictCount};
+use crate::model::{
+    Agreement, AlgorithmResult, ContactQuality, Environment, Estimated, OutcomeInfo, TimeSummary, VerdictCount,
+};
 
 /// Seed of the bootstrap: the same times always give the same interval.
 const SEED: u64 = 1;
 
+/// What the answers were given to.
+#[derive(Clone, Copy)]
+pub struct Asked<'a> {
+    /// The two objects.
+    pub pair: Pair<'a>,
+    /// The configurations with their truth.
+    pub placed: &'a [Placed],
+    /// The question.
+    pub query: Query,
+    /// What counts as an object.
+    pub semantics: Semantics,
+}
+
 /// The numbers of one algorithm.
-pub fn summarise(measured: &Measured) -> AlgorithmResult {
+pub fn summarise(measured: &Measured, asked: Asked) -> AlgorithmResult {
     let records = &measured.records;
+    let Asked { pair, placed, query, semantics } = asked;
+    let terms = Terms { query, semantics, precision: precision(&measured.contestant.info) };
     let completed = || OutcomeInfo {
         name: "Completed".into(),
         message: "The plugin answered everything it was asked.".into(),
@@ -32,11 +55,51 @@ pub fn summarise(measured: &Measured) -> AlgorithmResult {
         time: time_summary(measured),
         verdicts: verdicts(measured),
         wrong: records.iter().filter(|r| r.verdict.is_wrong()).count() as u32,
+        grazing: agreement(records, asked),
+        resolution: Some(Resolution::of(&pair, placed, records, terms)),
+        contacts: contact_quality(records),
         bv_tests_mean: mean(|c| c.bv_tests),
         primitive_tests_mean: mean(|c| c.primitive_tests),
         build_ms: Statistic::Median.of(&mut measured.build_ns.clone()).map(|ns| ns / 1e6),
         memory_bytes: measured.memory_bytes,
     }
+}
+
+/// Of the answers that are not scored: how many say what exact arithmetic says?
+fn agreement(records: &[Record], asked: Asked) -> Agreement {
+    let mut all = Agreement::default();
+    for record in records.iter().filter(|r| r.verdict == Verdict::Undecidable) {
+        let placed = &asked.placed[record.configuration as usize];
+        let truth = asked.pair.asked(&placed.configuration, &placed.truth, asked.semantics);
+        let said = match record.answer {
+            Answer::Collision { hit, .. } => hit,
+            Answer::Contacts { total, .. } => total > 0,
+            Answer::Distance { .. } | Answer::GaveUp | Answer::Unsupported => continue,
+        };
+        all.n += 1;
+        all.agree += u32::from(said == truth.hit);
+    }
+    all
+}
+
+/// All lists of contacts together; absent when there are none.
+fn contact_quality(records: &[Record]) -> Option<ContactQuality> {
+    let scores: Vec<ContactScore> = records.iter().filter_map(|r| r.contacts).collect();
+    let sum = |scores: &mut dyn Iterator<Item = &ContactScore>| {
+        scores.fold(ContactScore { found: Some(0), ..ContactScore::default() }, |all, s| ContactScore {
+            listed: all.listed + s.listed,
+            genuine: all.genuine + s.genuine,
+            robust: all.robust + s.robust,
+            found: all.found.zip(s.found).map(|(x, y)| x + y),
+        })
+    };
+    let (all, whole) = (sum(&mut scores.iter()), sum(&mut scores.iter().filter(|s| s.found.is_some())));
+    (!scores.is_empty()).then(|| ContactQuality {
+        precision: all.precision(),
+        listed: all.listed,
+        recall: whole.recall(),
+        robust: whole.robust,
+    })
 }
 
 fn time_summary(measured: &Measured) -> Option<TimeSummary> {
@@ -58,19 +121,7 @@ fn time_summary(measured: &Measured) -> Option<TimeSummary> {
 }
 
 fn verdicts(measured: &Measured) -> Vec<VerdictCount> {
-    use Verdict::*;
-    let all = [
-        Correct,
-        FalseNegative,
-        FalsePositive,
-        DistanceOver,
-        DistanceUnder,
-        WrongWitness,
-        Invalid,
-        Undecidable,
-        GaveUp,
-        Unsupported,
-    ];
+    let all = Verdict::NAMES.map(|(verdict, _)| verdict);
     let count = |verdict| measured.records.iter().filter(|r| r.verdict == verdict).count() as u32;
     all.into_iter().map(|verdict| VerdictCount { verdict, count: count(verdict) }).filter(|v| v.count > 0).collect()
 }

@@ -29,6 +29,8 @@ pub struct AlgorithmInfo {
     pub witness_points: bool,
     /// It computes in f32: its answers are judged in the wider band.
     pub single_precision: bool,
+    /// It also answers for solid bodies, where an object inside another one collides.
+    pub solid: bool,
     /// Its parameters.
     pub parameters: Vec<ParameterInfo>,
     /// SHA-256 (hex) of the plugin file.

@@ -3,17 +3,21 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use ocb_core::configuration::{Placed, Sampling};
+use nalgebra::Vector3;
+use ocb_core::configuration::{Configuration, Placed, Sampling};
+use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
-use ocb_core::query::Query;
+use ocb_core::pose::Pose;
+use ocb_core::query::{Query, Semantics};
 use ocb_core::record::Verdict;
 use ocb_core::sampling::sphere::Plan;
 use ocb_core::stock;
-use ocb_core::validation::{Precision, judge};
+use ocb_core::validation::{Terms, judge};
 use ocb_sandbox::{Launcher, Outcome, Policy, Trial};
 
 use super::{info, read_plugin};
 use crate::blobs::sha256_hex;
+use crate::measure::precision;
 use crate::model::{AlgorithmInfo, CheckLine, CheckVerdict, PluginReport};
 use crate::{EngineError, Result};
 
@@ -74,7 +78,10 @@ pub fn check_plugin(runner: &Path, file: &Path) -> Result<PluginReport> {
         report.descriptor(&algorithm);
         for query in [Query::CollisionFirst, Query::CollisionAll, Query::Proximity] {
             if algorithm.queries.contains(&query) {
-                report.smoke(&launcher, file, &algorithm, query)?;
+                report.smoke(&launcher, file, &algorithm, query, Semantics::Surface)?;
+                if algorithm.solid && query != Query::CollisionAll {
+                    report.smoke(&launcher, file, &algorithm, query, Semantics::Solid)?;
+                }
             }
         }
     }
@@ -113,14 +120,28 @@ impl PluginReport {
     }
 
     /// A few certified configurations of a small object.
-    fn smoke(&mut self, launcher: &Launcher, file: &Path, algorithm: &AlgorithmInfo, query: Query) -> Result<()> {
-        let check = format!("{}: {}", algorithm.id, query_name(query));
-        let mesh = stock::generate("torus-knot", TRIANGLES)
-            .ok_or_else(|| EngineError::Fault("The smoke object cannot be made.".into()))?;
-        let mesh = Arc::new(mesh);
-        let shape = Shape::new(mesh.clone());
-        let placed = smoke_configurations(&shape)?;
-        let trial = Trial { plugin: file, algorithm: &algorithm.id, mesh_a: &mesh, mesh_b: None, parameters: &[] };
+    fn smoke(
+        &mut self,
+        launcher: &Launcher,
+        file: &Path,
+        algorithm: &AlgorithmInfo,
+        query: Query,
+        semantics: Semantics,
+    ) -> Result<()> {
+        let of = if semantics == Semantics::Solid { ", solid bodies" } else { "" };
+        let check = format!("{}: {}{of}", algorithm.id, query_name(query));
+        let smoke = match semantics {
+            Semantics::Surface => Smoke::surfaces()?,
+            Semantics::Solid => Smoke::solids()?,
+        };
+        let trial = Trial {
+            plugin: file,
+            algorithm: &algorithm.id,
+            mesh_a: &smoke.mesh_a,
+            mesh_b: smoke.mesh_b.as_deref(),
+            parameters: &[],
+            semantics,
+        };
         let mut session = match launcher.start(&trial) {
             Ok(session) => session,
             Err(ending) if ending.outcome.ours() => return Err(EngineError::Fault(ending.to_string())),
@@ -130,13 +151,13 @@ impl PluginReport {
                 return Ok(());
             }
         };
-        let pair = Pair::new(&shape, &shape);
-        let precision = if algorithm.single_precision { Precision::Single } else { Precision::Double };
+        let pair = Pair::new(&smoke.a, &smoke.b);
+        let terms = Terms { query, semantics, precision: precision(algorithm) };
         let mut wrong: Vec<(usize, Verdict)> = Vec::new();
         let mut silent = 0;
-        for (i, placed) in placed.iter().enumerate() {
+        for (i, placed) in smoke.placed.iter().enumerate() {
             let Ok(sample) = session.query(query, &placed.configuration) else { break };
-            match judge(&pair, placed, query, &sample.answer, precision) {
+            match judge(&pair, placed, terms, &sample.answer).verdict {
                 verdict if verdict.is_wrong() => wrong.push((i, verdict)),
                 Verdict::Unsupported | Verdict::GaveUp => silent += 1,
                 _ => {}
@@ -153,38 +174,83 @@ impl PluginReport {
             let evidence = format!(
                 "{} of {} answers are wrong, the first ({verdict:?}) on configuration {first}.",
                 wrong.len(),
-                placed.len()
+                smoke.placed.len()
             );
             let hint = "Compare with brute-force; triangles are closed sets, so touching counts as a collision.";
             self.line(check, CheckVerdict::Fail, evidence, Some(hint));
         } else if silent > 0 {
-            let evidence = format!("No answer on {silent} of {} configurations, the others are right.", placed.len());
+            let evidence =
+                format!("No answer on {silent} of {} configurations, the others are right.", smoke.placed.len());
             let hint = "An algorithm that offers a question should answer it.";
             self.line(check, CheckVerdict::Note, evidence, Some(hint));
         } else {
-            let evidence = format!("All {} answers agree with the reference.", placed.len());
+            let evidence = format!("All {} answers agree with the reference.", smoke.placed.len());
             self.line(check, CheckVerdict::Pass, evidence, None);
         }
         Ok(())
     }
 }
 
-fn smoke_configurations(shape: &Shape) -> Result<Vec<Placed>> {
-    let mut all = Vec::new();
-    let pair = Pair::new(shape, shape);
-    for distance in DISTANCES {
-        let sampling = Sampling::Count { count: RAYS };
-        let plan = Plan::new(shape, shape, &sampling, distance, 1)
-            .map_err(|e| EngineError::fault("Placing the smoke configurations failed", e))?;
-        for placed in (0..plan.len()).filter_map(|i| plan.place(i)) {
-            all.push(placed);
-            // Half the way to A's centre: a certain collision, which the sphere method alone never gives.
-            let mut configuration = placed.configuration;
-            configuration.pose_b.translation *= 0.5;
-            all.push(Placed { configuration, truth: pair.truth(&configuration), root_index: 0, wanted: None });
+/// What a plugin is tried on.
+struct Smoke {
+    mesh_a: Arc<Mesh>,
+    /// Absent when it is the same object.
+    mesh_b: Option<Arc<Mesh>>,
+    a: Shape,
+    b: Shape,
+    placed: Vec<Placed>,
+}
+
+impl Smoke {
+    /// A concave object against itself: apart, close, and crossing.
+    fn surfaces() -> Result<Self> {
+        let mesh_a = smoke_object("torus-knot")?;
+        let shape = Shape::new(mesh_a.clone());
+        let pair = Pair::new(&shape, &shape);
+        let mut placed = Vec::new();
+        for distance in DISTANCES {
+            let sampling = Sampling::Count { count: RAYS };
+            let plan = Plan::new(&shape, &shape, &sampling, distance, 1)
+                .map_err(|e| EngineError::fault("Placing the smoke configurations failed", e))?;
+            for found in (0..plan.len()).filter_map(|i| plan.place(i)) {
+                placed.push(found);
+                // Half the way to A's centre: a certain collision, which the sphere method alone never gives.
+                let mut configuration = found.configuration;
+                configuration.pose_b.translation *= 0.5;
+                placed.push(certified(&pair, configuration));
+            }
         }
+        Ok(Self { mesh_a, mesh_b: None, a: shape.clone(), b: shape, placed })
     }
-    Ok(all)
+
+    /// A ball that leaves a larger one: inside, crossing, and apart.
+    fn solids() -> Result<Self> {
+        let mesh_a = smoke_object("sphere")?;
+        let positions = mesh_a.positions().iter().map(|p| (p.coords * 0.25).into()).collect();
+        let mesh_b = Mesh::new(positions, mesh_a.triangles().to_vec())
+            .map_err(|e| EngineError::fault("Making the smoke object failed", e))?;
+        let mesh_b = Arc::new(mesh_b);
+        let (a, b) = (Shape::new(mesh_a.clone()), Shape::new(mesh_b.clone()));
+        let centre = |mesh: &Mesh| (mesh.bounds().min.coords + mesh.bounds().max.coords) / 2.0;
+        let between = centre(&mesh_a) - centre(&mesh_b);
+        let step = Vector3::new(0.06, 0.04, 0.02) * mesh_a.longest_side();
+        let pair = Pair::new(&a, &b);
+        let place = |i: u32| {
+            let pose_b = Pose { translation: between + step * f64::from(i), ..Pose::identity() };
+            certified(&pair, Configuration { pose_a: Pose::identity(), pose_b })
+        };
+        let placed = (0..RAYS).map(place).collect();
+        Ok(Self { placed, a, b, mesh_a, mesh_b: Some(mesh_b) })
+    }
+}
+
+fn smoke_object(name: &str) -> Result<Arc<Mesh>> {
+    let mesh = stock::generate(name, TRIANGLES);
+    mesh.map(Arc::new).ok_or_else(|| EngineError::Fault("The smoke object cannot be made.".into()))
+}
+
+fn certified(pair: &Pair, configuration: Configuration) -> Placed {
+    Placed { configuration, truth: pair.truth(&configuration), root_index: 0, wanted: None }
 }
 
 fn query_name(query: Query) -> &'static str {

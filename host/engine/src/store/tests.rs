@@ -6,8 +6,8 @@ use ocb_core::query::Query;
 use super::*;
 use crate::blobs::tests::from_harness;
 use crate::model::{
-    AlgorithmInfo, AlgorithmResult, ClassCount, Environment, Estimated, ObjectInfo, OutcomeInfo, RunSpec, SetInfo,
-    State,
+    Agreement, AlgorithmInfo, AlgorithmResult, ClassCount, Environment, Estimated, ObjectInfo, OutcomeInfo, RunSpec,
+    SetInfo, State,
 };
 use crate::runlog::{fresh_stages, plain_event};
 
@@ -146,6 +146,9 @@ fn result(algorithm: &str, n: u32) -> StoredResult {
             time: None,
             verdicts: Vec::new(),
             wrong: 0,
+            grazing: Agreement::default(),
+            resolution: None,
+            contacts: None,
             bv_tests_mean: Some(1.25),
             primitive_tests_mean: None,
             build_ms: None,
@@ -201,6 +204,7 @@ mod contract {
             counters: true,
             witness_points: false,
             single_precision: false,
+            solid: false,
             parameters: Vec::new(),
             plugin_sha256: "h".into(),
         };

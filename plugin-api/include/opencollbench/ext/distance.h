@@ -19,7 +19,7 @@ extern "C" {
 /* What is asked of `distance`. Made by the host. */
 typedef struct ocb_distance_request {
     uint32_t struct_size;
-    /* No flag is defined yet; ignore bits that you do not know. */
+    /* OCB_REQUEST_* bits (plugin.h); ignore bits that you do not know. */
     uint32_t flags;
 } ocb_distance_request;
 
@@ -37,7 +37,8 @@ typedef struct ocb_distance_result {
     uint32_t flags;
     /*
      * min |p - q| over all points p of A's surface and q of B's, in the world frame and in the meshes' length unit:
-     * finite, >= 0, and 0 when the surfaces meet. The exact minimum up to rounding, not a bound.
+     * finite, >= 0, and 0 when the surfaces meet, or when solid bodies (OCB_REQUEST_SOLID) do: then without triangles
+     * when one is inside the other, and the points, if any, are a common one of the bodies, twice. The exact minimum up to rounding, not a bound.
      */
     double distance;
     /*
