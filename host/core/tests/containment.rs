@@ -2,7 +2,9 @@
 
 mod common;
 
-use common::{Random, Triangle, mesh, placed};
+use common::families::Triangle;
+use common::random::Random;
+use common::{mesh, placed};
 use nalgebra::{Matrix3, Point3, Vector3};
 use ocb_core::configuration::{Class, Configuration, Containment, Placed};
 use ocb_core::oracle::{Pair, Shape};

@@ -16,7 +16,7 @@ use tokio::runtime::Handle;
 use crate::columns::{RecordsOf, SetOf, records_parquet, set_parquet};
 use crate::configurations::{self, Gauge};
 use crate::engine::Inner;
-use crate::machine::MeasuringRight;
+use crate::machine::{MakingWay, MeasuringRight};
 use crate::measure::{self, Asked, Measured, News, Stop, Task};
 use crate::model::{Environment, RunSpec, SetInfo, State};
 use crate::registry::Contestant;
@@ -150,9 +150,11 @@ impl Bench<'_> {
         let longest_side = pairing.mesh_a.longest_side();
         let (gauge, poses) = (&gauge, poses.as_deref());
         let set = thread::scope(|scope| {
+            let mut way = MakingWay::begin(&self.inner.machine);
             let worker = scope.spawn(|| configurations::make(&pairing.a, &pairing.b, longest_side, spec, poses, gauge));
             while !worker.is_finished() {
                 thread::sleep(TICK.min(Duration::from_millis(20)));
+                way.look();
                 if self.stop.asked() {
                     gauge.stop.store(true, Ordering::Relaxed);
                 }

@@ -92,6 +92,35 @@ impl Drop for KeptOff {
     }
 }
 
+/// Work on all CPUs that is no measurement: as long as another process measures, it keeps off that process's CPUs.
+pub struct MakingWay<'m> {
+    machine: &'m Machine,
+    off: Option<KeptOff>,
+}
+
+impl<'m> MakingWay<'m> {
+    /// Begins such work.
+    pub fn begin(machine: &'m Machine) -> Self {
+        let mut way = Self { machine, off: None };
+        way.look();
+        way
+    }
+
+    /// Looks whether somebody measures now; to be called now and then.
+    pub fn look(&mut self) {
+        match (measured_elsewhere(), self.off.is_some()) {
+            (true, false) => self.off = Some(self.machine.keep_off()),
+            (false, true) => self.off = None,
+            _ => {}
+        }
+    }
+}
+
+/// Does another process have the right to measure? A lock that cannot be looked at is nobody's.
+fn measured_elsewhere() -> bool {
+    open_machine_lock().is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
+}
+
 /// A thread that ends between listing and setting is no loss, so nothing here can fail.
 fn set_all_threads(cpus: &[usize]) {
     let mut mask = CpuSet::new();
@@ -174,6 +203,10 @@ fn open_machine_lock() -> io::Result<File> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::{Mutex, PoisonError};
+
+    /// Masks belong to the whole process, so only one test at a time may set them.
+    static MASKS: Mutex<()> = Mutex::new(());
 
     #[test]
     fn a_second_process_is_told_to_use_another_folder() {
@@ -184,7 +217,30 @@ mod tests {
     }
 
     #[test]
+    fn work_makes_way_while_somebody_measures() {
+        let _alone = MASKS.lock().unwrap_or_else(PoisonError::into_inner);
+        let machine = Machine::observe().unwrap();
+        let on_it = || sched_getaffinity(Pid::from_raw(0)).unwrap().is_set(machine.measuring_cpu()).unwrap();
+        // Whoever measures on this machine meanwhile ends; the lock is asked for like any other.
+        let right = loop {
+            match MeasuringRight::try_take().unwrap() {
+                Some(right) => break right,
+                None => std::thread::sleep(std::time::Duration::from_millis(50)),
+            }
+        };
+        let mut way = MakingWay::begin(&machine);
+        assert!(!on_it() || machine.allowed.len() == 1);
+        drop(right);
+        // Another process may take the right at this very moment; then the way stays made until it gives it back.
+        while !on_it() {
+            std::thread::sleep(std::time::Duration::from_millis(50));
+            way.look();
+        }
+    }
+
+    #[test]
     fn every_thread_leaves_the_measuring_cpu_and_comes_back() {
+        let _alone = MASKS.lock().unwrap_or_else(PoisonError::into_inner);
         let machine = Machine::observe().unwrap();
         let here = || sched_getaffinity(Pid::from_raw(0)).unwrap();
         let other = std::thread::spawn({

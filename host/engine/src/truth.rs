@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 pub use crate::columns::{contacts_parquet, csv, truths_parquet};
 pub use crate::configurations::{Gauge, read_file};
+pub use crate::machine::{Machine, MakingWay};
 use crate::model::{ContactRow, TruthRow};
 
 /// How much is asked about a configuration.

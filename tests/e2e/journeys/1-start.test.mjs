@@ -31,6 +31,9 @@ for (const scheme of ['light', 'dark']) {
       await v.at('start').waitFor()
       await v.accessible('the builder')
       await v.picture(`builder-${scheme}-${width}`)
+      await v.go('/truth')
+      await v.page.getByRole('heading', { level: 1, name: 'How answers are judged' }).waitFor()
+      await v.accessible('how answers are judged')
     })
   }
 }

@@ -11,6 +11,7 @@ export const router = createRouter({
     { path: '/runs', component: () => import('./pages/RunsPage.vue'), meta: { title: 'My runs' } },
     { path: '/objects', component: () => import('./pages/ObjectsPage.vue'), meta: { title: 'Objects' } },
     { path: '/about', component: () => import('./pages/AboutPage.vue'), meta: { title: 'How we measure' } },
+    { path: '/truth', component: () => import('./pages/TruthPage.vue'), meta: { title: 'How answers are judged' } },
     { path: '/:rest(.*)*', component: () => import('./pages/NotFoundPage.vue'), meta: { title: 'Nothing here' } },
   ],
   scrollBehavior: (to, from, saved) => saved ?? (to.path === from.path ? false : to.hash ? { el: to.hash, top: 90 } : { top: 0 }),

@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
-use ocb_engine::truth::Gauge;
+use ocb_engine::truth::{Gauge, Machine, MakingWay};
 
 use crate::failure::{Failure, Result};
 use crate::serve;
@@ -22,6 +22,8 @@ pub async fn watch<T: Send + 'static>(
     total: usize,
     work: impl FnOnce(&Gauge) -> Option<T> + Send + 'static,
 ) -> Result<Option<T>> {
+    let machine = Machine::observe()?;
+    let mut way = MakingWay::begin(&machine);
     let gauge = Arc::new(Gauge::default());
     let for_work = gauge.clone();
     let mut working = tokio::task::spawn_blocking(move || work(&for_work));
@@ -38,6 +40,7 @@ pub async fn watch<T: Send + 'static>(
             done = &mut working => break done,
             () = &mut stop, if !gauge.stop.load(Ordering::Relaxed) => gauge.stop.store(true, Ordering::Relaxed),
             _ = look.tick() => {
+                way.look();
                 let done = gauge.done.load(Ordering::Relaxed);
                 bar.set_position(done);
                 if !bars && said.elapsed() >= LINE_EVERY {

@@ -7,3 +7,4 @@ mod errors;
 mod look;
 mod serve;
 mod support;
+mod truth;

@@ -357,6 +357,19 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /** @description How many of some answers agree with exact arithmetic. */
+        Agreement: {
+            /**
+             * Format: int32
+             * @description Those that say what exact arithmetic says.
+             */
+            agree: number;
+            /**
+             * Format: int32
+             * @description Answers.
+             */
+            n: number;
+        };
         /** @description One algorithm of one plugin. */
         AlgorithmInfo: {
             /** @description Authors. */
@@ -379,6 +392,8 @@ export interface components {
             queries: components["schemas"]["Query"][];
             /** @description It computes in f32: its answers are judged in the wider band. */
             single_precision: boolean;
+            /** @description It also answers for solid bodies, where an object inside another one collides. */
+            solid: boolean;
             /** @description Home page or source. */
             url: string;
             /** @description Version as the plugin says it. */
@@ -402,6 +417,9 @@ export interface components {
              * @description Mean BV tests per query.
              */
             bv_tests_mean?: number | null;
+            contacts?: components["schemas"]["ContactQuality"] | null;
+            /** @description The answers that are not scored, because the configuration is narrower than the precision of the algorithm. */
+            grazing?: components["schemas"]["Agreement"];
             /**
              * Format: int64
              * @description Peak memory of the runner above its baseline, bytes.
@@ -426,12 +444,13 @@ export interface components {
              * @description Mean primitive tests per query.
              */
             primitive_tests_mean?: number | null;
+            resolution?: components["schemas"]["Resolution"] | null;
             time?: components["schemas"]["TimeSummary"] | null;
-            /** @description Wrong answers by verdict name (`correct`, `false_negative`, ...). */
+            /** @description All answers by verdict (`correct`, `false_negative`, `gave_up`, ...); those that do not occur are left out. */
             verdicts: components["schemas"]["VerdictCount"][];
             /**
              * Format: int32
-             * @description Wrong answers in all.
+             * @description Wrong answers in all. Giving up and not supporting the question are none.
              */
             wrong: number;
         };
@@ -461,6 +480,48 @@ export interface components {
              * @description How many.
              */
             count: number;
+        };
+        /** @description Lists of contacts against the complete ones, all configurations together. Pairs within the precision band are free. */
+        ContactQuality: {
+            /**
+             * Format: int64
+             * @description Pairs listed.
+             */
+            listed: number;
+            /**
+             * Format: double
+             * @description Share of the listed pairs that meet or are within tau of it; absent when nothing was listed.
+             */
+            precision?: number | null;
+            /**
+             * Format: double
+             * @description Share of the pairs crossing by more than tau that were listed, over the lists that fit the host's buffer; absent
+             *     when there is no such pair.
+             */
+            recall?: number | null;
+            /**
+             * Format: int64
+             * @description Such pairs.
+             */
+            robust: number;
+        };
+        /** @description The worst errors of distances. */
+        DistanceError: {
+            /**
+             * Format: int32
+             * @description Distances that are numbers.
+             */
+            n: number;
+            /**
+             * Format: double
+             * @description The most above the certified interval, in units of `u S`; absent when none is above it.
+             */
+            over?: number | null;
+            /**
+             * Format: double
+             * @description The most below it; absent when none is.
+             */
+            under?: number | null;
         };
         /** @description Empirical distribution of the time per query. */
         Ecdf: {
@@ -704,6 +765,22 @@ export interface components {
          * @enum {string}
          */
         Query: "collision_first" | "collision_all" | "proximity";
+        /** @description eps* of one algorithm on one set. */
+        Resolution: {
+            distance?: components["schemas"]["DistanceError"] | null;
+            /**
+             * Format: double
+             * @description eps*: the largest distance or margin, divided by S, at which an answer is wrong. When none is, eps* is at most
+             *     this: the larger of the smallest ones tried on either side. Absent when nothing was tried.
+             */
+            eps?: number | null;
+            /** @description Configurations that are apart, by distance / S: which are called a hit? */
+            false_hits: components["schemas"]["Threshold"];
+            /** @description Configurations that cross, by margin / S: which are missed? */
+            misses: components["schemas"]["Threshold"];
+            /** @description Some answer is wrong, so that `eps` is a value and no bound. */
+            seen: boolean;
+        };
         /** @description Something that happened in a run. */
         RunEvent: {
             /**
@@ -797,6 +874,8 @@ export interface components {
              * @description Surface distance divided by L, the longest side of A's bounding box; at least 0.
              */
             relative_distance?: number;
+            /** @description What counts as an object: surfaces, or solid bodies, which need closed objects and an algorithm that knows them. */
+            semantics?: components["schemas"]["Semantics"];
         };
         /** @description How many directions and rotations, and in which pattern. */
         Sampling: {
@@ -834,6 +913,11 @@ export interface components {
             /** @enum {string} */
             kind: "count";
         };
+        /**
+         * @description What counts as an object.
+         * @enum {string}
+         */
+        Semantics: "surface" | "solid";
         /** @description The configuration set of a run. */
         SetInfo: {
             /** @description How many are of which class in f64. */
@@ -940,6 +1024,25 @@ export interface components {
             running: number;
             /** @description Version of this program. */
             version: string;
+        };
+        /** @description One side of eps*. */
+        Threshold: {
+            /**
+             * Format: double
+             * @description When some are wrong: the largest distance or margin, divided by S, at which one is. When none is: the smallest
+             *     that was tried, so that the resolution is at least as good as this. Absent when none was tried.
+             */
+            at?: number | null;
+            /**
+             * Format: int32
+             * @description Configurations of this side that were answered.
+             */
+            n: number;
+            /**
+             * Format: int32
+             * @description Those answered wrongly, however narrow the decision.
+             */
+            wrong: number;
         };
         /** @description Distribution of the time per query over configurations, nanoseconds. */
         TimeSummary: {

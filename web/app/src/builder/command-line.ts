@@ -5,7 +5,7 @@ export function commandLine(spec: RunSpec, file: (id: string) => string): string
   const objects = [spec.object_a, ...(spec.object_b && spec.object_b !== spec.object_a ? [spec.object_b] : [])]
   const lines = [
     `ocb bench ${objects.map((id) => quote(file(id))).join(' ')}`,
-    `--query ${spec.query === 'proximity' ? 'pq' : 'cd'}${spec.query === 'collision_all' ? ' --contacts all' : ''}`,
+    `--query ${spec.query === 'proximity' ? 'pq' : 'cd'}${spec.query === 'collision_all' ? ' --contacts all' : ''}${spec.semantics === 'solid' ? ' --solid' : ''}`,
     placement(spec),
     ...(spec.algorithms ?? []).map((algorithm) => `--algorithm ${quote(algorithm)}`),
     ...(spec.passes === undefined ? [] : [`--passes ${spec.passes}`]),

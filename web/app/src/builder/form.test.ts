@@ -5,7 +5,7 @@ import { chosenAlgorithms, fromSpec, initialForm, toSpec, whyUnfit } from './for
 import { find, objectKey, sliderToTriangles, trianglesToSlider, withTriangles } from './objects'
 
 const algorithm = (id: string, queries: Query[]): AlgorithmInfo => ({
-  id, name: id, version: '1', authors: '', license: '', url: '', paper: '', queries, counters: true, witness_points: true, single_precision: false, parameters: [],
+  id, name: id, version: '1', authors: '', license: '', url: '', paper: '', queries, counters: true, witness_points: true, single_precision: false, solid: id === 'both', parameters: [],
   plugin_sha256: '',
 })
 const ALL = [algorithm('both', ['collision_first', 'collision_all', 'proximity']), algorithm('collider', ['collision_first'])]
@@ -31,7 +31,7 @@ describe('toSpec', () => {
   })
 
   it('comes back through fromSpec', () => {
-    const asked = { ...form(), objectB: 'stock:dragon', question: 'pq' as const, thoroughness: 'count' as const, count: 500, distance: 0.1, off: ['collider'] }
+    const asked = { ...form(), objectB: 'stock:dragon', question: 'pq' as const, thoroughness: 'count' as const, count: 500, distance: 0.1, solid: true, off: ['collider'] }
     const made = toSpec(asked, ALL)
     expect('spec' in made && fromSpec(made.spec, ALL)).toEqual(asked)
   })
@@ -39,14 +39,18 @@ describe('toSpec', () => {
 
 it('filters algorithms by the question and says why', () => {
   const [, collider = algorithm('', [])] = ALL
-  expect(whyUnfit(collider, 'proximity')).toBe('answers no distance queries')
-  expect(whyUnfit(collider, 'collision_all')).toBe('stops at the first contact')
-  expect(whyUnfit(collider, 'collision_first')).toBeNull()
+  expect(whyUnfit(collider, 'proximity', false)).toBe('answers no distance queries')
+  expect(whyUnfit(collider, 'collision_all', false)).toBe('stops at the first contact')
+  expect(whyUnfit(collider, 'collision_first', false)).toBeNull()
+  expect(whyUnfit(collider, 'collision_first', true)).toBe('knows surfaces only, no solid bodies')
   expect(chosenAlgorithms({ ...form(), question: 'pq' }, ALL)).toEqual(['both'])
+  expect(chosenAlgorithms({ ...form(), solid: true }, ALL)).toEqual(['both'])
 })
 
 it('writes the same run for the command line', () => {
   const made = toSpec({ ...form(), objectB: 'id', contacts: 'all', paper: true }, ALL)
+  const solid = toSpec({ ...form(), solid: true }, ALL)
+  expect('spec' in solid && commandLine(solid.spec, (id) => id)).toContain('--query cd --solid \\')
   expect('spec' in made && commandLine(made.spec, (id) => (id === 'id' ? "my knot's.obj" : id))).toBe(
     [
       String.raw`ocb bench stock:bunny 'my knot'\''s.obj' \ `,

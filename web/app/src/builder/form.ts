@@ -7,6 +7,8 @@ export interface BuilderForm {
   objectB: string
   question: 'cd' | 'pq'
   contacts: 'first' | 'all'
+  /** Objects are solid bodies: what lies inside collides, too. */
+  solid: boolean
   thoroughness: 'steps' | 'count'
   rotate: number | ''
   move: number | ''
@@ -21,7 +23,7 @@ export interface BuilderForm {
 
 export function initialForm(): BuilderForm {
   return {
-    objectA: '', objectB: '', question: 'cd', contacts: 'first', thoroughness: 'steps', rotate: 20, move: 20, paper: false,
+    objectA: '', objectB: '', question: 'cd', contacts: 'first', solid: false, thoroughness: 'steps', rotate: 20, move: 20, paper: false,
     count: 2000, distance: 0, passes: 3, budget: 60, off: [],
   }
 }
@@ -32,15 +34,15 @@ export function queryOf({ question, contacts }: Pick<BuilderForm, 'question' | '
 }
 
 /** Why an algorithm does not fit the question; null when it does. */
-export function whyUnfit(algorithm: AlgorithmInfo, query: Query): string | null {
-  if (algorithm.queries.includes(query)) return null
+export function whyUnfit(algorithm: AlgorithmInfo, query: Query, solid: boolean): string | null {
+  if (algorithm.queries.includes(query)) return solid && !algorithm.solid ? 'knows surfaces only, no solid bodies' : null
   if (query === 'proximity') return 'answers no distance queries'
   return query === 'collision_all' ? 'stops at the first contact' : 'answers no collision queries'
 }
 
 export function chosenAlgorithms(form: BuilderForm, algorithms: readonly AlgorithmInfo[]): string[] {
   const query = queryOf(form)
-  return algorithms.filter((a) => !whyUnfit(a, query) && !form.off.includes(a.id)).map(({ id }) => id)
+  return algorithms.filter((a) => !whyUnfit(a, query, form.solid) && !form.off.includes(a.id)).map(({ id }) => id)
 }
 
 /** The form as the API wants it, or what is still missing, in words. Whether numbers are in range the service says. */
@@ -68,6 +70,7 @@ export function toSpec(form: BuilderForm, algorithms: readonly AlgorithmInfo[]):
       object_a: form.objectA,
       ...(form.objectB && form.objectB !== form.objectA && { object_b: form.objectB }),
       query: queryOf(form),
+      ...(form.solid && { semantics: 'solid' as const }),
       method: { kind: 'sphere', sampling, seed: 0 },
       relative_distance: distance,
       algorithms: chosen,
@@ -84,6 +87,7 @@ export function fromSpec(spec: RunSpec, algorithms: readonly AlgorithmInfo[]): B
   form.objectB = spec.object_b ?? ''
   form.question = spec.query === 'proximity' ? 'pq' : 'cd'
   form.contacts = spec.query === 'collision_all' ? 'all' : 'first'
+  form.solid = spec.semantics === 'solid'
   if (spec.method.kind === 'sphere') {
     const { sampling } = spec.method
     if (sampling.kind === 'count') Object.assign(form, { thoroughness: 'count', count: sampling.count })

@@ -1,5 +1,5 @@
 import { afterEach, describe, expect, it } from 'vitest'
-import { createApp, h, nextTick, ref, type App, type Component } from 'vue'
+import { createApp, h, nextTick, ref, type App, type Component, type SetupContext } from 'vue'
 import type { AlgorithmResult, Ecdf } from '../api/types'
 import EcdfChart from './EcdfChart.vue'
 import ResultTable from './ResultTable.vue'
@@ -13,6 +13,7 @@ async function mount<T>(component: Component, props: Record<string, unknown>) {
   const host = document.createElement('div')
   document.body.append(host)
   app = createApp({ render: () => h(component, { ...props, ref: exposed }) })
+  app.component('RouterLink', (link: { to: string }, { slots }: Pick<SetupContext, 'slots'>) => h('a', { href: link.to }, slots.default?.()))
   app.mount(host)
   await nextTick()
   return { host, exposed }

@@ -26,9 +26,11 @@ describe('rank', () => {
 
   it('gives no place to what failed, answered wrong or was not measured, and says why', () => {
     const crashed = result('crashed', 1, 0, { outcome: { name: 'Signaled', message: 'It crashed.', ours: false } })
-    const { ranked, unranked } = rank([crashed, result('wrong', 2, 0, { wrong: 1 }), result('silent', 3, 0, { time: null }), result('sound', 4, 0)])
+    const modest = result('modest', 0.5, 0, { verdicts: [{ verdict: 'correct', count: 7 }, { verdict: 'gave_up', count: 2 }, { verdict: 'unsupported', count: 1 }] })
+    const { ranked, unranked } = rank([modest, crashed, result('wrong', 2, 0, { wrong: 1 }), result('silent', 3, 0, { time: null }), result('sound', 4, 0)])
     expect(ranked.map((r) => r.result.algorithm)).toEqual(['sound'])
     expect(unranked.map((r) => [r.result.algorithm, r.reason])).toEqual([
+      ['modest', 'It gave no answer to 3 of 10: giving up is not wrong, but it is not as fast as it looks.'],
       ['crashed', 'It crashed.'],
       ['wrong', 'It gave wrong answers: a time for a wrong answer is no result.'],
       ['silent', 'Nothing was measured.'],

@@ -1,4 +1,5 @@
 import type { AlgorithmResult } from '../api/types'
+import { count } from '../ui/format'
 
 /** A result that may be compared, and its place. */
 export interface Ranked {
@@ -15,8 +16,8 @@ export interface Ranking {
 }
 
 /**
- * Places by median time. Only an algorithm that ended well, answered nothing wrong and has a time gets a place; those
- * whose interval overlaps that of the best of their group share it.
+ * Places by median time. Only an algorithm that ended well, answered everything, nothing of it wrong, and has a time gets a
+ * place; those whose interval overlaps that of the best of their group share it.
  */
 export function rank(results: readonly AlgorithmResult[]): Ranking {
   const unranked = results.flatMap((result) => {
@@ -45,9 +46,16 @@ function median(result: AlgorithmResult): { value: number; lo: number; hi: numbe
   return result.time?.median_ns ?? nothing
 }
 
+/** Questions to which it gave up or said that it does not answer them. */
+function unanswered(result: AlgorithmResult): number {
+  return result.verdicts.reduce((sum, { verdict, count: n }) => sum + (verdict === 'gave_up' || verdict === 'unsupported' ? n : 0), 0)
+}
+
 function whyNot(result: AlgorithmResult): string | null {
   if (result.outcome.name !== 'Completed') return result.outcome.message
   if (result.wrong > 0) return 'It gave wrong answers: a time for a wrong answer is no result.'
   if (!result.time) return 'Nothing was measured.'
+  const silent = unanswered(result)
+  if (silent > 0) return `It gave no answer to ${count(silent)} of ${count(result.n)}: giving up is not wrong, but it is not as fast as it looks.`
   return null
 }
