@@ -78,8 +78,8 @@ fn touches(b: &Obb, start: &Vector3<f64>, end: &Vector3<f64>, slack: f64) -> boo
             leave = leave.min(one.max(other));
         }
     }
-    // NaN (no sensible numbers) touches.
-    !(enter > leave)
+    // `min` and `max` pass over NaN, so what makes no sense excludes nothing.
+    enter <= leave
 }
 
 /// A lower bound of the distance of a point from a box whose axes are orthonormal up to f32 rounding.

@@ -191,6 +191,6 @@ fn directions() -> impl Iterator<Item = [i32; 3]> {
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         z ^= z >> 31;
         // Odd numbers of 16 bits: never 0.
-        [0, 16, 32].map(|shift| ((z >> shift) as i32 & 0xffff) - 0x8000 | 1)
+        [0, 16, 32].map(|shift| (((z >> shift) as i32 & 0xffff) - 0x8000) | 1)
     })
 }
