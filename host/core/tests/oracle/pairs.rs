@@ -46,7 +46,8 @@ pub fn check(case: &Case) -> bool {
             }
         }
     }
-    assert_eq!(usual.margin, tightest.margin, "{case:?}");
+    // f64 bounds from below the margin that integers give.
+    assert!(usual.margin <= tightest.margin, "{case:?}: {:e} > {:e}", usual.margin, tightest.margin);
     let [listed] = pair.contact_margins(c)[..] else {
         assert!(!hit, "{case:?}");
         return hit;
