@@ -44,6 +44,11 @@ check: pages ## rustfmt, clippy, rustdoc, tidy tests, TypeScript and its linter:
 test: ## everything: check, Rust, TypeScript, PostgreSQL, S3, a real browser on the built service
 	@tests/setup/test.sh
 
+check-oracle: ## the oracle against CGAL, integers and planted faults (some 20 minutes)
+	@tests/setup/tools.sh test
+	cargo test $(CARGO_FLAGS) --test oracle -- --nocapture
+	tests/oracle-check/faults.py all
+
 bench: build ## measure the three algorithms on the torus knot from the terminal
 	$(TARGET)/release/ocb bench stock:torus-knot --query cd --count 2000 --data $(DATA)
 

@@ -33,6 +33,7 @@ step check make -s check
 step vitest npm --prefix web/app run test
 start_services || broken+=(services)
 step rust cargo test --release --workspace --no-fail-fast
+step faults tests/oracle-check/faults.py quick
 step browser bash -c 'npm --prefix tests/e2e ci --no-audit --no-fund && npm --prefix tests/e2e test'
 
 # Each test program says its own counts; a step that broke without a counted failure counts as one.

@@ -81,7 +81,7 @@ fn it_survives_the_worst_moves() {
 fn it_is_not_far_below_the_truth() {
     // Half the smallest of five widths; for a pair of triangles that is found by hand.
     let floor = [[-2.0, -2.0, 0.0], [2.0, -2.0, 0.0], [0.0, 3.0, 0.0]].map(Point3::from);
-    for depth in [1e-6, 1e-3, 0.25] {
+    for depth in [1e-12, 1e-9, 1e-6, 1e-3, 0.25] {
         let spike = [[0.0, 0.0, -depth], [0.25, 0.0, 8.0], [-0.25, 0.0, 8.0]].map(Point3::from);
         let (a, b) = (Shape::from_triangles(&[floor]), Shape::from_triangles(&[spike]));
         let t = Pair::new(&a, &b).truth(&placed(Pose::identity()));

@@ -32,11 +32,15 @@ pub fn check(case: &Case) -> bool {
     }
     let neighbours = tightest.distance_hi <= tightest.distance_lo.next_up();
     assert!(neighbours, "{case:?}: [{:e}, {:e}]", tightest.distance_lo, tightest.distance_hi);
+    let largest = |t: &Triangle| t.iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
+    let shift = c.pose_a.translation.amax().max(c.pose_b.translation.amax());
+    let size = largest(&case.a) + largest(&case.b) + shift;
     for t in [&usual, &tightest] {
         assert_eq!(t.hit, hit, "{case:?}");
         assert!(t.margin >= 0.0 && (hit || t.margin == 0.0), "{case:?}: {t:?}");
         for (class, unit_roundoff) in [(t.class64, U64), (t.class32, U32)] {
-            let tau = pair.tau(c, unit_roundoff);
+            let tau = 32.0 * unit_roundoff * size;
+            assert_eq!(pair.tau(c, unit_roundoff), tau);
             let clear = !hit && exact.square_against(tau).is_lt();
             match class {
                 Class::Clear => assert!(clear, "{case:?}: {t:?}"),
@@ -111,5 +115,19 @@ fn the_reference_knows_the_listed_answers() {
     for (b, (numerator, denominator)) in cases {
         let d = exact(&floor.map(Into::into), &b.map(Into::into), &still);
         assert!(d.is(&numerator.into(), &denominator.into()), "{b:?}: {d:?}");
+    }
+}
+
+#[test]
+fn a_root_that_is_nearly_a_number_is_none() {
+    // The distance is the root of 1 + 4^e, which differs from 1 far behind the digits of a double.
+    let floor = [[0.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]].map(Into::into);
+    let still = crate::common::placed(ocb_core::pose::Pose::identity());
+    for e in [-30, -60, -100, -400] {
+        let beside = [[1.0, 0.0, 2f64.powi(e)], [2.0, 0.0, 1.0], [2.0, 1.0, 1.0]].map(Into::into);
+        let (a, b) = (Shape::from_triangles(&[floor]), Shape::from_triangles(&[beside]));
+        let t = Pair::new(&a, &b).tightest_truth(&still);
+        assert_eq!((t.distance_lo, t.distance_hi), (1.0, 1f64.next_up()), "{e}");
+        assert!(exact(&floor, &beside, &still).root_is_in((t.distance_lo, t.distance_hi)));
     }
 }

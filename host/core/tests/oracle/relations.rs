@@ -114,6 +114,40 @@ fn a_part_is_no_nearer_and_the_whole_as_near_as_its_nearest_part() {
     }
 }
 
+/// Triangles far smaller than the rounding of the boxes in single precision: only what is paid for rounding keeps the
+/// boxes of two that meet from passing each other.
+#[test]
+fn dust_that_meets_dust_is_found() {
+    let mut random = Random(16);
+    for size in [1e-5, 1e-7, 1e-9, 1e-11] {
+        let mut dust = || -> Vec<Triangle> {
+            let mut grain = |at: nalgebra::Point3<f64>| [0; 3].map(|_| at + random.vector() * size);
+            let mut places = Random(17);
+            (0..300).map(|_| grain(places.point())).collect()
+        };
+        let (grains_a, grains_b) = (dust(), dust());
+        let (a, b) = (Shape::from_triangles(&grains_a), Shape::from_triangles(&grains_b));
+        let pair = Pair::new(&a, &b);
+        let mut met = 0;
+        for _ in 0..200 {
+            let (i, j) = (random.below(300), random.below(300));
+            let mut c = Configuration { pose_a: random.pose(0.5), pose_b: random.pose(0.5) };
+            let middle = |pose: &Pose, [p, q, r]: Triangle| pose.apply(&((p + q.coords + r.coords) / 3.0));
+            c.pose_b.translation += middle(&c.pose_a, grains_a[i]) - middle(&c.pose_b, grains_b[j]);
+            let [single_a, single_b] = [grains_a[i], grains_b[j]].map(|t| Shape::from_triangles(&[t]));
+            let single = Pair::new(&single_a, &single_b).tightest_truth(&c);
+            let t = pair.tightest_truth(&c);
+            assert!(t.distance_lo <= single.distance_lo && t.distance_hi <= single.distance_hi, "{size} {c:?}: {t:?}");
+            if single.hit {
+                met += 1;
+                assert!(pair.hit(&c) && pair.truth(&c).hit && t.hit, "{size} {c:?}");
+                assert!(pair.contacts(&c).contains(&[i as u32, j as u32]), "{size} {c:?}");
+            }
+        }
+        assert!(met > 50, "{size}: {met} of 200 meet");
+    }
+}
+
 #[test]
 fn what_is_there_already_adds_nothing() {
     let mut random = Random(14);
