@@ -12,6 +12,9 @@ pub(super) fn build(triangles: &[[Vector3<f64>; 3]]) -> Vec<WideNode> {
     let mut builder = Builder { triangles, centroids, nodes: vec![WideNode::empty()] };
     let root = builder.child(&mut ids);
     builder.nodes[0].set(0, &root.0, root.1);
+    if let Child::Triangle(triangle) = root.1 {
+        builder.nodes[0].set_corners(0, &triangles[triangle as usize]);
+    }
     builder.nodes
 }
 
@@ -45,6 +48,9 @@ impl Builder<'_> {
         if ids.len() <= size {
             let (fitted, content) = self.child(ids);
             self.nodes[index].set(*lane, &fitted, content);
+            if let Child::Triangle(triangle) = content {
+                self.nodes[index].set_corners(*lane, &self.triangles[triangle as usize]);
+            }
             *lane += 1;
             return;
         }

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use wide::f32x8;
 
+use super::leaf::{Leaf, Motion};
 use super::obb::Obb;
 use super::wide_node::{LANES, Projections, Slot, WideNode};
 use super::{Tree, power_of_two_above};
@@ -27,7 +28,7 @@ pub(crate) struct Frame<'t> {
     /// One unit in the objects' lengths.
     pub(crate) unit: f64,
     /// What all roundings together may add to a lower bound, generously.
-    slack: f32,
+    pub(super) slack: f32,
 }
 
 /// B moves in a straight line; positions are told by the way it has gone.
@@ -92,11 +93,43 @@ impl<'t> Frame<'t> {
         Some([self.a.triangle(a)?, self.b.triangle(b)?])
     }
 
+    /// Two triangles that are probably near each other.
+    pub(crate) fn nearby(&self) -> Option<[u32; 2]> {
+        self.descend(|a, b, visit| self.expand(a, b, visit)).map(|(_, pair)| pair)
+    }
+
+    /// Two triangles that probably come within the target early, and a lower bound of the way after which they do.
+    pub(crate) fn nearby_along(&self, aim: &Aim) -> Option<(f32, [u32; 2])> {
+        self.descend(|a, b, visit| self.expand_along(aim, a, b, visit))
+    }
+
+    /// From the roots down, always to the pair with the smallest bound.
+    fn descend(&self, expand: impl Fn(Slot, Slot, &mut dyn FnMut(Slot, Slot, f32))) -> Option<(f32, [u32; 2])> {
+        let (mut a, mut b) = self.roots();
+        let mut least = 0.0;
+        loop {
+            if let Some(pair) = self.triangles(a, b) {
+                return Some((least, pair));
+            }
+            let mut best: Option<(f32, Slot, Slot)> = None;
+            expand(a, b, &mut |a, b, bound| {
+                if best.is_none_or(|(least, ..)| bound < least) {
+                    best = Some((bound, a, b));
+                }
+            });
+            (least, a, b) = best?;
+        }
+    }
+
     /// Opens the larger of two boxes; for each child paired with the other box: a certain lower bound of their distance
     /// in units.
     pub(crate) fn expand(&self, a: Slot, b: Slot, mut visit: impl FnMut(Slot, Slot, f32)) {
         self.open(a, b, |node, number, opened_a, projections| {
-            let bounds = self.distance_bounds(projections).to_array();
+            let mut bounds = self.distance_bounds(projections);
+            if let Some((leaf, other, scale)) = self.corners(node, a, b, opened_a) {
+                bounds = bounds.max(self.certain(leaf.distances(&other, scale)));
+            }
+            let bounds = bounds.to_array();
             for (lane, &bound) in bounds.iter().enumerate().take(node.len()) {
                 let child = Slot::new(number, lane);
                 let (a, b) = if opened_a { (child, b) } else { (a, child) };
@@ -115,7 +148,11 @@ impl<'t> Frame<'t> {
             let axes = other(opened_a).axes;
             let speeds = axes.map(|axis| f32x8::splat((0..3).map(|k| axis[k] * velocity[k]).sum()));
             let own_speeds = node.along(&velocity);
-            let (enter, leave) = self.way_bounds(projections, &speeds, &own_speeds, aim.target);
+            let (mut enter, leave) = self.way_bounds(projections, &speeds, &own_speeds, &velocity, aim.target);
+            if let Some((leaf, other, scale)) = self.corners(node, a, b, opened_a) {
+                let motion = Motion { velocity, within: self.within(aim.target) };
+                enter = leaf.ways(&other, scale, &motion, enter);
+            }
             let (enter, leave) = (enter.to_array(), leave.to_array());
             for lane in 0..node.len() {
                 if enter[lane] <= leave[lane] {
@@ -132,7 +169,9 @@ impl<'t> Frame<'t> {
         let open_a = match (self.a.triangle(a), self.b.triangle(b)) {
             (Some(_), None) => false,
             (None, Some(_)) => true,
-            (None, None) => node_a.size(a.lane()) * self.scale_a >= node_b.size(b.lane()) * self.scale_b,
+            (None, None) => {
+                self.a.boxes[a.number()].size * self.scale_a >= self.b.boxes[b.number()].size * self.scale_b
+            }
             (Some(_), Some(_)) => unreachable!("two triangles are compared, not opened"),
         };
         if open_a {
@@ -147,7 +186,7 @@ impl<'t> Frame<'t> {
     }
 
     fn b_seen_from_a(&self, slot: Slot) -> Obb {
-        let b = scaled(self.b.nodes[slot.node()].get(slot.lane()), self.scale_b);
+        let b = scaled(self.b.boxes[slot.number()].obb, self.scale_b);
         let r = &self.rotation;
         let turn =
             |x: &[f32; 3]| -> [f32; 3] { std::array::from_fn(|i| r[i][0] * x[0] + r[i][1] * x[1] + r[i][2] * x[2]) };
@@ -160,7 +199,7 @@ impl<'t> Frame<'t> {
     }
 
     fn a_seen_from_b(&self, slot: Slot) -> Obb {
-        let a = scaled(self.a.nodes[slot.node()].get(slot.lane()), self.scale_a);
+        let a = scaled(self.a.boxes[slot.number()].obb, self.scale_a);
         let r = &self.rotation;
         let turn =
             |x: &[f32; 3]| -> [f32; 3] { std::array::from_fn(|i| r[0][i] * x[0] + r[1][i] * x[1] + r[2][i] * x[2]) };
@@ -168,67 +207,35 @@ impl<'t> Frame<'t> {
         Obb { centre: turn(&c), axes: a.axes.map(|x| turn(&x)), half: a.half }
     }
 
-    /// Per axis the boxes are at least `|distance| - extent` apart; three perpendicular gaps add up as in Pythagoras.
-    fn distance_bounds(&self, p: &Projections) -> f32x8 {
-        let zero = f32x8::splat(0.0);
-        let squared = |axes: &[(f32x8, f32x8); 3]| {
-            let gap = axes.map(|(distance, extent)| (distance.abs() - extent).max(zero));
-            gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2]
-        };
-        let bound = squared(&p.other).max(squared(&p.own)).sqrt();
-        // The axes are perpendicular and of length 1 only up to their rounding and the poses' deviation.
-        (bound * f32x8::splat(1.0 - 1e-5) - f32x8::splat(self.slack)).max(zero)
+    /// The corners of the opened node's triangles and those of the other slot's triangle in the same frame, when the node
+    /// holds nothing but triangles and the other slot is one.
+    fn corners<'n>(
+        &self,
+        node: &'n WideNode,
+        a: Slot,
+        b: Slot,
+        opened_a: bool,
+    ) -> Option<(&'n Leaf, [[f32; 3]; 3], f32)> {
+        let leaf = node.leaf().filter(|_| (0..node.len()).all(|lane| node.triangle(lane).is_some()))?;
+        let (tree, slot) = if opened_a { (self.b, b) } else { (self.a, a) };
+        let home = &tree.nodes[slot.node()];
+        home.triangle(slot.lane())?;
+        let corners = home.leaf()?.get(slot.lane());
+        let r = &self.rotation;
+        Some(if opened_a {
+            let seen = |x: [f32; 3]| -> [f32; 3] {
+                let x = x.map(|x| x * self.scale_b);
+                std::array::from_fn(|i| r[i][0] * x[0] + r[i][1] * x[1] + r[i][2] * x[2] + self.translation[i])
+            };
+            (leaf, corners.map(seen), self.scale_a)
+        } else {
+            let seen = |x: [f32; 3]| -> [f32; 3] {
+                let x: [f32; 3] = std::array::from_fn(|i| x[i] * self.scale_a - self.translation[i]);
+                std::array::from_fn(|i| r[0][i] * x[0] + r[1][i] * x[1] + r[2][i] * x[2])
+            };
+            (leaf, corners.map(seen), self.scale_b)
+        })
     }
-
-    /// When the boxes may come within the target, and when they have left it along one axis (before `enter`: never).
-    fn way_bounds(&self, p: &Projections, speeds: &[f32x8; 3], own_speeds: &[f32x8; 3], target: f32) -> (f32x8, f32x8) {
-        // The way itself is up to some units long and the speeds are rounded: four times the slack of a distance.
-        let within = target * (1.0 + 1e-5) + 4.0 * self.slack;
-        let spare = f32x8::splat(within);
-        let mut enter = f32x8::splat(0.0);
-        let mut leave = f32x8::splat(f32::INFINITY);
-        for (axes, speeds) in [(&p.other, speeds), (&p.own, own_speeds)] {
-            for ((distance, extent), speed) in axes.iter().zip(speeds) {
-                // A speed of 0 becomes one so small that it decides nothing but whether the axis separates for ever.
-                let size = speed.abs().max(f32x8::splat(1e-12));
-                let sign = speed.simd_lt(f32x8::splat(0.0)).select(f32x8::splat(-1.0), f32x8::splat(1.0));
-                let toward = *distance * sign;
-                let reach = *extent + spare;
-                enter = enter.max((-toward - reach) / size);
-                leave = leave.min((reach - toward) / size);
-            }
-        }
-        // Single axes say little about corners; that matters as soon as the target is more than rounding.
-        if within > 64.0 * self.slack {
-            for _ in 0..3 {
-                let reached = enter;
-                for (axes, speeds) in [(&p.other, speeds), (&p.own, own_speeds)] {
-                    enter = enter.max(next_on_way(axes, speeds, reached, within));
-                }
-            }
-        }
-        (enter, leave)
-    }
-}
-
-/// One step of Newton's iteration for the way after which the gap vector of three axes is no longer than `within`.
-///
-/// Its length is convex along the way, so a step from before the root does not pass it; infinite when there is no root.
-fn next_on_way(axes: &[(f32x8, f32x8); 3], speeds: &[f32x8; 3], way: f32x8, within: f32) -> f32x8 {
-    let zero = f32x8::splat(0.0);
-    let (mut squared, mut product) = (zero, zero);
-    for ((distance, extent), speed) in axes.iter().zip(speeds) {
-        let at = *distance + way * *speed;
-        let gap = (at.abs() - *extent).max(zero);
-        squared += gap * gap;
-        product += gap * at.simd_lt(zero).select(-*speed, *speed);
-    }
-    let length = squared.sqrt();
-    // The slope is rounded; a steeper one only makes the step shorter.
-    let descent = f32x8::splat(4e-6) - product / length.max(f32x8::splat(f32::MIN_POSITIVE));
-    let excess = length - f32x8::splat(within);
-    let step = descent.simd_gt(zero).select(excess / descent, f32x8::splat(f32::INFINITY));
-    excess.simd_gt(zero).select(way + step, way)
 }
 
 fn scaled(b: Obb, scale: f32) -> Obb {

@@ -8,8 +8,10 @@
 //! [-1, 1]; an object far from the origin, or a thousand times smaller than its partner, loses nothing.
 
 mod best_first;
+mod bounds;
 mod build;
 mod frame;
+mod leaf;
 mod obb;
 mod probe;
 mod wide_node;
@@ -19,13 +21,15 @@ pub(crate) use frame::Frame;
 pub(crate) use wide_node::Slot;
 
 use nalgebra::{Point3, Vector3};
-use wide_node::WideNode;
+use wide_node::{Single, WideNode};
 
 /// A hierarchy over the triangles of one object.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree {
     /// Node 0 holds the root box alone.
     nodes: Vec<WideNode>,
+    /// The same boxes one by one, for the other side of a test: a slot's box lies in one cache line.
+    boxes: Vec<Single>,
     /// Where the tree's coordinates have their origin, in the object's own.
     origin: Point3<f64>,
     /// Tree coordinates times this power of two are lengths of the object.
@@ -46,7 +50,9 @@ impl Tree {
         let unit = power_of_two_above(extent);
         let local: Vec<[Vector3<f64>; 3]> =
             triangles.iter().map(|t| t.map(|v| (positions[v as usize] - origin) / unit)).collect();
-        Self { nodes: build::build(&local), origin, unit }
+        let nodes = build::build(&local);
+        let boxes = nodes.iter().flat_map(WideNode::singles).collect();
+        Self { nodes, boxes, origin, unit }
     }
 
     /// The one box around everything.

@@ -13,15 +13,14 @@ impl Tree {
         let (start, end, slack) = (self.local(start), self.local(end), slack / self.unit + ROUNDING);
         let mut stack = vec![self.root()];
         while let Some(slot) = stack.pop() {
-            let node = &self.nodes[slot.node()];
-            if !touches(&node.get(slot.lane()), &start, &end, slack) {
+            if !touches(&self.boxes[slot.number()].obb, &start, &end, slack) {
                 continue;
             }
             match self.triangle(slot) {
                 Some(triangle) if !visit(triangle) => return,
                 Some(_) => {}
                 None => {
-                    let below = node.node(slot.lane());
+                    let below = self.nodes[slot.node()].node(slot.lane());
                     stack.extend((0..self.nodes[below as usize].len()).map(|lane| Slot::new(below, lane)));
                 }
             }
@@ -44,7 +43,10 @@ impl Tree {
             let below = self.nodes[slot.node()].node(slot.lane());
             let node = &self.nodes[below as usize];
             let from = stack.len();
-            stack.extend((0..node.len()).map(|lane| (gap(&node.get(lane), &point) - slack, Slot::new(below, lane))));
+            stack.extend((0..node.len()).map(|lane| {
+                let child = Slot::new(below, lane);
+                (gap(&self.boxes[child.number()].obb, &point) - slack, child)
+            }));
             stack[from..].sort_unstable_by(|x, y| y.0.total_cmp(&x.0));
         }
     }

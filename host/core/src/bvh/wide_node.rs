@@ -1,7 +1,9 @@
 //! Eight boxes side by side, tested at once against a ninth.
 
+use nalgebra::Vector3;
 use wide::f32x8;
 
+use super::leaf::Leaf;
 use super::obb::Obb;
 
 /// Children per node.
@@ -13,6 +15,10 @@ pub(crate) struct Slot(u32);
 
 impl Slot {
     pub(super) const ROOT: Slot = Slot(0);
+
+    pub(super) fn number(self) -> usize {
+        self.0 as usize
+    }
 
     pub(super) fn new(node: u32, lane: usize) -> Self {
         Self(node * LANES as u32 + lane as u32)
@@ -37,6 +43,15 @@ pub(super) enum Child {
 /// Marks a triangle among the children's numbers; a mesh has fewer than 2^31 triangles.
 const TRIANGLE: u32 = 1 << 31;
 
+/// One box, aligned to a cache line.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub(super) struct Single {
+    pub(super) obb: Obb,
+    /// Half the diagonal is at most this.
+    pub(super) size: f32,
+}
+
 #[derive(Clone, Debug)]
 pub(super) struct WideNode {
     centre: [f32x8; 3],
@@ -44,6 +59,8 @@ pub(super) struct WideNode {
     half: [f32x8; 3],
     children: [u32; LANES],
     len: usize,
+    /// Corners of the lanes that hold triangles; lanes that do not hold one are zero.
+    leaf: Option<Box<Leaf>>,
 }
 
 /// Separation of the eight boxes from another one, all of them certain up to the frame's slack.
@@ -52,12 +69,28 @@ pub(super) struct Projections {
     pub(super) other: [(f32x8, f32x8); 3],
     /// Along the eight boxes' own axes.
     pub(super) own: [(f32x8, f32x8); 3],
+    /// From the other box's centre to the eight boxes'.
+    pub(super) centres: [f32x8; 3],
+    /// Half extents of the other box, and of the eight.
+    pub(super) half: [(f32x8, f32x8); 3],
+}
+
+impl Projections {
+    /// Squared distance of the centres, and both boxes' extents along their line times that distance.
+    pub(super) fn along_centres(&self) -> (f32x8, f32x8) {
+        let d = &self.centres;
+        let mut extent = f32x8::splat(0.0);
+        for i in 0..3 {
+            extent += self.other[i].0.abs() * self.half[i].0 + self.own[i].0.abs() * self.half[i].1;
+        }
+        (d[0] * d[0] + d[1] * d[1] + d[2] * d[2], extent)
+    }
 }
 
 impl WideNode {
     pub(super) fn empty() -> Self {
         let zero = f32x8::splat(0.0);
-        Self { centre: [zero; 3], axes: [[zero; 3]; 3], half: [zero; 3], children: [0; LANES], len: 0 }
+        Self { centre: [zero; 3], axes: [[zero; 3]; 3], half: [zero; 3], children: [0; LANES], len: 0, leaf: None }
     }
 
     pub(super) fn set(&mut self, lane: usize, b: &Obb, content: Child) {
@@ -80,13 +113,28 @@ impl WideNode {
         self.len = self.len.max(lane + 1);
     }
 
-    pub(super) fn get(&self, lane: usize) -> Obb {
-        let at = |field: &f32x8| field.as_array()[lane];
-        Obb {
-            centre: self.centre.each_ref().map(at),
-            axes: self.axes.each_ref().map(|axis| axis.each_ref().map(at)),
-            half: self.half.each_ref().map(at),
-        }
+    /// Remembers the corners of the triangle in a lane.
+    pub(super) fn set_corners(&mut self, lane: usize, corners: &[Vector3<f64>; 3]) {
+        self.leaf.get_or_insert_default().set(lane, corners);
+    }
+
+    /// The corners of the triangles, if a lane holds one.
+    pub(super) fn leaf(&self) -> Option<&Leaf> {
+        self.leaf.as_deref()
+    }
+
+    /// All lanes one by one; unused ones are empty boxes.
+    pub(super) fn singles(&self) -> [Single; LANES] {
+        std::array::from_fn(|lane| {
+            let at = |field: &f32x8| field.as_array()[lane];
+            let half = self.half.each_ref().map(at);
+            let obb = Obb {
+                centre: self.centre.each_ref().map(at),
+                axes: self.axes.each_ref().map(|axis| axis.each_ref().map(at)),
+                half,
+            };
+            Single { obb, size: half.iter().sum() }
+        })
     }
 
     pub(super) fn len(&self) -> usize {
@@ -102,11 +150,6 @@ impl WideNode {
     pub(super) fn node(&self, lane: usize) -> u32 {
         debug_assert!(self.triangle(lane).is_none());
         self.children[lane]
-    }
-
-    /// Half the diagonal is at most this.
-    pub(super) fn size(&self, lane: usize) -> f32 {
-        self.half.iter().map(|h| h.as_array()[lane]).sum()
     }
 
     /// Projects the eight boxes (their coordinates times `scale`) and `other`, which is given in the same frame.
@@ -128,8 +171,8 @@ impl WideNode {
             }
             others[i] = (dot(&axes[i], &d), extent);
         }
-        let own = std::array::from_fn(|j| (dot(&self.axes[j], &d), own_extent[j]));
-        Projections { other: others, own }
+        let own: [(f32x8, f32x8); 3] = std::array::from_fn(|j| (dot(&self.axes[j], &d), own_extent[j]));
+        Projections { other: others, own, centres: d, half: std::array::from_fn(|i| (reach[i], half[i])) }
     }
 
     /// The eight boxes' own axes times a direction.

@@ -242,6 +242,13 @@ impl<'a> Pair<'a> {
         self.truth_with(configuration, start, Effort::Enough)
     }
 
+    /// The same from few pairs of triangles (at least one), when all others are known to be at least `beyond` apart.
+    pub(crate) fn truth_among(&self, configuration: &Configuration, pairs: &[[u32; 2]], beyond: f64) -> Truth {
+        Scene::with(self, configuration, |scene| {
+            self.describe(scene, nearest::nearest_among(scene, pairs, beyond / scene.unit), Effort::Enough)
+        })
+    }
+
     /// As [`Pair::truth`], always by exact arithmetic: the distance between neighbouring f64 numbers, and the margin of
     /// the best crossing pair rounded down to one.
     pub fn tightest_truth(&self, configuration: &Configuration) -> Truth {

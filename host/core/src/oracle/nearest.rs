@@ -37,6 +37,18 @@ pub(crate) fn nearest(scene: &Scene, start: Option<[u32; 2]>, effort: Effort) ->
     }
 }
 
+/// The nearest of some pairs, when all others are known to be at least `beyond` apart.
+pub(crate) fn nearest_among(scene: &Scene, pairs: &[[u32; 2]], beyond: f64) -> Nearest {
+    let mut search = Search { scene, hi: f64::INFINITY, best: [0, 0], candidates: Vec::new(), exact_used: false };
+    match pairs.iter().find(|&&pair| search.look(pair)) {
+        Some(&pair) => Nearest { lo: 0.0, hi: 0.0, pair, hit: true, exact_used: search.exact_used },
+        None => {
+            let found = search.settle(Effort::Enough);
+            Nearest { lo: found.lo.min(beyond), ..found }
+        }
+    }
+}
+
 struct Candidate {
     pair: [u32; 2],
     near: Closest,
@@ -64,6 +76,11 @@ impl Search<'_, '_> {
             return Some(pair);
         }
         let (root_a, root_b) = frame.roots();
+        if let Some(pair) = frame.nearby()
+            && self.look(pair)
+        {
+            return Some(pair);
+        }
         let mut queue = BestFirst::default();
         queue.push(0.0, root_a, root_b);
         while let Some((bound, a, b)) = queue.pop() {

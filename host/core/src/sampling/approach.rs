@@ -25,10 +25,26 @@ pub(super) struct Approach<'a> {
     window: Window,
 }
 
+/// The first position on the ray, and what the search for it proved.
+struct Found {
+    root: Root,
+    /// All pairs of triangles that are not among these are at least `floor` apart everywhere before `way`.
+    pairs: Vec<[u32; 2]>,
+    floor: f64,
+    way: f64,
+}
+
+impl Found {
+    /// A lower bound of the distance of all other pairs after a way.
+    fn beyond(&self, way: f64) -> f64 {
+        self.floor - (way - self.way).max(0.0)
+    }
+}
+
 /// A position on the ray.
+#[derive(Clone, Copy)]
 struct Root {
     way: f64,
-    pair: [u32; 2],
     /// Change of the distance per way there; negative.
     slope: f64,
 }
@@ -68,11 +84,12 @@ impl<'a> Approach<'a> {
     pub(super) fn place(&self, direction: &Vector3<f64>, rotation: &Matrix3<f64>) -> Option<Placed> {
         let from = self.centre_a.coords + direction * self.start - rotation * self.centre_b.coords;
         let ray = Ray { direction, rotation, from, length: 2.0 * self.start };
-        let mut root = self.first_root(&ray)?;
+        let found = self.first_root(&ray)?;
+        let mut root = found.root;
         // The matrix is rounded and the wanted distance changes with the way: a correction or two may be needed.
         for _ in 0..4 {
             let configuration = ray.configuration(root.way);
-            let truth = self.pair.truth_near(&configuration, Some(root.pair));
+            let truth = self.pair.truth_among(&configuration, &found.pairs, found.beyond(root.way));
             let (wanted, tau) = self.wanted(&configuration);
             if within(&truth, wanted, tau) {
                 return Some(Placed { configuration, truth, root_index: 0, wanted: Some(self.window.separation) });
@@ -91,25 +108,40 @@ impl<'a> Approach<'a> {
     }
 
     /// The smallest way after which some pair of triangles is the wanted distance apart.
-    fn first_root(&self, ray: &Ray) -> Option<Root> {
+    ///
+    /// What is not visited was proven to be further apart up to there, so the search is half of the certificate.
+    fn first_root(&self, ray: &Ray) -> Option<Found> {
         let (a, b) = (self.pair.a(), self.pair.b());
         let start = ray.configuration(0.0);
         let size = self.pair.scene_size(&start).max(self.start) * 4.0;
         let frame = Frame::new(a.tree(), &start.pose_a, b.tree(), &start.pose_b, size)?;
         // The band grows with the translation, which is longest at an end of the ray.
-        let widest =
-            [0.0, ray.length].map(|way| self.wanted(&ray.configuration(way)).0).into_iter().fold(0.0, f64::max);
-        let aim = frame.aim(&start.pose_a, &start.pose_b, &-ray.direction, widest / frame.unit);
+        let floor = [0.0, ray.length].map(|way| {
+            let (wanted, tau) = self.wanted(&ray.configuration(way));
+            wanted + 0.01 * tau
+        });
+        let floor = floor[0].max(floor[1]);
+        let aim = frame.aim(&start.pose_a, &start.pose_b, &-ray.direction, floor / frame.unit);
+        let mut pairs = Vec::new();
         let mut queue = BestFirst::default();
         let (root_a, root_b) = frame.roots();
         queue.push(0.0, root_a, root_b);
         let mut best: Option<Root> = None;
         let mut limit = ray.length / frame.unit;
+        // Any root bounds the first one: the sooner one is known, the fewer boxes wait in the queue.
+        if let Some((bound, pair)) = frame.nearby_along(&aim)
+            && let Some(root) = self.root_of_pair(ray, pair, f64::from(bound) * frame.unit, ray.length)
+        {
+            limit = root.way / frame.unit;
+            best = Some(root);
+            pairs.push(pair);
+        }
         while let Some((bound, slot_a, slot_b)) = queue.pop() {
             if f64::from(bound) >= limit {
                 break;
             }
             if let Some(pair) = frame.triangles(slot_a, slot_b) {
+                pairs.push(pair);
                 let found = self.root_of_pair(ray, pair, f64::from(bound) * frame.unit, limit * frame.unit);
                 if let Some(root) = found {
                     limit = root.way / frame.unit;
@@ -123,7 +155,8 @@ impl<'a> Approach<'a> {
                 }
             });
         }
-        best
+        let root = best?;
+        Some(Found { root, pairs, floor, way: root.way })
     }
 
     /// Where two triangles are first the wanted distance apart, after `from` and before `limit`.
@@ -144,7 +177,7 @@ impl<'a> Approach<'a> {
             // B moves against the direction.
             let slope = -between.dot(ray.direction) / distance;
             if excess.abs() <= 1e-7 * tau {
-                return (slope < 0.0).then_some(Root { way, pair: [i, j], slope });
+                return (slope < 0.0).then_some(Root { way, slope });
             }
             if slope.is_nan() || slope >= -1e-9 {
                 return None; // it never comes nearer than this
