@@ -102,10 +102,10 @@ fn next_between_centres(
 ) -> f32x8 {
     let mut apart = f32x8::splat(0.0);
     let mut speed = f32x8::splat(0.0);
-    for k in 0..3 {
-        let at = p.centres[k] + way * f32x8::splat(velocity[k]);
+    for (centre, &velocity) in p.centres.iter().zip(velocity) {
+        let at = *centre + way * f32x8::splat(velocity);
         apart += at * at;
-        speed += at * f32x8::splat(velocity[k]);
+        speed += at * f32x8::splat(velocity);
     }
     let mut extent = f32x8::splat(0.0);
     for i in 0..3 {
