@@ -14,9 +14,9 @@
 use core::ffi::c_void;
 
 use abi_stable::StableAbi;
-use abi_stable::abi_stability::abi_checking::check_layout_compatibility;
+use abi_stable::abi_stability::abi_checking::{AbiInstabilityErrors, ExpectedFound, check_layout_compatibility};
 use abi_stable::library::AbiHeader;
-use abi_stable::type_layout::TypeLayout;
+use abi_stable::type_layout::{TLFieldOrFunction, TypeLayout};
 
 use crate::raw;
 
@@ -88,7 +88,7 @@ impl LayoutNote {
 pub enum LayoutError {
     /// The plugin was built with an abi_stable whose notes this host cannot read.
     Unreadable,
-    /// A struct differs; the text names the fields.
+    /// A struct differs; the text names the first such field.
     Different(String),
 }
 
@@ -102,8 +102,8 @@ impl core::fmt::Display for LayoutError {
             ),
             Self::Different(what) => write!(
                 f,
-                "the plugin was built against other struct layouts; build it again with the host's version of \
-                 opencollbench-plugin: {what}"
+                "the plugin was built with another version of opencollbench-plugin ({what}); build it again with the \
+                 host's version"
             ),
         }
     }
@@ -125,5 +125,29 @@ pub unsafe fn check(note: *const c_void) -> Result<(), LayoutError> {
     // SAFETY: the header says that the note is one of ours; beyond that we take the plugin's word, as the caller knows.
     let note = unsafe { &*note.cast::<LayoutNote>() };
     check_layout_compatibility(<Abi as StableAbi>::LAYOUT, note.layout)
-        .map_err(|errors| LayoutError::Different(errors.to_string()))
+        .map_err(|errors| LayoutError::Different(first_difference(&errors)))
+}
+
+/// The deepest difference in a few words; abi_stable's own text lists both layouts whole.
+fn first_difference(errors: &AbiInstabilityErrors) -> String {
+    const MOST: usize = 200;
+    let deepest = errors.errors.iter().max_by_key(|error| error.stack_trace.len());
+    let trace = deepest.map(|error| error.stack_trace.as_slice()).unwrap_or_default();
+    let words = match trace.last() {
+        Some(ExpectedFound { expected: TLFieldOrFunction::Field(host), found: TLFieldOrFunction::Field(theirs) }) => {
+            let name = |step: &ExpectedFound<TLFieldOrFunction>| match step.found {
+                TLFieldOrFunction::Field(field) => field.name(),
+                TLFieldOrFunction::Function(_) => "(function)",
+            };
+            let path = trace.iter().map(name).collect::<Vec<_>>().join(".");
+            let (host, theirs) = (host.full_type().to_string(), theirs.full_type().to_string());
+            if host == theirs {
+                format!("'{path}' is laid out otherwise")
+            } else {
+                format!("'{path}' is {theirs} there and {host} here")
+            }
+        }
+        _ => "the structs have other fields or another package version".to_string(),
+    };
+    words.chars().take(MOST).collect()
 }

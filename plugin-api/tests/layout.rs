@@ -160,6 +160,9 @@ fn a_note_with_one_narrower_field_does_not_fit_and_names_it() {
     // SAFETY: an honest note, of another ABI.
     let error = unsafe { check((&raw const NOTE).cast()) }.expect_err("another ABI");
     assert!(matches!(&error, LayoutError::Different(what) if what.contains("total")), "{error}");
+    let sentence = "the plugin was built with another version of opencollbench-plugin ('contacts_result.total' is u32 \
+                    there and u64 here); build it again with the host's version";
+    assert_eq!(error.to_string(), sentence);
 }
 
 #[test]
