@@ -52,7 +52,7 @@ check-oracle: ## the oracle against CGAL, integers and planted faults (some 20 m
 bench: build ## measure the three algorithms on the torus knot from the terminal
 	$(TARGET)/release/ocb bench stock:torus-knot --query cd --count 2000 --data $(DATA)
 
-soak: build ## kill and restart the service for MINUTES (10)
+soak: build ## fuzz the jail's readers, then kill and restart the service for MINUTES (10)
 	tests/setup/soak.sh $(or $(MINUTES),10)
 
 clean: ## remove what was built; keeps data/ and .tools/

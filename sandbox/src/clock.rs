@@ -30,6 +30,11 @@ impl Clock {
         })
     }
 
+    /// It reads the time stamp counter.
+    pub fn is_counter(&self) -> bool {
+        self.counter
+    }
+
     /// Now. Later memory accesses are not begun before it, earlier ones are done.
     #[inline(always)]
     pub fn ticks(&self) -> u64 {

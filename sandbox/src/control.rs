@@ -43,8 +43,8 @@ pub struct Order {
 /// Child side to supervisor.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Report {
-    /// The jail's first process exists and waits; comes with its pidfd. Answered by [`Go`].
-    InitWaits,
+    /// The jail's first process exists; comes with its pidfd.
+    InitStarted,
     /// The runner exists; comes with its pidfd.
     RunnerStarted {
         /// It has user and group ids of its own.
@@ -63,10 +63,6 @@ pub enum Report {
         reason: String,
     },
 }
-
-/// Supervisor to launcher: init is in its memory group, go on.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Go;
 
 impl Control {
     /// Two connected ends, both closed on exec.

@@ -3,7 +3,6 @@
 use std::fs::File;
 use std::io::{self, Read};
 use std::os::fd::{AsFd, AsRawFd, BorrowedFd, OwnedFd};
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use nix::poll::{PollFd, PollFlags, PollTimeout, poll};
@@ -49,7 +48,7 @@ pub(crate) fn kill(process: BorrowedFd<'_>) {
 impl Jail {
     /// One look at everything that may have happened; `Some` when the runner's life is over.
     pub fn watch(&mut self, phase: Phase) -> Option<Outcome> {
-        if self.cancelled.load(Ordering::SeqCst) {
+        if self.killer.asked() {
             return Some(Outcome::Cancelled);
         }
         let (listener, runner) = (self.listener.as_ref()?, self.runner.as_ref()?);
@@ -90,7 +89,7 @@ impl Jail {
 
     /// The runner is dead: by whose hand?
     fn how_it_ended(&mut self, phase: Phase) -> Outcome {
-        if self.cancelled.load(Ordering::SeqCst) {
+        if self.killer.asked() {
             return Outcome::Cancelled;
         }
         let status = match self.report_before(Instant::now() + END) {

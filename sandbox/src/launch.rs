@@ -12,13 +12,15 @@ use std::time::{Duration, Instant};
 use nix::poll::{PollFd, PollFlags, PollTimeout, poll};
 
 use crate::confine::process_descriptor;
-use crate::control::{Control, Go, Order, Report};
+use crate::control::{Control, Order, Report};
 use crate::doorbell::futex_wait;
-use crate::evidence::{Launched, Messages, kill, status_kib};
+use crate::evidence::{Launched, Messages, status_kib};
+use crate::gate::MAX_BYTES;
+use crate::layers::Layers;
 use crate::memory::MemoryGroup;
 use crate::outcome::{Ending, Outcome};
 use crate::policy::Policy;
-use crate::protocol::{Hardening, answer, request};
+use crate::protocol::{answer, request};
 use crate::shared::{Segment, memory_file, seal};
 use crate::verify::{Expected, verify};
 
@@ -33,34 +35,34 @@ pub(crate) struct Jail {
     pub answer: Segment,
     /// Host's process id of the runner.
     pub pid: i32,
-    /// In force, one phrase each.
-    pub layers: Vec<String>,
+    /// In force.
+    pub layers: Layers,
     pub(crate) launcher: Launched,
     pub(crate) control: Control,
     pub(crate) messages: Messages,
-    pub(crate) init: Option<Arc<OwnedFd>>,
+    pub(crate) init: Option<OwnedFd>,
     pub(crate) runner: Option<OwnedFd>,
     pub(crate) listener: Option<OwnedFd>,
     pub(crate) group: Option<MemoryGroup>,
     pub(crate) baseline_bytes: u64,
-    pub(crate) cancelled: Arc<AtomicBool>,
+    pub(crate) killer: Killer,
     pub(crate) limits: Policy,
 }
 
-/// Ends a session from another thread.
-#[derive(Clone, Debug)]
-pub struct Killer {
-    asked: Arc<AtomicBool>,
-    pub(crate) init: Option<Arc<OwnedFd>>,
-}
+/// Ends a session from another thread, from before its start on: a plugin may take its time to load and to build. The
+/// thread that waits for the runner looks at it every millisecond and does the killing.
+#[derive(Clone, Debug, Default)]
+pub struct Killer(Arc<AtomicBool>);
 
 impl Killer {
-    /// Kills the jail; the session's outcome becomes [`Outcome::Cancelled`]. Harmless when it has ended already.
+    /// The session's outcome becomes [`Outcome::Cancelled`]. Harmless when it has ended already.
     pub fn kill(&self) {
-        self.asked.store(true, Ordering::SeqCst);
-        if let Some(init) = &self.init {
-            kill(init.as_fd());
-        }
+        self.0.store(true, Ordering::SeqCst);
+    }
+
+    /// Was it asked for?
+    pub(crate) fn asked(&self) -> bool {
+        self.0.load(Ordering::SeqCst)
     }
 }
 
@@ -69,6 +71,7 @@ impl Jail {
     pub fn start(
         runner: &Path,
         policy: &Policy,
+        killer: &Killer,
         plugin: &Path,
         trial: &[u8],
         futex: bool,
@@ -78,11 +81,19 @@ impl Jail {
         let unreadable = |error: io::Error| {
             Ending::from(Outcome::LoadError { reason: format!("{} cannot be read: {error}", plugin.display()) })
         };
+        if killer.asked() {
+            return Err(Outcome::Cancelled.into());
+        }
         let plugin_path = plugin.canonicalize().map_err(unreadable)?;
         let plugin_file = File::open(&plugin_path).map_err(unreadable)?;
         let metadata = plugin_file.metadata().map_err(unreadable)?;
         if !metadata.is_file() {
             return Err(unreadable(io::Error::other("it is no regular file")));
+        }
+        if metadata.len() > MAX_BYTES {
+            let reason =
+                format!("it has {} bytes, at most {MAX_BYTES} may be; strip its debug symbols", metadata.len());
+            return Err(Outcome::LoadError { reason }.into());
         }
         let sheet = memory_file(c"ocb-trial", trial.len()).map_err(fault("SharedMemory"))?;
         {
@@ -126,7 +137,7 @@ impl Jail {
             request,
             answer,
             pid,
-            layers: Vec::new(),
+            layers: Layers::default(),
             launcher: Launched { pid, handle, usage: None },
             control,
             messages: Messages { pipe, bytes: Vec::new(), cap: policy.output_bytes },
@@ -135,7 +146,7 @@ impl Jail {
             listener: None,
             group,
             baseline_bytes: 0,
-            cancelled: Arc::default(),
+            killer: killer.clone(),
             limits: policy.clone(),
         };
         // With a group the address space only has to stop absurd reservations; without one it is the memory limit.
@@ -156,6 +167,11 @@ impl Jail {
         };
         let files = [sheet.as_fd(), request_file.as_fd(), answer_file.as_fd(), plugin_file.as_fd()];
         let mut started = || -> Result<(), Outcome> {
+            // While the launcher is still starting: a move between groups waits for the whole kernel (some 10 ms).
+            // Init and runner are born into it.
+            if let Some(group) = &jail.group {
+                group.add(pid).map_err(|e| Outcome::fault("MemoryGroup", e))?;
+            }
             jail.control.send(&order, &files).map_err(|e| Outcome::fault("Start", e))?;
             jail.admit()?;
             jail.take_listener(namespaces)
@@ -170,26 +186,21 @@ impl Jail {
         self.limits.trial_seconds.clamp(1.0, 1e9) as u64 + 30
     }
 
-    /// Init into its memory group, then on; the runner's process.
+    /// Waits for init's process, then for the runner's.
     fn admit(&mut self) -> Result<(), Outcome> {
         let deadline = Instant::now() + START;
         loop {
             let (report, mut descriptors) = self.report_before(deadline)?;
             match report {
-                Report::InitWaits => {
+                Report::InitStarted => {
                     let init = descriptors.pop().ok_or_else(|| Outcome::fault("Start", "init came without itself"))?;
-                    if let Some(group) = &self.group {
-                        let added = pid_of(&init).and_then(|pid| group.add(pid));
-                        added.map_err(|e| Outcome::fault("MemoryGroup", e))?;
-                    }
-                    self.init = Some(Arc::new(init));
-                    self.control.send(&Go, &[]).map_err(|e| Outcome::fault("Start", e))?;
+                    self.init = Some(init);
                 }
                 Report::RunnerStarted { own_ids } => {
                     let runner = descriptors.pop().ok_or_else(|| Outcome::fault("Start", "no runner came"))?;
                     self.pid = pid_of(&runner).map_err(|e| Outcome::fault("Start", e))?;
                     self.runner = Some(runner);
-                    self.layers.push(if own_ids { "ids of its own" } else { "ids of this user" }.into());
+                    self.layers.own_ids = own_ids;
                     return Ok(());
                 }
                 Report::RunnerEnded { status } => return Err(early(status)),
@@ -223,6 +234,9 @@ impl Jail {
                 0 => futex_wait(word, 0, Some(Duration::from_millis(2))),
                 number => break number as i32 - 1,
             }
+            if self.killer.asked() {
+                return Err(Outcome::Cancelled);
+            }
             if let Some(outcome) = self.faults() {
                 return Err(outcome);
             }
@@ -239,13 +253,14 @@ impl Jail {
         }
         // SAFETY: just made, owned by nobody else.
         self.listener = Some(unsafe { OwnedFd::from_raw_fd(fd) });
-        self.name_layers(namespaces)
+        self.note_layers(namespaces)
     }
 
     /// After the runner has closed its own copy of the listener: is it as it must be?
     pub fn verify(&mut self, namespaces: bool) -> Result<(), Outcome> {
-        let own_ids = self.layers.iter().any(|layer| layer == "ids of its own");
-        verify(self.pid, Expected { namespaces, own_ids })
+        let own_ids = self.layers.own_ids;
+        let group = self.group.as_ref().and_then(MemoryGroup::name);
+        verify(self.pid, Expected { namespaces, own_ids, group })
             .map_err(|reason| Outcome::fault("Verify", format!("the runner is not closed off: {reason}")))?;
         self.baseline_bytes = match &self.group {
             Some(group) => group.usage().unwrap_or(0),
@@ -254,42 +269,18 @@ impl Jail {
         Ok(())
     }
 
-    fn name_layers(&mut self, namespaces: bool) -> Result<(), Outcome> {
+    /// What the runner says of its own hardening, beside what we know. It has loaded nothing yet.
+    fn note_layers(&mut self, namespaces: bool) -> Result<(), Outcome> {
         let fact = |i: usize| self.answer.u32(answer::HARDENING + 4 * i).load(Ordering::Relaxed);
-        let hardening = Hardening { landlock_abi: fact(0), sealed_mappings: fact(1), no_new_code: fact(2) };
-        let mut layers = Vec::new();
-        if namespaces {
-            layers.push("user, pid, net, mount, ipc, uts and cgroup namespaces".to_string());
-            layers.push("empty read-only root".to_string());
-        } else {
-            layers.push("NO namespaces and NO own root (this machine refuses them)".to_string());
-        }
-        layers.append(&mut self.layers);
-        layers.push(match &self.group {
-            Some(group) => format!("memory group ({})", group.version()),
-            None => "address space limit instead of a memory group".to_string(),
-        });
-        layers.push("resource limits".into());
-        layers.push("no capabilities, no new privileges".into());
-        layers.push(match hardening.landlock_abi {
-            0 => "NO Landlock (this kernel has none)".to_string(),
-            abi => format!("Landlock ABI {abi}"),
-        });
-        if hardening.sealed_mappings > 0 {
-            layers.push("sealed code (mseal)".into());
-        }
-        if hardening.no_new_code != 0 {
-            layers.push("no new executable memory (MDWE)".into());
-        }
-        layers.push("system call allow-list with notification".into());
-        self.layers = layers;
-        if hardening.landlock_abi == 0 && !self.limits.trusted {
-            return Err(Outcome::fault(
-                "Landlock",
-                "this kernel has no Landlock, which foreign plugins need; use Linux 5.13 or newer with lsm=landlock",
-            ));
-        }
-        Ok(())
+        self.layers = Layers {
+            namespaces,
+            group: self.group.as_ref().map(MemoryGroup::version),
+            landlock_abi: fact(0),
+            sealed_mappings: fact(1),
+            no_new_code: fact(2) != 0,
+            ..self.layers
+        };
+        self.layers.enough(&self.limits)
     }
 
     /// A fault that the jail's own processes report, or their end, while the jail is being built.
@@ -305,11 +296,6 @@ impl Jail {
             Ok(None) => Outcome::fault("Start", "the jail ended without a word"),
             Err(error) => Outcome::fault("Start", error),
         })
-    }
-
-    /// A handle that ends the jail from another thread.
-    pub fn killer(&self) -> Killer {
-        Killer { asked: self.cancelled.clone(), init: self.init.clone() }
     }
 }
 

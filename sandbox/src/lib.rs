@@ -13,11 +13,15 @@ pub mod confine;
 #[doc(hidden)]
 pub mod control;
 pub mod descriptor;
+pub mod doctor;
 #[doc(hidden)]
 pub mod doorbell;
 mod evidence;
 mod exchange;
+pub mod gate;
 pub mod launch;
+pub mod launcher;
+pub mod layers;
 mod memory;
 pub mod outcome;
 pub mod policy;
@@ -34,7 +38,10 @@ mod verify;
 
 pub use clock::{ClockFacts, ClockKind};
 pub use descriptor::{Descriptor, Parameter};
+pub use gate::{Facts, Inspection, Rejection};
 pub use launch::Killer;
+pub use launcher::{Launcher, Trial};
+pub use layers::Profile;
 pub use outcome::{DeniedCall, Ending, Outcome, Phase};
 pub use policy::{ClockChoice, Policy};
-pub use session::{Launcher, Sample, Session, Trial};
+pub use session::{Sample, Session};

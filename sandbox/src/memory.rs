@@ -83,6 +83,11 @@ impl MemoryGroup {
         })
     }
 
+    /// Its own name, without the folders above.
+    pub fn name(&self) -> Option<&str> {
+        self.folder.file_name()?.to_str()
+    }
+
     /// `v1` or `v2`.
     pub fn version(&self) -> &'static str {
         match self.version {

@@ -1,5 +1,7 @@
 //! The limits of a runner and where it runs.
 
+use crate::layers::Profile;
+
 /// The limits of one runner. What happens inside when each is reached stands in `sandbox/README.md`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Policy {
@@ -24,6 +26,8 @@ pub struct Policy {
     /// The plugin was built from our own sources: it may run even where this machine forbids namespaces, under the
     /// layers that remain ([`crate::Session::layers`] lists them). Never set it for a file that somebody brought.
     pub trusted: bool,
+    /// How much a foreign plugin needs of this machine.
+    pub profile: Profile,
 }
 
 /// Which hand-off times the queries.
@@ -51,6 +55,7 @@ impl Default for Policy {
             supervisor_cpu: None,
             clock: ClockChoice::Auto,
             trusted: false,
+            profile: Profile::Production,
         }
     }
 }

@@ -11,6 +11,7 @@ use nalgebra::Point3;
 use ocb_core::query::{Answer, Counters, Query};
 
 use crate::descriptor::Descriptor;
+use crate::gate::Inspection;
 
 /// Byte offsets in the request file. Words that different sides poll lie on cache lines of their own.
 pub mod request {
@@ -34,7 +35,8 @@ pub mod answer {
     pub const RUNNER_SLEEPS: usize = 128;
     /// u32: 1 + the descriptor of the seccomp listener, once the filter is in force.
     pub const LISTENER: usize = 256;
-    /// u32 each: facts of the hardening, written before the plugin is loaded. See [`super::Hardening`].
+    /// u32 each, written before the plugin is loaded: ABI of Landlock in force, number of sealed mappings, whether memory
+    /// can no longer become executable. 0 is "not in force".
     pub const HARDENING: usize = 260;
     /// The slot: [`super::SLOT_WORDS`] u64.
     pub const SLOT: usize = 512;
@@ -58,8 +60,10 @@ pub enum Command {
     Null = 0,
     /// Give up the listener's descriptor, which the supervisor has by now.
     CloseListener = 1,
-    /// Load the plugin file and describe it in the text.
+    /// Load the plugin file, unless the gate refuses it, and describe it in the text.
     Open = 2,
+    /// Read the plugin file as ELF, without loading it, and say in the text what the gate finds.
+    Inspect = 6,
     /// Choose the trial's algorithm, make an instance, set the parameters.
     Prepare = 3,
     /// Build object A.
@@ -82,9 +86,10 @@ pub enum Command {
 
 impl Command {
     /// All of them.
-    pub const ALL: [Command; 12] = [
+    pub const ALL: [Command; 13] = [
         Command::Null,
         Command::CloseListener,
+        Command::Inspect,
         Command::Open,
         Command::Prepare,
         Command::BuildA,
@@ -138,17 +143,6 @@ pub mod slot {
     pub const COUNTS: usize = 13;
     /// Status: the file is no plugin that can be used; the text says why.
     pub const NOT_LOADED: u64 = 100;
-}
-
-/// Facts of the hardening inside the runner, in the order of the words at [`answer::HARDENING`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Hardening {
-    /// ABI of Landlock that is enforced; 0: none.
-    pub landlock_abi: u32,
-    /// Mappings of code that can no longer be changed; 0: this kernel cannot.
-    pub sealed_mappings: u32,
-    /// Memory can no longer become executable.
-    pub no_new_code: u32,
 }
 
 /// How a command went, as far as the status goes.
@@ -238,6 +232,17 @@ pub fn parse_counters(words: &[u64; SLOT_WORDS]) -> Option<Counters> {
         bv_tests: if flags & 1 != 0 { bv_tests } else { 0 },
         primitive_tests: if flags & 2 != 0 { primitive_tests } else { 0 },
     })
+}
+
+/// Reads what the gate has found. The reader of foreign bytes is our own code, and yet it is only believed as far as this.
+pub fn parse_inspection(text: &[u8]) -> Result<Inspection, String> {
+    let inspection: Inspection =
+        serde_json::from_slice(text).map_err(|e| format!("the gate's findings are not readable ({e})"))?;
+    let lists =
+        inspection.facts.iter().flat_map(|f| [&f.libraries, &f.newest_versions, &f.compilers, &f.notable_imports]);
+    let texts = lists.flatten().chain(inspection.rejections.iter().flat_map(|r| [&r.rule, &r.what, &r.why, &r.mend]));
+    let strange = texts.into_iter().any(|text| text.len() > 8192 || text.chars().any(char::is_control));
+    if strange { Err("the gate's findings hold text that it never writes".into()) } else { Ok(inspection) }
 }
 
 /// Reads what a plugin says of itself.

@@ -5,18 +5,20 @@ use std::path::Path;
 
 /// What must hold for this kind of jail.
 #[derive(Clone, Copy, Debug)]
-pub struct Expected {
+pub struct Expected<'a> {
     /// In namespaces and a root of its own.
     pub namespaces: bool,
     /// With user and group ids of its own.
     pub own_ids: bool,
+    /// In the memory group of this name.
+    pub group: Option<&'a str>,
 }
 
 /// Every namespace the runner must have of its own.
 const NAMESPACES: [&str; 7] = ["user", "pid", "net", "mnt", "ipc", "uts", "cgroup"];
 
 /// Looks at the process; the error names the first thing that is not as it must be.
-pub fn verify(pid: i32, expected: Expected) -> Result<(), String> {
+pub fn verify(pid: i32, expected: Expected<'_>) -> Result<(), String> {
     let process = Path::new("/proc").join(pid.to_string());
     let status = fs::read_to_string(process.join("status")).map_err(|e| format!("its status is not readable: {e}"))?;
     check_status(&status, expected)?;
@@ -28,6 +30,12 @@ pub fn verify(pid: i32, expected: Expected) -> Result<(), String> {
     descriptors.sort();
     if descriptors != ["0", "1", "2"] {
         return Err(format!("it holds the descriptors {} instead of 0, 1, 2", descriptors.join(", ")));
+    }
+    if let Some(group) = expected.group {
+        let groups = fs::read_to_string(process.join("cgroup")).map_err(|e| format!("no list of its groups: {e}"))?;
+        if !groups.lines().any(|line| line.rsplit('/').next() == Some(group)) {
+            return Err(format!("it is not in the memory group {group}"));
+        }
     }
     if expected.namespaces {
         for name in NAMESPACES {
@@ -43,7 +51,7 @@ pub fn verify(pid: i32, expected: Expected) -> Result<(), String> {
     Ok(())
 }
 
-fn check_status(status: &str, expected: Expected) -> Result<(), String> {
+fn check_status(status: &str, expected: Expected<'_>) -> Result<(), String> {
     let field = |name: &str| {
         status.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(':')).map(str::trim).unwrap_or("missing")
     };
@@ -92,7 +100,7 @@ mod tests {
         Gid:\t1073741825\t1073741825\t1073741825\t1073741825\nGroups:\t \nThreads:\t1\n\
         CapInh:\t0000000000000000\nCapPrm:\t0000000000000000\nCapEff:\t0000000000000000\nCapBnd:\t0000000000000000\n\
         CapAmb:\t0000000000000000\nNoNewPrivs:\t1\nSeccomp:\t2\n";
-    const JAIL: Expected = Expected { namespaces: true, own_ids: true };
+    const JAIL: Expected<'_> = Expected { namespaces: true, own_ids: true, group: None };
 
     #[test]
     fn every_line_of_the_status_counts() {

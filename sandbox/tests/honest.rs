@@ -117,7 +117,7 @@ fn one_cpu_is_enough() {
 
 #[test]
 fn the_floating_point_state_is_put_back() {
-    let mut session = start(&launcher(), &fixture(&["FAULT_FLOATING_POINT"])).unwrap();
+    let mut session = start(&launcher(), &fixture(&["ATTACK=spoil_floating_point"])).unwrap();
     for _ in 0..3 {
         // The fixture leaves flush-to-zero, round-down and a backward direction behind; distances are whole again.
         session.query(Query::CollisionFirst, &apart(0.5)).unwrap();
@@ -151,6 +151,6 @@ fn unknown_names_are_load_errors_that_name_what_there_is() {
 
 #[test]
 fn what_it_says_is_kept_without_control_characters() {
-    let ending = one_question(&["FAULT_ABORT"], Query::CollisionFirst);
+    let ending = one_question(&["ATTACK=abort_self"], Query::CollisionFirst);
     assert!(!ending.stderr.contains('\u{1b}'));
 }

@@ -4,13 +4,13 @@ mod common;
 
 use std::time::{Duration, Instant};
 
-use common::{alive, apart, fixture, launcher, policy, start};
-use ocb_core::query::Query;
-use ocb_sandbox::{Launcher, Outcome, Phase};
+use common::{alive, apart, fixture, launcher, launcher_with, mesh, policy, start};
+use ocb_core::query::{Query, Semantics};
+use ocb_sandbox::{Killer, Launcher, Outcome, Phase, Policy, Trial};
 
 #[test]
 fn a_runner_killed_from_outside_is_told_as_a_signal() {
-    let mut session = start(&launcher(), &fixture(&["FAULT_SLEEP"])).unwrap();
+    let mut session = start(&launcher(), &fixture(&["ATTACK=sleep_forever"])).unwrap();
     let pid = session.pid();
     let assassin = std::thread::spawn(move || {
         std::thread::sleep(Duration::from_millis(200));
@@ -27,7 +27,7 @@ fn a_runner_killed_from_outside_is_told_as_a_signal() {
 
 #[test]
 fn a_session_can_be_cancelled_from_another_thread() {
-    let mut session = start(&launcher(), &fixture(&["FAULT_LOOP"])).unwrap();
+    let mut session = start(&launcher(), &fixture(&["ATTACK=loop"])).unwrap();
     let (killer, pid) = (session.killer(), session.pid());
     let other = std::thread::spawn(move || {
         std::thread::sleep(Duration::from_millis(200));
@@ -37,6 +37,34 @@ fn a_session_can_be_cancelled_from_another_thread() {
     other.join().unwrap();
     assert_eq!(session.finish().outcome, Outcome::Cancelled);
     assert!(!alive(pid));
+}
+
+#[test]
+fn a_build_can_be_cancelled() {
+    let (killer, before) = (Killer::default(), Instant::now());
+    let other = {
+        let killer = killer.clone();
+        std::thread::spawn(move || {
+            std::thread::sleep(Duration::from_millis(300));
+            killer.kill();
+        })
+    };
+    let (mesh, plugin) = (mesh(), fixture(&["ATTACK=loop", "IN_BUILD"]));
+    let trial = Trial {
+        plugin: &plugin,
+        algorithm: "fixture",
+        mesh_a: &mesh,
+        mesh_b: None,
+        parameters: &[],
+        semantics: Semantics::Surface,
+    };
+    let launcher = launcher_with(Policy { build_seconds: 60.0, ..policy() });
+    let ending = launcher.start_with(&trial, &killer).err().unwrap();
+    assert_eq!(ending.outcome, Outcome::Cancelled);
+    assert!(before.elapsed() < Duration::from_secs(10), "{:?}", before.elapsed());
+    other.join().unwrap();
+    // And one that was cancelled before it began never runs at all.
+    assert_eq!(launcher.start_with(&trial, &killer).err().unwrap().outcome, Outcome::Cancelled);
 }
 
 #[test]

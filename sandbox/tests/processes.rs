@@ -5,13 +5,14 @@
 mod common;
 
 use std::io::{BufRead, BufReader};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use common::{alive, apart, fixture, launcher_with, policy, runner, start};
+use common::{alive, apart, fixture, groups_of, launcher_with, policy, runner, start};
 use ocb_core::query::Query;
-use ocb_sandbox::{Launcher, Outcome, Policy};
+use ocb_sandbox::doctor::{Diagnosis, State, examine};
+use ocb_sandbox::{Launcher, Outcome, Policy, Profile};
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
@@ -21,6 +22,7 @@ fn main() {
         [_, "refused", folder] => where_namespaces_are_refused(Path::new(folder)),
         _ => {
             the_death_of_the_supervisor_ends_the_jail();
+            here();
             another_user("ordinary");
             another_user("refused");
         }
@@ -41,7 +43,7 @@ fn hang(plugin: &Path) {
 
 fn the_death_of_the_supervisor_ends_the_jail() {
     let mut supervisor = command(&std::env::current_exe().unwrap());
-    supervisor.arg("hang").arg(fixture(&["FAULT_SLEEP"])).stdout(Stdio::piped());
+    supervisor.arg("hang").arg(fixture(&["ATTACK=sleep_forever"])).stdout(Stdio::piped());
     let mut supervisor = supervisor.spawn().unwrap();
     let mut lines = BufReader::new(supervisor.stdout.take().unwrap()).lines().map_while(Result::ok);
     let runner = lines.find_map(|line| line.strip_prefix("runner ")?.parse().ok()).expect("it tells its runner");
@@ -49,6 +51,12 @@ fn the_death_of_the_supervisor_ends_the_jail() {
     supervisor.kill().unwrap();
     supervisor.wait().unwrap();
     assert!(gone_within(runner, Duration::from_secs(1)), "the runner outlived its supervisor");
+    // What a process cannot take away after its death, the next supervisor does when it starts its first jail.
+    let left = groups_of(supervisor.id());
+    drop(start(&launcher_with(policy()), &fixture(&[])).unwrap());
+    assert_eq!(groups_of(supervisor.id()), Vec::<PathBuf>::new(), "of {left:?}");
+    // SAFETY: reads a number.
+    assert!(!left.is_empty() || unsafe { libc::geteuid() } != 0, "root's jails have a memory group");
     println!("test the_death_of_the_supervisor_ends_the_jail ... ok");
 }
 
@@ -63,6 +71,17 @@ fn gone_within(pid: i32, time: Duration) -> bool {
     true
 }
 
+/// As whoever runs the tests.
+fn here() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::copy(runner(), folder.path().join("ocb-runner")).unwrap();
+    std::fs::copy(fixture(&[]), folder.path().join("honest.so")).unwrap();
+    std::fs::set_permissions(folder.path(), std::os::unix::fs::PermissionsExt::from_mode(0o755)).unwrap();
+    let diagnosis = production_is_what_the_doctor_says(folder.path());
+    assert!(diagnosis.own_plugins && diagnosis.facilities.len() >= 12, "{diagnosis:#?}");
+    println!("test the_doctor_is_right ... ok (production: {})", diagnosis.production);
+}
+
 /// Plays a part as an ordinary user, from a folder that everybody may enter with everything in it that is needed.
 fn another_user(part: &str) {
     let folder = tempfile::Builder::new().prefix("ocb-ordinary").tempdir_in("/tmp").unwrap();
@@ -72,8 +91,8 @@ fn another_user(part: &str) {
     place(&std::env::current_exe().unwrap(), "test");
     place(&runner(), "ocb-runner");
     place(&fixture(&[]), "honest.so");
-    place(&fixture(&["FAULT_SOCKET"]), "socket.so");
-    place(&fixture(&["FAULT_OPEN"]), "open.so");
+    place(&fixture(&["ATTACK=raw_call", "RAW=41"]), "socket.so");
+    place(&fixture(&["ATTACK=open_passwd"]), "open.so");
     // In a user namespace of its own a process may forbid further ones to itself and its children.
     let refuse = "echo 0 > /proc/sys/user/max_user_namespaces && exec \"$@\"";
     // SAFETY: reads a number.
@@ -90,6 +109,8 @@ fn another_user(part: &str) {
 }
 
 fn ordinary(folder: &Path) {
+    let diagnosis = production_is_what_the_doctor_says(folder);
+    assert!(diagnosis.dev && diagnosis.own_plugins, "{diagnosis:#?}");
     let launcher = Launcher::new(folder.join("ocb-runner"), policy());
     let mut session = start(&launcher, &folder.join("honest.so")).unwrap();
     let layers = session.layers().join("; ");
@@ -101,24 +122,51 @@ fn ordinary(folder: &Path) {
     assert!(matches!(&outcome, Outcome::SyscallDenied { call, .. } if call.nr == libc::SYS_socket), "{outcome}");
 }
 
-/// Foreign plugins are refused with the reason; the ones we built run under the layers that remain.
+/// What `ocb doctor` tells is what happens, and what is missing is told with the way to get it.
+fn production_is_what_the_doctor_says(folder: &Path) -> Diagnosis {
+    let diagnosis = examine(&folder.join("ocb-runner"));
+    let production = Policy { profile: Profile::Production, ..policy() };
+    match start(&Launcher::new(folder.join("ocb-runner"), production), &folder.join("honest.so")) {
+        Ok(session) => assert!(diagnosis.production, "{:?} but {diagnosis:#?}", session.layers()),
+        Err(ending) => {
+            assert!(!diagnosis.production, "{ending} but {diagnosis:#?}");
+            assert!(ending.outcome.ours() && ending.to_string().contains("--profile dev"), "{ending}");
+        }
+    }
+    for facility in &diagnosis.facilities {
+        assert!(facility.state == State::Good || facility.get.is_some_and(|get| get.len() > 10), "{facility:?}");
+    }
+    diagnosis
+}
+
+/// Foreign plugins are refused with the reason; the ones we built run under the layers that remain, and a developer may
+/// run others so.
 fn where_namespaces_are_refused(folder: &Path) {
-    let foreign = Launcher::new(folder.join("ocb-runner"), policy());
+    let diagnosis = production_is_what_the_doctor_says(folder);
+    assert!(!diagnosis.production && diagnosis.own_plugins, "{diagnosis:#?}");
+    let namespaces = diagnosis.facilities.iter().find(|f| f.name == "user namespaces").unwrap();
+    assert_eq!(namespaces.state, State::Missing);
+    assert!(namespaces.get.unwrap().contains("max_user_namespaces"));
+
+    let production = Policy { profile: Profile::Production, ..policy() };
+    let foreign = Launcher::new(folder.join("ocb-runner"), production.clone());
     let Err(refused) = start(&foreign, &folder.join("honest.so")) else { panic!("it ran without namespaces") };
     let Outcome::SandboxFault { step, reason } = &refused.outcome else { panic!("{refused}") };
     assert!(step == "Namespaces" && reason.contains("max_user_namespaces"), "{refused}");
 
-    let ours = Launcher::new(folder.join("ocb-runner"), Policy { trusted: true, ..policy() });
-    let mut session = start(&ours, &folder.join("honest.so")).unwrap();
-    let layers = session.layers().join("; ");
-    assert!(layers.contains("NO namespaces") && layers.contains("Landlock"), "{layers}");
-    session.query(Query::CollisionFirst, &apart(0.5)).unwrap();
-    assert_eq!(session.finish().outcome, Outcome::Completed);
-    let mut session = start(&ours, &folder.join("socket.so")).unwrap();
-    let outcome = session.query(Query::CollisionFirst, &apart(0.5)).unwrap_err();
-    assert!(matches!(&outcome, Outcome::SyscallDenied { call, .. } if call.nr == libc::SYS_socket), "{outcome}");
-    // Without a root of its own it is Landlock that keeps files shut.
-    let mut session = start(&ours, &folder.join("open.so")).unwrap();
-    let outcome = session.query(Query::CollisionFirst, &apart(0.5)).unwrap_err();
-    assert!(outcome.to_string().contains("open: Permission denied"), "{outcome}");
+    for policy in [Policy { trusted: true, ..production }, Policy { profile: Profile::Dev, ..policy() }] {
+        let launcher = Launcher::new(folder.join("ocb-runner"), policy);
+        let mut session = start(&launcher, &folder.join("honest.so")).unwrap();
+        let layers = session.layers().join("; ");
+        assert!(layers.contains("NO namespaces") && layers.contains("Landlock"), "{layers}");
+        session.query(Query::CollisionFirst, &apart(0.5)).unwrap();
+        assert_eq!(session.finish().outcome, Outcome::Completed);
+        let mut session = start(&launcher, &folder.join("socket.so")).unwrap();
+        let outcome = session.query(Query::CollisionFirst, &apart(0.5)).unwrap_err();
+        assert!(matches!(&outcome, Outcome::SyscallDenied { call, .. } if call.nr == libc::SYS_socket), "{outcome}");
+        // Without a root of its own it is Landlock that keeps files shut.
+        let mut session = start(&launcher, &folder.join("open.so")).unwrap();
+        let outcome = session.query(Query::CollisionFirst, &apart(0.5)).unwrap_err();
+        assert!(outcome.to_string().contains("EACCES"), "{outcome}");
+    }
 }

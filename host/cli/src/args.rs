@@ -5,6 +5,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use ocb_engine::Profile;
+
 use crate::choice::{ColormapArg, MeasureArg, OutliersArg, ScaleArg, SideArg, StatisticArg};
 
 /// Benchmarks of collision detection.
@@ -52,9 +54,32 @@ pub struct Store {
         hide_env_values = true
     )]
     pub plugins: Vec<PathBuf>,
+    /// How much of a jail foreign plugins need: production refuses them without every required layer, dev runs them with
+    /// what there is and ranks nothing.
+    #[arg(long, global = true, env = "OCB_PROFILE", value_enum, default_value_t = ProfileArg::Production, hide_env_values = true)]
+    pub profile: ProfileArg,
     /// Folder with the Stanford objects, `bunny.obj` and `dragon.obj` [default: `stock` beside this program or above it].
     #[arg(long, global = true, env = "OCB_STOCK", value_name = "DIR", hide_env_values = true)]
     pub stock_dir: Option<PathBuf>,
+}
+
+impl Store {
+    /// The profile as the engine names it.
+    pub fn profile(&self) -> Profile {
+        match self.profile {
+            ProfileArg::Production => Profile::Production,
+            ProfileArg::Dev => Profile::Dev,
+        }
+    }
+}
+
+/// How much of a jail foreign plugins need.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ProfileArg {
+    /// Every required layer.
+    Production,
+    /// What there is; results are not ranked.
+    Dev,
 }
 
 /// What to do.
@@ -81,6 +106,9 @@ pub enum Command {
         #[command(subcommand)]
         command: RunCommand,
     },
+    /// Tell what this machine has for the jail, what it lacks and how to get it; exit code 1 when foreign plugins could
+    /// not run under the chosen profile.
+    Doctor,
     /// Write a heatmap of a run as .glb, .ply or .csv.
     Heatmap(HeatmapArgs),
 }

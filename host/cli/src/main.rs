@@ -3,6 +3,7 @@
 mod args;
 mod bench;
 mod choice;
+mod doctor;
 mod failure;
 mod heatmap;
 mod object;
@@ -46,6 +47,7 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Plugin { command } => plugin::plugin(&store, &command, json).await,
         Command::Object { command } => object::object(&store, &command, json).await,
         Command::Run { command } => run::run(&store, &command, json).await,
+        Command::Doctor => doctor::doctor(&store, json),
         Command::Heatmap(args) => heatmap::heatmap(&store, &args, json).await,
     }
 }

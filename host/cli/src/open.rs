@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use ocb_engine::{Engine, EngineConfig};
+use ocb_engine::{Engine, EngineConfig, Profile};
 
 use crate::args::Store;
 use crate::failure::{Failure, Result};
@@ -43,12 +43,22 @@ pub async fn open_aside(store: &Store) -> Result<(Engine, tempfile::TempDir)> {
     Ok((Engine::open(config).await?, folder))
 }
 
+/// The runner that the command line names, or the one beside this program.
+pub fn runner(store: &Store) -> PathBuf {
+    store.runner.clone().unwrap_or_else(|| EngineConfig::beside_executable("").runner)
+}
+
 fn config(store: &Store, data: PathBuf, purpose: Purpose) -> EngineConfig {
     let mut config = EngineConfig::beside_executable(data);
     config.database_url.clone_from(&store.database);
     config.blob_url.clone_from(&store.blobs);
-    if let Some(runner) = &store.runner {
-        config.runner.clone_from(runner);
+    config.runner = runner(store);
+    config.profile = store.profile();
+    if config.profile == Profile::Dev && purpose != Purpose::Look {
+        eprintln!(
+            "ocb: WARNING: the development profile: foreign plugins run with the layers that this machine has, and results \
+             are marked unranked."
+        );
     }
     if !store.plugins.is_empty() {
         config.plugins.clone_from(&store.plugins);

@@ -237,7 +237,7 @@ impl Bench<'_> {
             semantics: self.row.spec.semantics,
         };
         let (lanes, measured): (Vec<usize>, Vec<Measured>) = finished.into_iter().unzip();
-        let environment = measure::environment(&self.inner.machine, &measured);
+        let environment = measure::environment(&self.inner.machine, self.inner.registry.profile(), &measured);
         if let Some(environment) = &environment {
             self.log.wait(self.inner.store.environment_of_run(&self.row.id, environment))?;
         }

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+pub use ocb_sandbox::Profile;
+
 /// How to open an [`crate::Engine`].
 #[derive(Clone, Debug)]
 pub struct EngineConfig {
@@ -15,6 +17,8 @@ pub struct EngineConfig {
     pub runner: PathBuf,
     /// Plugin files, or folders whose `*.so` are plugins.
     pub plugins: Vec<PathBuf>,
+    /// How much a foreign plugin needs of this machine; results of the development profile are not ranked.
+    pub profile: Profile,
     /// Folder with `bunny.obj` and `dragon.obj`, each with its terms in `<name>.terms`.
     pub stock_dir: Option<PathBuf>,
     /// Work on the queue. Off for commands that only read.
@@ -36,6 +40,7 @@ impl EngineConfig {
             blob_url: None,
             runner: folder.join("ocb-runner"),
             plugins: vec![folder],
+            profile: Profile::Production,
             stock_dir: None,
             dispatch: true,
             featured: false,

@@ -181,10 +181,10 @@ impl Engine {
     ///
     /// What is wrong with the plugin is in the report; an error means that the check itself could not be made.
     pub async fn check_plugin(&self, file: &Path) -> Result<PluginReport> {
-        let (runner, file) = (self.inner.config.runner.clone(), file.to_owned());
+        let (runner, file, profile) = (self.inner.config.runner.clone(), file.to_owned(), self.inner.config.profile);
         // A thread of its own: a jail ends with the thread that started it.
         let (sender, report) = tokio::sync::oneshot::channel();
-        std::thread::spawn(move || sender.send(check_plugin(&runner, &file)));
+        std::thread::spawn(move || sender.send(check_plugin(&runner, &file, profile)));
         report.await.unwrap_or_else(|_| Err(EngineError::Fault("The plugin check broke down.".into())))
     }
 

@@ -24,6 +24,7 @@ mod spec;
 mod store;
 pub mod truth;
 
-pub use config::EngineConfig;
+pub use config::{EngineConfig, Profile};
 pub use engine::Engine;
 pub use error::{EngineError, Result};
+pub use ocb_sandbox::doctor;

@@ -149,11 +149,13 @@ impl Turn<'_> {
         let order =
             if self.round == 0 { prefix.to_vec() } else { order::reshuffled(prefix, self.task.seed, self.round) };
         self.report(lane);
-        let mut session = match self.start(lane) {
+        // From before the start, so that a long build can be stopped as well.
+        let killer = Killer::default();
+        self.stop.watch(Some(killer.clone()));
+        let mut session = match self.start(lane, &killer) {
             Ok(session) => session,
             Err(outcome) => return lane.end(outcome),
         };
-        self.stop.watch(Some(session.killer()));
         lane.begin_turn(&session);
         let allowed = self.allowance(lane);
         let (started, mut reported) = (Instant::now(), Instant::now());
@@ -196,7 +198,7 @@ impl Turn<'_> {
         self.report(lane);
     }
 
-    fn start(&self, lane: &Lane) -> Result<Session, OutcomeInfo> {
+    fn start(&self, lane: &Lane, killer: &Killer) -> Result<Session, OutcomeInfo> {
         let contestant = &lane.contestant;
         let ours = |message: String| OutcomeInfo { name: "SandboxFault".into(), message, ours: true };
         match plugin_hash(&contestant.file) {
@@ -223,7 +225,8 @@ impl Turn<'_> {
             parameters: &[],
             semantics: self.task.semantics,
         };
-        self.registry.launcher(contestant, policy).start(&trial).map_err(|ending| outcome_info(&ending.outcome))
+        let launcher = self.registry.launcher(contestant, policy);
+        launcher.start_with(&trial, killer).map_err(|ending| outcome_info(&ending.outcome))
     }
 
     fn counting(&self) -> bool {

@@ -356,8 +356,16 @@ pub struct Environment {
     pub disturbed: u64,
     /// Layers of the jail in force.
     pub jail: Vec<String>,
+    /// `production`, or `dev`: foreign plugins then ran with what layers the machine had, and nothing of it is ranked.
+    #[serde(default = "production")]
+    pub profile: String,
     /// Version of this program.
     pub version: String,
+}
+
+/// What results from before there were profiles were measured in.
+fn production() -> String {
+    "production".into()
 }
 
 /// Something that happened in a run.

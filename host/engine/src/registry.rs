@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use ocb_sandbox::{Descriptor, Launcher, Policy};
+use ocb_sandbox::{Descriptor, Launcher, Policy, Profile};
 
 use crate::blobs::sha256_hex;
 use crate::model::{AlgorithmInfo, ParameterInfo};
@@ -33,6 +33,7 @@ pub struct Contestant {
 /// The known plugins.
 pub struct Registry {
     runner: PathBuf,
+    profile: Profile,
     contestants: Vec<Arc<Contestant>>,
     problems: Vec<String>,
 }
@@ -41,7 +42,12 @@ impl Registry {
     /// Looks through the configured files and folders. A file that was described before is not loaded again; one that
     /// cannot be described is a problem of its own and keeps no other from being offered.
     pub async fn open(config: &EngineConfig, store: &Store) -> Result<Self> {
-        let mut registry = Self { runner: config.runner.clone(), contestants: Vec::new(), problems: Vec::new() };
+        let mut registry = Self {
+            runner: config.runner.clone(),
+            profile: config.profile,
+            contestants: Vec::new(),
+            problems: Vec::new(),
+        };
         if !config.runner.is_file() {
             registry.problems.push(format!(
                 "The runner {} is missing, so nothing can be measured; build it or name it with --runner.",
@@ -85,6 +91,11 @@ impl Registry {
         &self.problems
     }
 
+    /// How much a foreign plugin needs of this machine.
+    pub fn profile(&self) -> Profile {
+        self.profile
+    }
+
     /// The algorithm with this id.
     pub fn contestant(&self, id: &str) -> Option<Arc<Contestant>> {
         self.contestants.iter().find(|c| c.info.id == id).cloned()
@@ -92,18 +103,19 @@ impl Registry {
 
     /// A launcher for this plugin under the given policy; only our own plugins may run under a weaker jail.
     pub fn launcher(&self, contestant: &Contestant, policy: Policy) -> Launcher {
-        Launcher::new(self.runner.clone(), Policy { trusted: contestant.trusted, ..policy })
+        Launcher::new(self.runner.clone(), Policy { trusted: contestant.trusted, profile: self.profile, ..policy })
     }
 
     async fn describe(&self, file: &Path, store: &Store) -> Result<Vec<Contestant>> {
         let path = file.to_owned();
         let sha256 = blocking(move || plugin_hash(&path)).await?;
-        let trusted = file.parent().is_some_and(|folder| Some(folder) == self.runner.parent());
+        let trusted = built_here(&self.runner, file);
         // A row that an older version wrote may lack a field; then the plugin is described again.
         let algorithms = match store.described(&sha256).await {
             Ok(Some(known)) => known,
             _ => {
-                let launcher = Launcher::new(self.runner.clone(), Policy { trusted, ..Policy::default() });
+                let launcher =
+                    Launcher::new(self.runner.clone(), Policy { trusted, profile: self.profile, ..Policy::default() });
                 let (path, hash) = (file.to_owned(), sha256.clone());
                 let described = blocking(move || {
                     let descriptors = launcher.describe(&path).map_err(|end| EngineError::Invalid(end.to_string()))?;
@@ -117,6 +129,12 @@ impl Registry {
         let contestant = |info| Contestant { info, file: file.to_owned(), trusted };
         Ok(algorithms.into_iter().map(contestant).collect())
     }
+}
+
+/// A plugin that lies beside the runner was built and installed with it. Links are followed: a link there is no plugin of ours.
+fn built_here(runner: &Path, file: &Path) -> bool {
+    let folder = |path: &Path| path.canonicalize().ok()?.parent().map(Path::to_owned);
+    matches!((folder(runner), folder(file)), (Some(ours), Some(its)) if ours == its)
 }
 
 /// SHA-256 of a plugin file as it is now.

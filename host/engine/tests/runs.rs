@@ -162,7 +162,9 @@ async fn our_own_plugins_pass_the_check() {
     // An ELF file that is no plugin: the runner's own program.
     let report = engine.check_plugin(&config.runner).await.unwrap();
     assert!(!report.passed);
-    assert_eq!(report.lines.len(), 2, "{report:#?}");
+    let gate = &report.lines[1];
+    assert!(gate.check.starts_with("ELF gate") && gate.evidence.contains("a program"), "{report:#?}");
+    assert!(gate.hint.as_ref().is_some_and(|hint| hint.contains("-shared")), "{report:#?}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use std::io::{self, Read, Write};
 use std::os::fd::{AsFd, AsRawFd, BorrowedFd, FromRawFd, OwnedFd};
 
 use ocb_sandbox::confine::{self, ConfineError, root};
-use ocb_sandbox::control::{Control, Go, Order, Report};
+use ocb_sandbox::control::{Control, Order, Report};
 
 /// Exit status of a jail process that could not do its step; the report on the control socket says which.
 const FAULT: i32 = 120;
@@ -77,8 +77,7 @@ fn launch_with(control: &Control) -> Result<(), Report> {
     drop(released);
     let outside = || -> Result<(), Report> {
         let handle = confine::process_descriptor(init).map_err(talk)?;
-        control.send(&Report::InitWaits, &[handle.as_fd()]).map_err(talk)?;
-        let Some((Go, _)) = control.receive().map_err(talk)? else { return Ok(()) };
+        control.send(&Report::InitStarted, &[handle.as_fd()]).map_err(talk)?;
         let own_ids = if order.namespaces { map_ids(init).map_err(fault)? } else { false };
         let mut release = release;
         release.write_all(&[u8::from(own_ids)]).map_err(talk)
@@ -94,7 +93,8 @@ fn launch_with(control: &Control) -> Result<(), Report> {
 fn namespace_error(error: io::Error) -> ConfineError {
     ConfineError::Namespaces(io::Error::other(format!(
         "this machine refuses new namespaces ({error}); allow unprivileged user namespaces (sysctl \
-         user.max_user_namespaces, kernel.apparmor_restrict_unprivileged_userns) or run as root"
+         user.max_user_namespaces, kernel.apparmor_restrict_unprivileged_userns), run as root, or run your own plugins with --profile dev (its \
+         results are not ranked)"
     )))
 }
 

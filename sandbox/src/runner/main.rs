@@ -1,11 +1,13 @@
-//! `ocb-runner`: started by the sandbox and by nobody else, in two shapes.
+//! `ocb-runner`: started by the sandbox and by nobody else, in three shapes.
 //!
 //! * `launch`: a small process that builds the jail and waits for its end ([`jail`]).
+//! * `probe`: tells what this machine's kernel has ([`probe`]).
 //! * `run`: started fresh inside the jail; closes itself off, loads the plugin and answers ([`serve`]).
 
 mod jail;
 mod library;
 mod measure;
+mod probe;
 mod serve;
 
 fn main() {
@@ -13,6 +15,7 @@ fn main() {
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match arguments.as_slice() {
         [_, "launch"] => jail::launch(),
+        [_, "probe"] => probe::probe(),
         [_, "run", mode, plugin, trial_bytes, libraries @ ..] => serve::run(mode, plugin, trial_bytes, libraries),
         _ => {
             eprintln!("ocb-runner is started by OpenCollBench to run one plugin in a jail; it does nothing by hand.");

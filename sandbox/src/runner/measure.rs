@@ -5,18 +5,20 @@
 //! [`Measured::null`] does exactly that without the call; its median is subtracted.
 
 use ocb_core::query::Semantics;
+use ocb_sandbox::gate::{self, Inspection};
 use ocb_sandbox::protocol::{Command, answer, slot};
 use opencollbench_plugin::raw::contacts::{Contact, ContactsRequest, ContactsResult};
 use opencollbench_plugin::raw::counters::Counts;
 use opencollbench_plugin::raw::distance::{DistanceRequest, DistanceResult};
 use opencollbench_plugin::raw::{self, CollideRequest, CollideResult, Instance, Object};
 
-use crate::library::{Algorithm, Failure, Plugin};
+use crate::library::{Algorithm, Failure, Mapped, Plugin};
 use crate::serve::{Shared, Slot};
 
 /// The plugin and what it has made so far.
 pub struct Measured {
     path: String,
+    libraries: Vec<String>,
     plugin: Option<Plugin>,
     algorithm: Option<Algorithm>,
     instance: *mut Instance,
@@ -30,11 +32,12 @@ pub struct Measured {
 
 impl Measured {
     /// Nothing is loaded yet.
-    pub fn new(path: String) -> Self {
+    pub fn new(path: String, libraries: Vec<String>) -> Self {
         let nothing = std::ptr::null_mut();
         let avx = std::is_x86_feature_detected!("avx");
         Self {
             path,
+            libraries,
             plugin: None,
             algorithm: None,
             instance: nothing,
@@ -56,6 +59,11 @@ impl Measured {
     pub fn obey(&mut self, command: Command, shared: &Shared, slot: &mut Slot) -> Result<(), Failure> {
         match command {
             Command::Null | Command::CloseListener => Ok(()),
+            Command::Inspect => {
+                let json = serde_json::to_vec(&self.inspect()?).map_err(|e| Failure::not_loaded(e.to_string()))?;
+                shared.say(slot, &json);
+                Ok(())
+            }
             Command::Open => self.open(shared, slot),
             Command::Prepare => self.prepare(shared),
             Command::BuildA => self.build(shared, 0),
@@ -73,7 +81,23 @@ impl Measured {
         }
     }
 
+    fn inspect(&self) -> Result<Inspection, Failure> {
+        let file = Mapped::open(&self.path).map_err(|e| Failure::not_loaded(format!("it cannot be read ({e})")))?;
+        let bytes = file.bytes();
+        let offered = self.libraries.iter().map(|path| gate::Offered {
+            name: path.rsplit('/').next().unwrap_or(path).to_string(),
+            versions: Mapped::open(path).map_or_else(|_| Vec::new(), |library| gate::versions_of(library.bytes())),
+        });
+        let offered: Vec<_> = offered.collect();
+        let inspected = std::panic::catch_unwind(|| gate::inspect(bytes, &offered));
+        Ok(inspected.unwrap_or_else(|_| Inspection::unreadable("its ELF structure confuses the reader")))
+    }
+
     fn open(&mut self, shared: &Shared, slot: &mut Slot) -> Result<(), Failure> {
+        // No loader touches what the gate refuses.
+        if let Some(rejection) = self.inspect()?.rejections.first() {
+            return Err(Failure::not_loaded(rejection.to_string()));
+        }
         let plugin = self.guarded(|| Plugin::open(&self.path))?;
         let descriptors = plugin.describe()?;
         let json = serde_json::to_vec(&descriptors).map_err(|e| Failure::not_loaded(e.to_string()))?;

@@ -55,7 +55,7 @@ pub fn run(mode: &str, plugin: &str, trial_bytes: &str, libraries: &[&str]) -> !
     let word = shared.answer.u32(answer::LISTENER);
     word.store(listener as u32 + 1, Ordering::Release);
     futex_wake(word);
-    serve(&shared, plugin, listener)
+    serve(&shared, Measured::new(plugin.to_string(), libraries.iter().map(ToString::to_string).collect()), listener)
 }
 
 fn filter() -> Result<i32, ConfineError> {
@@ -107,8 +107,7 @@ fn close_off(mode: &str, plugin: &str, trial_bytes: &str, libraries: &[&str]) ->
     Ok(shared)
 }
 
-fn serve(shared: &Shared, plugin: &str, listener: i32) -> ! {
-    let mut state = Measured::new(plugin.to_string());
+fn serve(shared: &Shared, mut state: Measured, listener: i32) -> ! {
     let mut number = 0;
     loop {
         number = shared.next(number);

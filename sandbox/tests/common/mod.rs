@@ -10,7 +10,7 @@ use ocb_core::configuration::Configuration;
 use ocb_core::mesh::Mesh;
 use ocb_core::pose::Pose;
 use ocb_core::query::{Query, Semantics};
-use ocb_sandbox::{Ending, Launcher, Outcome, Policy, Session, Trial};
+use ocb_sandbox::{Ending, Launcher, Outcome, Policy, Profile, Session, Trial};
 
 /// A fixture with these faults, compiled once per test program into a folder beside it.
 pub fn fixture(defines: &[&str]) -> PathBuf {
@@ -22,21 +22,28 @@ pub fn fixture(defines: &[&str]) -> PathBuf {
     let file = folder.join(format!("fixture{name}.so"));
     if !compiled.contains(&file) {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let mut cc = compiler();
-        cc.args(["-std=gnu11", "-O1", "-fPIC", "-shared", "-fvisibility=hidden", "-w", "-I"]);
-        cc.arg(root.join("../plugin-api/include"));
-        cc.args(defines.iter().map(|d| format!("-D{d}")));
-        cc.arg(root.join("tests/fixtures/fixture.c")).arg("-lm").arg("-o").arg(&file);
-        let done = cc.output().expect("a C compiler named cc");
-        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        let include = root.join("../plugin-api/include");
+        let source = root.join("tests/fixtures/fixture.c");
+        let defines: Vec<String> = defines.iter().map(|d| format!("-D{d}")).collect();
+        let mut words = vec!["-std=gnu11", "-O1", "-fPIC", "-shared", "-fvisibility=hidden", "-w"];
+        words.extend(["-I", include.to_str().unwrap()]);
+        words.extend(defines.iter().map(String::as_str));
+        words.extend([source.to_str().unwrap(), "-lm", "-o", file.to_str().unwrap()]);
+        let throws = root.join("tests/fixtures/attacks/exceptions.cpp");
+        if defines.iter().any(|d| ["-DATTACK=throw_out", "-DATTACK=catch_inside"].contains(&d.as_str())) {
+            words.extend(["-std=gnu++17", throws.to_str().unwrap(), "-lstdc++"]);
+        }
+        cc(&words);
         compiled.push(file.clone());
     }
     file
 }
 
+/// Runs the C compiler.
 #[expect(clippy::disallowed_methods, reason = "the tests compile their fixtures")]
-fn compiler() -> Command {
-    Command::new("cc")
+pub fn cc(words: &[&str]) {
+    let done = Command::new("cc").args(words).output().expect("a C compiler named cc");
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
 }
 
 /// Short limits, so that a test ends.
@@ -47,6 +54,8 @@ pub fn policy() -> Policy {
         build_seconds: 3.0,
         query_seconds: 2.0,
         trial_seconds: 60.0,
+        // The fixtures are foreign, and an ordinary user's machine runs these tests as well.
+        profile: Profile::Dev,
         ..Policy::default()
     }
 }
@@ -105,9 +114,38 @@ pub fn outcome(defines: &[&str]) -> Outcome {
     one_question(defines, Query::CollisionFirst).outcome
 }
 
+/// Does this process get memory groups for its jails?
+pub fn grouped() -> bool {
+    static GROUPED: std::sync::OnceLock<bool> = std::sync::OnceLock::new();
+    *GROUPED.get_or_init(|| {
+        let layers = start(&launcher(), &fixture(&[])).unwrap().layers();
+        layers.iter().any(|layer| layer.starts_with("memory group"))
+    })
+}
+
 /// Is the process there and not a zombie?
 pub fn alive(pid: i32) -> bool {
     let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
     let state = stat.rsplit(") ").next().and_then(|rest| rest.chars().next());
     !matches!(state, None | Some('Z'))
+}
+
+/// Control groups that a supervisor made and that are still there.
+pub fn groups_of(supervisor: u32) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    find(Path::new("/sys/fs/cgroup"), &format!("ocb-jail-{supervisor}-"), 6, &mut found);
+    found
+}
+
+fn find(folder: &Path, prefix: &str, depth: u32, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        if !entry.file_type().is_ok_and(|t| t.is_dir()) {
+            continue;
+        }
+        if entry.file_name().to_string_lossy().starts_with(prefix) {
+            found.push(entry.path());
+        } else if depth > 0 {
+            find(&entry.path(), prefix, depth - 1, found);
+        }
+    }
 }

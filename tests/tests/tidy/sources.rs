@@ -85,6 +85,9 @@ fn plugins_are_opened_in_the_runner_alone() {
     let all = ["host", "web", "sandbox", "plugins", "plugin-api"].iter().flat_map(|f| rust_below(f));
     let found = hits(&all.filter(|(p, _)| !may(p)).collect::<Vec<_>>(), &["libloading", "dlopen("]);
     assert!(found.is_empty(), "only the runner opens a plugin:\n{}", found.join("\n"));
+    let outside = ["host", "web", "tests"].iter().flat_map(|f| rust_below(f)).filter(|(p, _)| !p.ends_with(file!()));
+    let found = hits(&outside.collect::<Vec<_>>(), &["goblin", "gate::inspect"]);
+    assert!(found.is_empty(), "a stranger's ELF file is read in the jail alone:\n{}", found.join("\n"));
 }
 
 #[test]

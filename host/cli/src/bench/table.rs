@@ -2,6 +2,7 @@
 
 use ocb_core::record::Verdict;
 use ocb_core::resolution::{Resolution, Threshold};
+use ocb_engine::Profile;
 use ocb_engine::model::{Agreement, AlgorithmResult, ContactQuality, Estimated, RunInfo};
 
 use crate::{output, plugin, run, units};
@@ -41,6 +42,9 @@ pub fn summary(run: &RunInfo) -> String {
         let null = units::time(machine.null_ns.value);
         let (cpu, class, clock) = (&machine.cpu, &machine.hardware_class, &machine.clock);
         text.push(format!("Measured on {cpu} (class {class}), clock {clock}, null round trip {null} subtracted."));
+        if machine.profile != Profile::Production.as_str() {
+            text.push(format!("UNRANKED: measured in the profile '{}'.", machine.profile));
+        }
     }
     text.join("\n")
 }

@@ -49,3 +49,23 @@ fn help_says_what_exit_codes_mean() {
     let version = desk.run(&["--version"]);
     assert_eq!(version.stdout.trim(), format!("ocb {}", env!("CARGO_PKG_VERSION")));
 }
+
+#[test]
+fn the_doctor_tells_what_the_machine_has() {
+    let desk = Desk::new();
+    let ended = desk.run(&["doctor", "--json"]);
+    let diagnosis: serde_json::Value = serde_json::from_str(&ended.stdout).unwrap();
+    let facilities = diagnosis["facilities"].as_array().unwrap();
+    assert!(facilities.len() >= 12, "{diagnosis:#}");
+    // The exit code is the answer for the chosen profile.
+    assert_eq!(ended.code == 0, diagnosis["production"].as_bool().unwrap());
+    assert_eq!(desk.run(&["doctor", "--profile", "dev"]).code == 0, diagnosis["dev"].as_bool().unwrap());
+    let text = desk.run(&["doctor"]).stdout;
+    for facility in facilities {
+        let name = facility["name"].as_str().unwrap();
+        let line =
+            text.lines().find(|line| line.contains(&format!("  {name}: "))).unwrap_or_else(|| panic!("{name}: {text}"));
+        assert!(line.contains(facility["effect"].as_str().unwrap()), "{line}");
+        assert_eq!(line.contains("to get it: "), facility["state"] != "good", "{line}");
+    }
+}

@@ -8,6 +8,8 @@ use ocb_core::resolution::Resolution;
 use ocb_core::statistics::{Statistic, bootstrap_interval, maximum_interval, quantile, quantile_interval};
 use ocb_core::validation::Terms;
 
+use ocb_sandbox::Profile;
+
 use super::Measured;
 use super::lane::precision;
 use crate::machine::Machine;
@@ -127,7 +129,7 @@ fn verdicts(measured: &Measured) -> Vec<VerdictCount> {
 }
 
 /// The machine and its clock while all this was measured; absent when no runner came as far as its clock.
-pub fn environment(machine: &Machine, all: &[Measured]) -> Option<Environment> {
+pub fn environment(machine: &Machine, profile: Profile, all: &[Measured]) -> Option<Environment> {
     let clocks: Vec<_> = all.iter().flat_map(|m| &m.clocks).collect();
     let median = |of: fn(&ocb_sandbox::ClockFacts) -> f64| {
         Statistic::Median.of(&mut clocks.iter().map(|c| of(c)).collect::<Vec<_>>())
@@ -146,6 +148,7 @@ pub fn environment(machine: &Machine, all: &[Measured]) -> Option<Environment> {
         },
         disturbed: all.iter().map(|m| m.disturbed).sum(),
         jail: all.iter().find(|m| !m.layers.is_empty()).map(|m| m.layers.clone()).unwrap_or_default(),
+        profile: profile.as_str().into(),
         version: env!("CARGO_PKG_VERSION").into(),
     })
 }

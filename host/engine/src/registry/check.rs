@@ -13,9 +13,9 @@ use ocb_core::record::Verdict;
 use ocb_core::sampling::sphere::Plan;
 use ocb_core::stock;
 use ocb_core::validation::{Terms, judge};
-use ocb_sandbox::{Launcher, Outcome, Policy, Trial};
+use ocb_sandbox::{Launcher, Outcome, Policy, Profile, Trial};
 
-use super::{info, read_plugin};
+use super::{built_here, info, read_plugin};
 use crate::blobs::sha256_hex;
 use crate::measure::precision;
 use crate::model::{AlgorithmInfo, CheckLine, CheckVerdict, PluginReport};
@@ -29,7 +29,7 @@ const TRIANGLES: u32 = 500;
 const DISTANCES: [f64; 3] = [0.2, 0.01, 0.0];
 
 /// Makes the report. Blocks, so it wants a thread of its own.
-pub fn check_plugin(runner: &Path, file: &Path) -> Result<PluginReport> {
+pub fn check_plugin(runner: &Path, file: &Path, profile: Profile) -> Result<PluginReport> {
     let mut report = PluginReport {
         file: file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
         sha256: None,
@@ -52,8 +52,13 @@ pub fn check_plugin(runner: &Path, file: &Path) -> Result<PluginReport> {
         }
     }
     // Our time limits for strangers' first try: a smoke query takes microseconds.
-    let policy = Policy { build_seconds: 20.0, query_seconds: 5.0, trial_seconds: 60.0, ..Policy::default() };
+    let trusted = built_here(runner, file);
+    let limits = Policy { build_seconds: 20.0, query_seconds: 5.0, trial_seconds: 60.0, ..Policy::default() };
+    let policy = Policy { profile, trusted, ..limits };
     let launcher = Launcher::new(runner.to_owned(), policy);
+    if !report.gate(&launcher, file)? {
+        return Ok(report);
+    }
     match launcher.describe(file) {
         Ok(descriptors) => {
             let hash = report.sha256.clone().unwrap_or_default();
@@ -92,6 +97,32 @@ pub fn check_plugin(runner: &Path, file: &Path) -> Result<PluginReport> {
 impl PluginReport {
     fn line(&mut self, check: impl Into<String>, verdict: CheckVerdict, evidence: String, hint: Option<&str>) {
         self.lines.push(CheckLine { check: check.into(), verdict, evidence, hint: hint.map(str::to_owned) });
+    }
+
+    /// What the file is, read in the jail before anybody loads it. False when that ends the check.
+    fn gate(&mut self, launcher: &Launcher, file: &Path) -> Result<bool> {
+        let inspection = match launcher.inspect(file) {
+            Ok(inspection) => inspection,
+            Err(ending) if ending.outcome.ours() => return Err(EngineError::Fault(ending.to_string())),
+            Err(ending) => {
+                self.line("ELF gate", CheckVerdict::Fail, ending.to_string(), hint_for(&ending.outcome));
+                return Ok(false);
+            }
+        };
+        for rejection in &inspection.rejections {
+            let check = format!("ELF gate: {}", rejection.rule);
+            let evidence = sentence(&format!("{}; {}", rejection.what, rejection.why));
+            self.line(check, CheckVerdict::Fail, evidence, Some(&sentence(&rejection.mend)));
+        }
+        if let (Some(facts), true) = (&inspection.facts, inspection.rejections.is_empty()) {
+            self.line("ELF gate", CheckVerdict::Pass, facts.sentence(), None);
+            let hint = "Nothing of it is forbidden; a curator looks at it.";
+            facts
+                .remarks()
+                .into_iter()
+                .for_each(|remark| self.line("ELF facts", CheckVerdict::Note, remark, Some(hint)));
+        }
+        Ok(inspection.rejections.is_empty())
     }
 
     /// What the descriptor owes the reader of a table.
@@ -251,6 +282,12 @@ fn smoke_object(name: &str) -> Result<Arc<Mesh>> {
 
 fn certified(pair: &Pair, configuration: Configuration) -> Placed {
     Placed { configuration, truth: pair.truth(&configuration), root_index: 0, wanted: None }
+}
+
+/// First letter large, full stop.
+fn sentence(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
 }
 
 fn query_name(query: Query) -> &'static str {

@@ -240,6 +240,7 @@ mod contract {
             null_ns: Estimated { value: 1.0, lo: 0.5, hi: 2.0 },
             disturbed: 3,
             jail: vec!["seccomp".into()],
+            profile: "dev".into(),
             version: "1".into(),
         };
         store.set_of_run("r", &set_info(), "b").await.unwrap();

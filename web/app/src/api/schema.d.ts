@@ -566,6 +566,8 @@ export interface components {
             memory_bytes: number;
             /** @description Null round trip that is subtracted: median, with p05 and p95 as its interval, nanoseconds. */
             null_ns: components["schemas"]["Estimated"];
+            /** @description `production`, or `dev`: foreign plugins then ran with what layers the machine had, and nothing of it is ranked. */
+            profile?: string;
             /** @description Version of this program. */
             version: string;
         };

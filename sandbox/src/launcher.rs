@@ -1,0 +1,193 @@
+//! From a plugin file to a session that can be asked, or to what the file says of itself.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use ocb_core::mesh::Mesh;
+use ocb_core::query::Semantics;
+
+use crate::clock::{Clock, ClockFacts, ClockKind};
+use crate::descriptor::Descriptor;
+use crate::exchange::Exchange;
+use crate::gate::Inspection;
+use crate::launch::{Jail, Killer};
+use crate::layers::Profile;
+use crate::outcome::{Ending, Outcome, Phase};
+use crate::policy::{ClockChoice, Policy};
+use crate::protocol::{Command, parse_descriptors, parse_inspection};
+use crate::session::{Pinned, Session};
+use crate::trial::write_trial;
+
+/// Null round trips before the first one that counts, and those that count.
+const NULL_WARM_UP: usize = 100;
+const NULL_SAMPLES: usize = 1000;
+/// Time for them, and how many there are in any case.
+const NULL_TIME: Duration = Duration::from_millis(50);
+const NULL_LEAST: usize = 20;
+
+/// Starts runners under one policy.
+#[derive(Clone, Debug)]
+pub struct Launcher {
+    runner: PathBuf,
+    policy: Policy,
+}
+
+/// What one runner is started for.
+#[derive(Clone, Copy, Debug)]
+pub struct Trial<'a> {
+    /// The plugin file.
+    pub plugin: &'a Path,
+    /// Id of the algorithm in it.
+    pub algorithm: &'a str,
+    /// Object A.
+    pub mesh_a: &'a Mesh,
+    /// Object B; the same object as A when absent, which is then built once.
+    pub mesh_b: Option<&'a Mesh>,
+    /// Parameters by name; those not named keep their default.
+    pub parameters: &'a [(String, f64)],
+    /// What counts as an object; an algorithm that does not know solid bodies answers "unsupported" for them.
+    pub semantics: Semantics,
+}
+
+impl Launcher {
+    /// `runner` is the path of the `ocb-runner` binary.
+    pub fn new(runner: PathBuf, policy: Policy) -> Self {
+        Self { runner, policy }
+    }
+
+    /// Lists the algorithms of a plugin, from inside the jail.
+    pub fn describe(&self, plugin: &Path) -> Result<Vec<Descriptor>, Ending> {
+        self.aside(plugin, |exchange| self.load(exchange))
+    }
+
+    /// Reads a plugin file as ELF, in a jail, without loading it.
+    pub fn inspect(&self, plugin: &Path) -> Result<Inspection, Ending> {
+        self.aside(plugin, |exchange| {
+            exchange.obeyed(Command::Inspect, Phase::Load, self.policy.load_seconds)?;
+            // No foreign code has run yet: what is wrong here is ours.
+            parse_inspection(&exchange.text(Phase::Load)?).map_err(|reason| Outcome::fault("Gate", reason))
+        })
+    }
+
+    /// The layers that a jail around this file has, without loading it.
+    pub fn layers(&self, plugin: &Path) -> Result<Vec<String>, Ending> {
+        self.aside(plugin, |exchange| Ok(exchange.jail.layers.phrases()))
+    }
+
+    /// Does something in a jail of its own, without objects.
+    fn aside<T>(&self, plugin: &Path, work: impl FnOnce(&mut Exchange) -> Result<T, Outcome>) -> Result<T, Ending> {
+        let mut exchange = self.jail(plugin, &write_trial("", &[], Semantics::Surface, &[]), &Killer::default())?;
+        match work(&mut exchange) {
+            Ok(found) => {
+                exchange.jail.end(Outcome::Completed);
+                Ok(found)
+            }
+            Err(outcome) => Err(exchange.jail.end(outcome)),
+        }
+    }
+
+    /// Starts a fresh runner, loads the plugin and builds both objects.
+    ///
+    /// The jail lives no longer than the calling thread (Linux delivers the parent-death signal when the *thread* that
+    /// started a process ends), so call this and everything on the [`Session`] from one thread that outlives it; the
+    /// session cannot be sent elsewhere.
+    pub fn start(&self, trial: &Trial<'_>) -> Result<Session, Ending> {
+        self.start_with(trial, &Killer::default())
+    }
+
+    /// As [`Launcher::start`], with a handle that another thread may hold already while the plugin loads and builds.
+    pub fn start_with(&self, trial: &Trial<'_>, killer: &Killer) -> Result<Session, Ending> {
+        let meshes: Vec<&Mesh> = std::iter::once(trial.mesh_a).chain(trial.mesh_b).collect();
+        let sheet = write_trial(trial.algorithm, trial.parameters, trial.semantics, &meshes);
+        let mut exchange = self.jail(trial.plugin, &sheet, killer)?;
+        // Not before the jail has started: it would inherit the choice.
+        let pinned = match Pinned::to(self.policy.supervisor_cpu) {
+            Ok(pinned) => pinned,
+            Err(outcome) => return Err(exchange.jail.end(outcome)),
+        };
+        let mut prepare = || -> Result<(f64, ClockFacts), Outcome> {
+            let policy = &self.policy;
+            self.load(&mut exchange)?;
+            exchange.obeyed(Command::Prepare, Phase::Load, policy.load_seconds)?;
+            let builds = &[Command::BuildA, Command::BuildB][..meshes.len()];
+            let mut build_ns = 0.0;
+            for build in builds {
+                build_ns += exchange.obeyed(*build, Phase::Build, policy.build_seconds)?.raw_ns;
+            }
+            let clock = measure_null(&mut exchange, policy)?;
+            Ok(((build_ns - clock.null_median_ns * builds.len() as f64).max(clock.resolution_ns()), clock))
+        };
+        match prepare() {
+            Ok((build_ns, clock)) => Ok(Session::new(self.policy.clone(), exchange, build_ns, clock, pinned)),
+            Err(outcome) => Err(exchange.jail.end(outcome)),
+        }
+    }
+
+    fn load(&self, exchange: &mut Exchange) -> Result<Vec<Descriptor>, Outcome> {
+        exchange.obeyed(Command::Open, Phase::Load, self.policy.load_seconds)?;
+        parse_descriptors(&exchange.text(Phase::Load)?).map_err(|reason| Outcome::LoadError { reason })
+    }
+
+    /// A jail that has been looked at. Where this machine forbids namespaces, a trusted plugin runs without, and a foreign
+    /// one where the profile lets it.
+    fn jail(&self, plugin: &Path, trial: &[u8], killer: &Killer) -> Result<Exchange, Ending> {
+        match self.jail_in(plugin, trial, killer, true) {
+            Err(Ending { outcome: Outcome::SandboxFault { step, .. }, .. })
+                if (self.policy.trusted || self.policy.profile == Profile::Dev)
+                    && NAMESPACE_STEPS.contains(&step.as_str()) =>
+            {
+                self.jail_in(plugin, trial, killer, false)
+            }
+            result => result,
+        }
+    }
+
+    fn jail_in(&self, plugin: &Path, trial: &[u8], killer: &Killer, namespaces: bool) -> Result<Exchange, Ending> {
+        let kind = self.clock_kind();
+        let jail =
+            Jail::start(&self.runner, &self.policy, killer, plugin, trial, kind == ClockKind::Futex, namespaces)?;
+        let mut exchange = Exchange::new(jail, kind, Clock::get(), self.policy.trial_seconds);
+        let closed = exchange.obeyed(Command::CloseListener, Phase::Load, self.policy.load_seconds);
+        match closed.and_then(|_| exchange.jail.verify(namespaces)) {
+            Ok(()) => Ok(exchange),
+            Err(outcome) => Err(exchange.jail.end(outcome)),
+        }
+    }
+
+    fn clock_kind(&self) -> ClockKind {
+        let cpus = std::thread::available_parallelism().map_or(1, usize::from);
+        match (self.policy.clock, self.policy.runner_cpu, self.policy.supervisor_cpu) {
+            (ClockChoice::Spin, ..) => ClockKind::Spin,
+            (ClockChoice::Futex, ..) => ClockKind::Futex,
+            (ClockChoice::Auto, Some(runner), Some(supervisor)) if runner != supervisor => ClockKind::Spin,
+            (ClockChoice::Auto, Some(_), Some(_)) => ClockKind::Futex,
+            (ClockChoice::Auto, ..) if cpus > 1 => ClockKind::Spin,
+            (ClockChoice::Auto, ..) => ClockKind::Futex,
+        }
+    }
+}
+
+/// Steps that fail where a machine forbids namespaces or what is done inside them.
+const NAMESPACE_STEPS: [&str; 9] =
+    ["Namespaces", "IdMaps", "Groups", "Ids", "PrivateMounts", "EmptyRoot", "Library", "EnterRoot", "ReadOnlyRoot"];
+
+/// Asks nothing so often that the round trip and its spread are known; on a machine too busy for that, as often as fits
+/// into a twentieth of a second.
+fn measure_null(exchange: &mut Exchange, policy: &Policy) -> Result<ClockFacts, Outcome> {
+    let begun = Instant::now();
+    let (mut good, mut all) = (Vec::with_capacity(NULL_SAMPLES), Vec::with_capacity(NULL_SAMPLES));
+    for i in 0..NULL_WARM_UP + NULL_SAMPLES {
+        let trip = exchange.obeyed(Command::Null, Phase::Query, policy.query_seconds)?;
+        let late = begun.elapsed() > NULL_TIME;
+        if i >= NULL_WARM_UP || late {
+            all.push(trip.raw_ns);
+            if !exchange.disturbed(&trip) {
+                good.push(trip.raw_ns);
+            }
+        }
+        if late && all.len() >= NULL_LEAST {
+            break;
+        }
+    }
+    Ok(ClockFacts::of(exchange.kind(), if good.is_empty() { all } else { good }))
+}

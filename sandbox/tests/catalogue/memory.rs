@@ -1,0 +1,36 @@
+//! The memory of the process: code, clock, input, answer.
+
+use crate::Attack;
+use crate::Expected::{Denied, Harmless, Left, Says, Signal, TimedOut, Violation};
+use crate::Form::{self, Contacts, Query, QueryAndConstructor};
+
+macro_rules! attack {
+    ($id:literal, $title:literal, $name:literal, $form:expr, $expected:expr) => {
+        Attack {
+            id: $id,
+            title: $title,
+            defines: &[concat!("ATTACK=", $name)],
+            form: $form as Form,
+            expected: $expected,
+        }
+    };
+}
+
+pub const ALL: &[Attack] = &[
+    attack!("M1", "writable and executable memory", "writable_code", QueryAndConstructor, Denied("mmap")),
+    attack!("M1", "make data executable", "data_to_code", Query, Denied("mprotect")),
+    attack!("M1", "code from a memory file", "code_from_memory_file", Query, Denied("memfd_create")),
+    attack!("M2", "put a page over libc's code", "overlay_libc", Query, Says("EPERM")),
+    attack!("M2", "make libc's code writable", "code_to_data", Query, Says("EPERM")),
+    attack!("M2", "put a page over the vDSO", "overlay_clock", Query, Says("EPERM")),
+    attack!("M3", "put a page over the clock's data", "overlay_clock_data", Query, Says("EPERM")),
+    attack!("I1", "store into the input", "store_into_input", Query, Signal(libc::SIGSEGV)),
+    attack!("I1", "make the input writable", "unprotect_input", Query, Says("EACCES")),
+    attack!("I2", "put a page over its own view of the input", "overlay_input", Query, Says("own view replaced")),
+    attack!("I3", "jump ahead in the answers' numbers", "forge_number", Contacts, Violation),
+    attack!("I3", "0xff over the answer's head, then loop", "forge_header", Contacts, Violation),
+    attack!("I3, I8", "announce an answer that is not there, then sleep", "forge_next_answer", Contacts, TimedOut),
+    attack!("I3", "announce the answer and leave", "forge_and_leave", Contacts, Left(0)),
+    attack!("I9", "leave the floating-point state changed", "spoil_floating_point", Query, Harmless),
+    attack!("I10", "search the environment", "search_reference", Query, Says("0 unknown words")),
+];
