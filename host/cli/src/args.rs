@@ -8,6 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use ocb_engine::Profile;
 
 use crate::choice::{ColormapArg, MeasureArg, OutliersArg, ScaleArg, SideArg, StatisticArg};
+use crate::placing::PlacingArgs;
 
 /// Benchmarks of collision detection.
 #[derive(Debug, Parser)]
@@ -89,6 +90,8 @@ pub enum Command {
     Serve(ServeArgs),
     /// Measure algorithms on a pair of objects, print the table, write the result files.
     Bench(BenchArgs),
+    /// Find configurations and certify them: poses, distances, classes, as a file.
+    Generate(GenerateArgs),
     /// Certified answers: do they collide, how far apart are they, how sure is that.
     Truth(TruthArgs),
     /// Look at plugins.
@@ -140,31 +143,16 @@ pub struct BenchArgs {
     /// Solid bodies: an object wholly inside the other one collides, too. For closed objects, and algorithms that know it.
     #[arg(long)]
     pub solid: bool,
-    /// How configurations are found.
-    #[arg(long, value_enum, default_value_t = SamplingMethod::Sphere)]
-    pub method: SamplingMethod,
-    /// Use the 2020 paper's own pattern of directions and rotations.
-    #[arg(long, conflicts_with_all = ["count", "configurations"])]
-    pub paper_compat: bool,
-    /// Rotate-by, degrees [default: 20].
-    #[arg(long, allow_negative_numbers = true, value_name = "DEGREES", conflicts_with_all = ["count", "configurations"])]
-    pub rotate: Option<f64>,
-    /// Move-by, degrees [default: 20].
-    #[arg(long = "move", allow_negative_numbers = true, value_name = "DEGREES", conflicts_with_all = ["count", "configurations"])]
-    pub move_by: Option<f64>,
-    /// So many configurations instead of steps.
-    #[arg(long, allow_negative_numbers = true, value_name = "N", conflicts_with = "configurations")]
-    pub count: Option<i64>,
-    /// Configurations from a file: a Parquet set of ours, or raw little-endian f64 4x4 row-major matrices that place B in
-    /// A's frame.
-    #[arg(long, value_name = "FILE")]
+    #[command(flatten)]
+    pub placing: PlacingArgs,
+    /// Configurations from a file: a Parquet set of ours, or row-major 4x4 matrices that place B in A's frame, as CSV (16
+    /// or 12 numbers a line), JSON or raw little-endian f64.
+    #[arg(
+        long,
+        value_name = "FILE",
+        conflicts_with_all = ["paper_compat", "rotate", "move_by", "count", "seed", "distance", "step", "ladder", "center_distance", "hit_share"]
+    )]
     pub configurations: Option<PathBuf>,
-    /// Seed of the low-discrepancy sequences [default: 0].
-    #[arg(long, conflicts_with = "configurations")]
-    pub seed: Option<u64>,
-    /// Relative distance: surface distance over the longest side of A's bounding box; 0 is touching [default: 0].
-    #[arg(long, allow_negative_numbers = true, conflicts_with = "configurations")]
-    pub distance: Option<f64>,
     /// Timed passes per configuration; the median counts.
     #[arg(long, default_value_t = 3)]
     pub passes: u32,
@@ -174,6 +162,20 @@ pub struct BenchArgs {
     /// Folder for the result files: records as Parquet and CSV, configurations, run.json, heatmaps as GLB and PLY.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// `ocb generate`
+#[derive(Debug, Args)]
+pub struct GenerateArgs {
+    /// Object A (fixed): an OBJ file, or a stock object such as `stock:castle@5000`.
+    pub a: String,
+    /// Object B (moving) [default: the same as A].
+    pub b: Option<String>,
+    #[command(flatten)]
+    pub placing: PlacingArgs,
+    /// File to write (Parquet).
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
 }
 
 /// `ocb truth`
@@ -244,13 +246,6 @@ pub enum Contacts {
     First,
     /// All intersecting pairs.
     All,
-}
-
-/// How configurations are found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum SamplingMethod {
-    /// B comes from a sphere around A until the relative distance is met.
-    Sphere,
 }
 
 /// `ocb plugin`

@@ -5,10 +5,13 @@ mod bench;
 mod choice;
 mod doctor;
 mod failure;
+mod generate;
 mod heatmap;
+mod named;
 mod object;
 mod open;
 mod output;
+mod placing;
 mod plugin;
 mod run;
 mod serve;
@@ -43,6 +46,7 @@ async fn command(cli: Cli) -> Result<ExitCode> {
     match command {
         Command::Serve(args) => serve::serve(&store, &args, json).await,
         Command::Bench(args) => bench::bench(&store, &args, json).await,
+        Command::Generate(args) => generate::generate(&store, &args, json).await,
         Command::Truth(args) => truth::truth(&store, &args, json).await,
         Command::Plugin { command } => plugin::plugin(&store, &command, json).await,
         Command::Object { command } => object::object(&store, &command, json).await,

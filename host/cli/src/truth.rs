@@ -3,7 +3,7 @@
 mod number;
 mod pairs;
 mod text;
-mod work;
+pub mod work;
 
 use std::path::Path;
 use std::process::ExitCode;

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use ocb_core::configuration::Sampling;
+use ocb_core::configuration::{Method, Sampling, Separation};
 use ocb_core::mesh::obj;
 use ocb_core::oracle::{Pair, Shape};
-use ocb_core::sampling::sphere::Plan;
+use ocb_core::sampling::Plan;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
@@ -17,9 +17,10 @@ fn main() {
     let clock = Instant::now();
     let shape = Shape::new(mesh);
     println!("build {:.3} s", clock.elapsed().as_secs_f64());
-    let plan = Plan::new(&shape, &shape, &Sampling::Count { count }, distance, 0).expect("a plan");
+    let method = Method::Sphere { sampling: Sampling::Count { count }, seed: 0 };
+    let plan = Plan::new(&shape, &shape, &method, Separation::Relative { distance }).expect("a plan");
     let clock = Instant::now();
-    let placed: Vec<_> = (0..plan.len()).filter_map(|i| plan.place(i)).collect();
+    let placed: Vec<_> = (0..plan.units()).flat_map(|i| plan.place(i).placed).collect();
     let seconds = clock.elapsed().as_secs_f64();
     let exact = placed.iter().filter(|p| p.truth.exact_used).count();
     println!(

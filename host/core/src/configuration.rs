@@ -98,7 +98,7 @@ pub struct Placed {
     pub configuration: Configuration,
     /// The oracle's answer.
     pub truth: Truth,
-    /// Which root along its ray (0 = the first position found from outside).
+    /// 0: the first position from outside on the ray through the centres of both bounding boxes; 1: a further one.
     pub root_index: u32,
     /// What was looked for; `None` where the pose was given.
     pub wanted: Option<Separation>,
@@ -157,11 +157,43 @@ pub enum Method {
         #[serde(default)]
         seed: u64,
     },
+    /// B stands at every free node of a grid around A and is moved to the separation from there, so that concavities and
+    /// further roots are reached [Trenkel 2007].
+    Grid {
+        /// How rotations and the grid's spacing are chosen.
+        sampling: Sampling,
+        /// Seed of the low-discrepancy sequences.
+        #[serde(default)]
+        seed: u64,
+    },
+    /// B tumbles about z and x at a fixed distance of the centres; the order is kept [Zachmann 1998].
+    Trajectory {
+        /// Distance of the bounding boxes' centres divided by L.
+        center_distance: f64,
+        /// Number of frames of the full turn.
+        #[serde(default = "published_frames")]
+        count: u32,
+    },
+    /// B anywhere and anyhow in a cube around A, of which a share collides [van den Bergen 1997].
+    Random {
+        /// Number of poses.
+        count: u32,
+        /// Share of poses that collide; the cube is chosen for it.
+        hit_share: f64,
+        /// Seed of the low-discrepancy sequence.
+        #[serde(default)]
+        seed: u64,
+    },
     /// Read from a file.
     File {
         /// Content hash (SHA-256, hex) of the file.
         sha256: String,
     },
+}
+
+/// Zachmann's run.
+fn published_frames() -> u32 {
+    5000
 }
 
 /// How many directions and rotations, and in which pattern.
@@ -204,4 +236,8 @@ pub struct ConfigurationSet {
     pub placed: Vec<Placed>,
     /// Rays on which no position was found (B never came that close).
     pub missed_rays: u32,
+    /// Side of the cube of [`Method::Random`], in the objects' lengths.
+    pub box_side: Option<f64>,
+    /// Distance between the nodes of [`Method::Grid`], in the objects' lengths.
+    pub spacing: Option<f64>,
 }

@@ -4,15 +4,27 @@ mod common;
 
 use std::sync::Arc;
 
-use ocb_core::configuration::{Class, Placed, Sampling};
+use ocb_core::configuration::{Class, Method, Placed, Sampling, Separation};
 use ocb_core::oracle::{Pair, Shape, U32};
-use ocb_core::sampling::sphere::{MAX_CONFIGURATIONS, Plan, SamplingError, count};
+use ocb_core::sampling::{self, MAX_CONFIGURATIONS, Plan, SamplingError};
 
 fn stock(name: &str) -> Shape {
     Shape::new(Arc::new(ocb_core::stock::generate(name, 2000).expect("a stock object")))
 }
 
 const COUNT: Sampling = Sampling::Count { count: 300 };
+
+fn sphere<'a>(a: &'a Shape, b: &'a Shape, sampling: Sampling, distance: f64, seed: u64) -> Plan<'a> {
+    Plan::new(a, b, &Method::Sphere { sampling, seed }, Separation::Relative { distance }).expect("a plan")
+}
+
+fn at(plan: &Plan, unit: u64) -> Option<Placed> {
+    plan.place(unit).placed.pop()
+}
+
+fn count(sampling: &Sampling) -> Result<u64, SamplingError> {
+    sampling::count(&Method::Sphere { sampling: *sampling, seed: 0 })
+}
 
 #[test]
 fn the_number_is_known_before() {
@@ -32,7 +44,9 @@ fn the_number_is_known_before() {
     }
     let shape = stock("sphere");
     for bad in [-0.1, f64::NAN, f64::INFINITY] {
-        assert!(matches!(Plan::new(&shape, &shape, &COUNT, bad, 0), Err(SamplingError::RelativeDistance(_))));
+        let method = Method::Sphere { sampling: COUNT, seed: 0 };
+        let plan = Plan::new(&shape, &shape, &method, Separation::Relative { distance: bad });
+        assert!(matches!(plan, Err(SamplingError::RelativeDistance(_))));
     }
 }
 
@@ -61,8 +75,8 @@ fn every_configuration_is_certified_at_the_wanted_distance() {
         let (lo, hi) = (bounds.clone().reduce(|x, y| x.inf(&y)), bounds.reduce(|x, y| x.sup(&y)));
         let longest = (hi.expect("vertices") - lo.expect("vertices")).amax();
         for distance in [0.0, 0.001, 0.2, 1.5] {
-            let plan = Plan::new(&a, &b, &COUNT, distance, 7).expect("a plan");
-            let placed: Vec<Placed> = (0..plan.len()).filter_map(|i| plan.place(i)).collect();
+            let plan = sphere(&a, &b, COUNT, distance, 7);
+            let placed: Vec<Placed> = (0..plan.units()).filter_map(|i| at(&plan, i)).collect();
             // Both objects are around their centres, except that a ray may pass the knot's hole.
             assert!(placed.len() > 290, "{} placed", placed.len());
             placed.iter().for_each(|p| check(&pair, p, distance * longest));
@@ -75,8 +89,8 @@ fn nothing_is_nearer_before_on_the_ray() {
     let shape = stock("torus-knot");
     let pair = Pair::new(&shape, &shape);
     for distance in [0.0, 0.05] {
-        let plan = Plan::new(&shape, &shape, &COUNT, distance, 3).expect("a plan");
-        for placed in (0..40).filter_map(|i| plan.place(i)) {
+        let plan = sphere(&shape, &shape, COUNT, distance, 3);
+        for placed in (0..40).filter_map(|i| at(&plan, i)) {
             // Back along the ray the distance must always be at least the one that was reached.
             let back = placed.configuration.pose_b.translation.normalize();
             for step in 1..40 {
@@ -94,18 +108,18 @@ fn nothing_is_nearer_before_on_the_ray() {
 fn a_configuration_is_a_function_of_its_number() {
     let shape = stock("torus-knot");
     for sampling in [COUNT, Sampling::PaperCompat { rotate: 60.0, move_by: 60.0 }] {
-        let plan = |seed| Plan::new(&shape, &shape, &sampling, 0.0, seed).expect("a plan");
+        let plan = |seed| sphere(&shape, &shape, sampling, 0.0, seed);
         let (first, second, other) = (plan(1), plan(1), plan(2));
-        for i in (0..first.len()).rev().step_by(29) {
-            assert_eq!(first.place(i), second.place(i));
-            let same = first.place(i) == other.place(i);
+        for i in (0..first.units()).rev().step_by(29) {
+            assert_eq!(at(&first, i), at(&second, i));
+            let same = at(&first, i) == at(&other, i);
             assert_eq!(same, matches!(sampling, Sampling::PaperCompat { .. }), "only low-discrepancy sets have a seed");
         }
     }
     // A smaller set is the beginning of a larger one.
-    let few = Plan::new(&shape, &shape, &Sampling::Count { count: 10 }, 0.0, 1).expect("a plan");
-    let many = Plan::new(&shape, &shape, &COUNT, 0.0, 1).expect("a plan");
-    assert_eq!(few.place(9), many.place(9));
+    let few = sphere(&shape, &shape, Sampling::Count { count: 10 }, 0.0, 1);
+    let many = sphere(&shape, &shape, COUNT, 0.0, 1);
+    assert_eq!(at(&few, 9), at(&many, 9));
 }
 
 #[test]
@@ -119,7 +133,7 @@ fn a_ray_that_meets_nothing_gives_nothing() {
     };
     let a = Shape::from_triangles(&ring(-1.0).chain(ring(1.0)).collect::<Vec<_>>());
     let b = Shape::from_triangles(&[[[0.0, 0.0, 0.0], [0.01, 0.0, 0.0], [0.0, 0.01, 0.0]].map(nalgebra::Point3::from)]);
-    let plan = Plan::new(&a, &b, &COUNT, 0.0, 0).expect("a plan");
-    let placed = (0..plan.len()).filter_map(|i| plan.place(i)).count();
+    let plan = sphere(&a, &b, COUNT, 0.0, 0);
+    let placed = (0..plan.units()).filter_map(|i| at(&plan, i)).count();
     assert!(placed < 100, "{placed} of 300 rays end at twelve small triangles");
 }

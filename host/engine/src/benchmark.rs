@@ -13,7 +13,7 @@ use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
 use tokio::runtime::Handle;
 
-use crate::columns::{RecordsOf, SetOf, records_parquet, set_parquet};
+use crate::columns::{RecordsOf, records_parquet};
 use crate::configurations::{self, Gauge};
 use crate::engine::Inner;
 use crate::machine::{MakingWay, MeasuringRight};
@@ -120,15 +120,11 @@ impl Bench<'_> {
         let started = Instant::now();
         let Some(set) = self.find(pairing)? else { return Ok(None) };
         let seconds = started.elapsed().as_secs_f64();
-        let bytes = set_parquet(&SetOf { mesh_a: &sha_a, mesh_b: &sha_b }, &set)?;
-        let length = bytes.len();
-        let blob = self.log.wait(self.inner.blobs.put(bytes))?;
-        let info = configurations::describe(&set, &blob, [a.triangles().len(), b.triangles().len()]);
-        self.log.wait(store.add_blob(&blob, length, "application/vnd.apache.parquet"))?;
-        self.log.wait(store.keep_set(&key, &info, &blob, self.triangles(pairing), seconds))?;
+        let info = self.log.wait(self.inner.keep_set(&key, [a, b], &set, seconds))?;
+        let blob = info.sha256.clone();
         self.log.wait(store.set_of_run(&self.row.id, &info, &blob))?;
         let missed = (info.missed_rays > 0)
-            .then(|| format!("On {} rays the objects never come to this distance.", info.missed_rays));
+            .then(|| format!("On {} rays the objects do not come to what is wanted.", info.missed_rays));
         self.log.end(CONFIGURATIONS, State::Done, missed, None)?;
         Ok(Some((self.inner.sets.put(&blob, set), info)))
     }
@@ -138,12 +134,12 @@ impl Bench<'_> {
         let spec: &RunSpec = &self.row.spec.clone();
         let poses = match &spec.method {
             Method::File { sha256 } => Some(configurations::read_file(&self.log.wait(self.inner.blobs.get(sha256))?)?),
-            Method::Sphere { .. } => None,
+            _ => None,
         };
-        let total = match (&spec.method, &poses) {
-            (Method::Sphere { sampling, .. }, _) => ocb_core::sampling::sphere::count(sampling)
+        let total = match &poses {
+            Some(poses) => poses.len() as u64,
+            None => ocb_core::sampling::count(&spec.method)
                 .map_err(|e| EngineError::Invalid(format!("These configurations are not possible: {e}.")))?,
-            (_, poses) => poses.as_ref().map_or(0, |p| p.len() as u64),
         };
         self.log.start(CONFIGURATIONS, total)?;
         let gauge = Gauge::default();
@@ -158,7 +154,8 @@ impl Bench<'_> {
                 if self.stop.asked() {
                     gauge.stop.store(true, Ordering::Relaxed);
                 }
-                self.log.progress_slowly(CONFIGURATIONS, gauge.done.load(Ordering::Relaxed), total)?;
+                // A grid looks for some more than wanted.
+                self.log.progress_slowly(CONFIGURATIONS, gauge.done.load(Ordering::Relaxed).min(total), total)?;
             }
             worker.join().unwrap_or_else(|_| Err(EngineError::Fault("Finding the configurations broke down.".into())))
         })?;
@@ -351,10 +348,6 @@ impl Bench<'_> {
             self.log.progress(lane, done, total)?;
         }
         self.log.end(lane, State::Done, None, None)
-    }
-
-    fn triangles(&self, pairing: &Pairing) -> u64 {
-        (pairing.mesh_a.triangles().len() + pairing.mesh_b.triangles().len()) as u64
     }
 }
 

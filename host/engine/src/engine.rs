@@ -3,6 +3,9 @@
 mod featured;
 mod follow;
 mod runs;
+mod sets;
+
+pub use sets::SetJob;
 
 use std::collections::VecDeque;
 use std::fs::File;
@@ -162,8 +165,8 @@ impl Engine {
         self.inner.objects.mesh(id).await
     }
 
-    /// Keeps a file of configurations (a Parquet set of ours, or raw little-endian f64 4x4 row-major matrices that place
-    /// B in A's frame) and gives the method that names it in a [`RunSpec`].
+    /// Keeps a file of configurations (a Parquet set of ours, JSON, CSV or raw f64 matrices) and gives the method that
+    /// names it in a [`RunSpec`].
     pub async fn add_configurations(&self, bytes: Vec<u8>) -> Result<Method> {
         let bytes = blocking(move || configurations::read_file(&bytes).map(|_| bytes)).await?;
         let length = bytes.len();

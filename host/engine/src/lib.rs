@@ -25,6 +25,6 @@ mod store;
 pub mod truth;
 
 pub use config::{EngineConfig, Profile};
-pub use engine::Engine;
+pub use engine::{Engine, SetJob};
 pub use error::{EngineError, Result};
 pub use ocb_sandbox::doctor;

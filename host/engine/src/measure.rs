@@ -2,6 +2,7 @@
 //!
 //! The algorithms take turns, one pass each per round, so that a slow drift of the machine meets all of them alike. Every
 //! turn is a fresh jailed process. All share one shuffled order; an algorithm whose budget ends measures a prefix of it.
+//! A trajectory keeps its own order: that each configuration is near the one before is what it is for.
 
 mod lane;
 mod order;
@@ -11,7 +12,7 @@ use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use ocb_core::configuration::ConfigurationSet;
+use ocb_core::configuration::{ConfigurationSet, Method};
 use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::query::{Query, Semantics};
@@ -106,11 +107,19 @@ pub enum News {
     },
 }
 
+impl Task<'_> {
+    /// The order is part of what is measured: each configuration is near the one before.
+    fn coherent(&self) -> bool {
+        matches!(self.set.method, Method::Trajectory { .. })
+    }
+}
+
 /// Measures all contestants and sends what happens; returns early when stopped.
 pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop, news: &Sender<News>) {
     let _quiet = machine.keep_off();
     let mut lanes: Vec<Lane> = task.contestants.iter().map(|c| Lane::new(c.clone(), task.set.placed.len())).collect();
-    let base = order::shuffled(task.set.placed.len() as u32, task.seed);
+    let n = task.set.placed.len() as u32;
+    let base = if task.coherent() { (0..n).collect() } else { order::shuffled(n, task.seed) };
     // Round `passes` is the untimed one, in which the counters are asked for.
     for round in 0..=task.passes {
         for (index, lane) in lanes.iter_mut().enumerate() {
@@ -146,8 +155,11 @@ impl Turn<'_> {
     fn play(&self, lane: &mut Lane, base: &[u32]) {
         let placed = &self.task.set.placed;
         let prefix = &base[..lane.reach.unwrap_or(base.len())];
-        let order =
-            if self.round == 0 { prefix.to_vec() } else { order::reshuffled(prefix, self.task.seed, self.round) };
+        let order = if self.round == 0 || self.task.coherent() {
+            prefix.to_vec()
+        } else {
+            order::reshuffled(prefix, self.task.seed, self.round)
+        };
         self.report(lane);
         // From before the start, so that a long build can be stopped as well.
         let killer = Killer::default();

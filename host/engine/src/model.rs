@@ -6,7 +6,7 @@ mod heatmap;
 mod plugin;
 mod truth;
 
-use ocb_core::configuration::{Class, Method};
+use ocb_core::configuration::{Class, Method, Separation};
 use ocb_core::query::{Query, Semantics};
 use ocb_core::resolution::Resolution;
 use serde::{Deserialize, Serialize};
@@ -62,6 +62,12 @@ pub struct RunSpec {
     /// Surface distance divided by L, the longest side of A's bounding box; at least 0.
     #[serde(default)]
     pub relative_distance: f64,
+    /// Instead of a relative distance: a step of the scene's size S, 7e-15 to 0.1, apart (above 0) or crossing (below 0).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub step: Option<f64>,
+    /// Instead of a relative distance: the ten steps of the ladder in turn, on which eps* is measured.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub ladder: bool,
     /// Algorithm ids; all that answer the question when empty.
     #[serde(default)]
     pub algorithms: Vec<String>,
@@ -72,6 +78,20 @@ pub struct RunSpec {
     /// order that all algorithms share) as fit.
     #[serde(default = "default_budget")]
     pub budget_seconds: f64,
+}
+
+impl RunSpec {
+    /// How far apart or how deep the configurations are; `None` where the method does not ask.
+    pub fn separation(&self) -> Option<Separation> {
+        match self.method {
+            Method::Trajectory { .. } | Method::Random { .. } | Method::File { .. } => None,
+            Method::Sphere { .. } | Method::Grid { .. } => Some(match self.step {
+                _ if self.ladder => Separation::Ladder,
+                Some(of_size) => Separation::Step { of_size },
+                None => Separation::Relative { distance: self.relative_distance },
+            }),
+        }
+    }
 }
 
 fn default_passes() -> u32 {
@@ -205,16 +225,34 @@ pub struct SetInfo {
     pub sha256: String,
     /// Configurations.
     pub configurations: u32,
-    /// Rays without a position.
+    /// Rays on which no position was found.
     pub missed_rays: u32,
     /// L, the longest side of A's bounding box.
     pub longest_side: f64,
     /// How many are of which class in f64.
     pub classes: Vec<ClassCount>,
+    /// Configurations whose truth needed exact arithmetic.
+    #[serde(default)]
+    pub exact: u32,
+    /// Positions that no ray from outside toward A's centre meets first.
+    #[serde(default)]
+    pub further_roots: u32,
     /// Share of A's triangles that are a closest feature at least once.
     pub coverage_a: f64,
     /// The same of B.
     pub coverage_b: f64,
+    /// How evenly: entropy of the closest features over A's triangles, divided by its maximum (1: all equally often).
+    #[serde(default)]
+    pub evenness_a: f64,
+    /// The same of B.
+    #[serde(default)]
+    pub evenness_b: f64,
+    /// Distance between the nodes of the grid method.
+    #[serde(default)]
+    pub spacing: Option<f64>,
+    /// Side of the cube of random placement.
+    #[serde(default)]
+    pub box_side: Option<f64>,
 }
 
 /// How many configurations are of a class.

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use ocb_core::configuration::Method;
+use ocb_core::configuration::{Method, Separation};
 use ocb_core::query::{Query, Semantics};
-use ocb_core::sampling::sphere;
+use ocb_core::sampling;
 
 use crate::blobs::Blobs;
 use crate::configurations;
@@ -18,8 +18,6 @@ use crate::{EngineError, Result};
 const MAX_PASSES: u32 = 99;
 /// Measuring time per algorithm at most: a day.
 const MAX_BUDGET_SECONDS: f64 = 86_400.0;
-/// Beyond this the objects are specks to each other.
-const MAX_RELATIVE_DISTANCE: f64 = 1000.0;
 
 /// A request that can be carried out.
 pub struct Checked {
@@ -44,13 +42,6 @@ pub async fn check(
     blobs: &Blobs,
 ) -> Result<Checked> {
     let invalid = |sentence: String| Err(EngineError::Invalid(sentence));
-    let distance = spec.relative_distance;
-    // Written so that NaN fails.
-    if !(0.0..=MAX_RELATIVE_DISTANCE).contains(&distance) {
-        return invalid(format!(
-            "The relative distance must be a number from 0 to {MAX_RELATIVE_DISTANCE}, not {distance}."
-        ));
-    }
     if !(1..=MAX_PASSES).contains(&spec.passes) {
         return invalid(format!("The number of passes must be from 1 to {MAX_PASSES}, not {}.", spec.passes));
     }
@@ -60,16 +51,7 @@ pub async fn check(
             spec.budget_seconds
         ));
     }
-    let configurations = match &spec.method {
-        Method::Sphere { sampling, .. } => sphere::count(sampling)
-            .map_err(|e| EngineError::Invalid(format!("These configurations are not possible: {e}.")))?,
-        Method::File { sha256 } => {
-            if store.blob_bytes(sha256).await?.is_none() {
-                return invalid(format!("There is no stored file of configurations {sha256:?}; add it first."));
-            }
-            configurations::read_file(&blobs.get(sha256).await?)?.len() as u64
-        }
-    };
+    let configurations = set_size(spec, store, blobs).await?;
     let contestants = contestants(spec, registry)?;
     let object_a = objects.info(&spec.object_a).await?;
     let object_b = match &spec.object_b {
@@ -96,6 +78,33 @@ fn check_solid(objects: &[&ObjectInfo]) -> Result<()> {
         ))),
         None => Ok(()),
     }
+}
+
+/// Checks what a request says about its configurations; their number, before any is missed.
+pub async fn set_size(spec: &RunSpec, store: &Store, blobs: &Blobs) -> Result<u64> {
+    let invalid = |sentence: &str| Err(EngineError::Invalid(sentence.into()));
+    let RunSpec { relative_distance, step, ladder, .. } = *spec;
+    if [relative_distance != 0.0, step.is_some(), ladder].iter().filter(|given| **given).count() > 1 {
+        return invalid("Ask for a relative distance, a step or the ladder of steps, not for two of them.");
+    }
+    let separation = spec.separation().unwrap_or(Separation::Relative { distance: relative_distance });
+    if spec.separation().is_none() && (step.is_some() || ladder) {
+        return invalid(
+            "Steps and the ladder belong to the sphere and the grid method; the poses of the others are given.",
+        );
+    }
+    sampling::check_separation(separation)
+        .map_err(|e| EngineError::Invalid(format!("These configurations are not possible: {e}.")))?;
+    if let Method::File { sha256 } = &spec.method {
+        if store.blob_bytes(sha256).await?.is_none() {
+            return Err(EngineError::Invalid(format!(
+                "There is no stored file of configurations {sha256:?}; add it first."
+            )));
+        }
+        return Ok(configurations::read_file(&blobs.get(sha256).await?)?.len() as u64);
+    }
+    sampling::count(&spec.method)
+        .map_err(|e| EngineError::Invalid(format!("These configurations are not possible: {e}.")))
 }
 
 /// The named algorithms, each once, or all that answer the question.

@@ -1,9 +1,10 @@
 //! The table of a run. Rows stand in the run's order, never ranked: a failed or wrong algorithm has no rank to lose.
 
+use ocb_core::configuration::{Class, Method, Separation};
 use ocb_core::record::Verdict;
 use ocb_core::resolution::{Resolution, Threshold};
 use ocb_engine::Profile;
-use ocb_engine::model::{Agreement, AlgorithmResult, ContactQuality, Estimated, RunInfo};
+use ocb_engine::model::{Agreement, AlgorithmResult, ContactQuality, Estimated, RunInfo, RunSpec, SetInfo};
 
 use crate::{output, plugin, run, units};
 
@@ -25,6 +26,7 @@ const HEADINGS: [&str; 12] = [
 /// Title, table and notes.
 pub fn summary(run: &RunInfo) -> String {
     let mut text = vec![title(run)];
+    text.extend(run.set.as_ref().map(set));
     let rows: Vec<Vec<String>> = run.results.iter().map(row).collect();
     if !rows.is_empty() {
         text.push(output::table(&HEADINGS, rows, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10]));
@@ -51,10 +53,51 @@ pub fn summary(run: &RunInfo) -> String {
 
 fn title(run: &RunInfo) -> String {
     let pair = format!("{} x {}", run.object_a_name, run.object_b_name);
-    let set = run.set.as_ref().map_or_else(String::new, |set| format!(", {} configurations", set.configurations));
     let query = plugin::query_name(run.spec.query);
-    let (distance, state) = (run.spec.relative_distance, run::state_name(run.state));
-    format!("Run {}: {pair}, {query}, relative distance {distance}{set}: {state}", run.id)
+    let (placing, state) = (placing(&run.spec), run::state_name(run.state));
+    format!("Run {}: {pair}, {query}, {placing}: {state}", run.id)
+}
+
+/// How the configurations of a request are found.
+pub fn placing(spec: &RunSpec) -> String {
+    let method = match &spec.method {
+        Method::Sphere { .. } => "sphere".to_owned(),
+        Method::Grid { .. } => "grid".to_owned(),
+        Method::Trajectory { center_distance, .. } => return format!("trajectory at {center_distance} L"),
+        Method::Random { hit_share, .. } => return format!("random, {hit_share} colliding"),
+        Method::File { .. } => return "given poses".to_owned(),
+    };
+    match spec.separation() {
+        Some(Separation::Ladder) => format!("{method}, ladder of steps"),
+        Some(Separation::Step { of_size }) => format!("{method}, step {of_size:e}"),
+        _ => format!("{method}, relative distance {}", spec.relative_distance),
+    }
+}
+
+/// What there is to say of a set.
+pub fn set(set: &SetInfo) -> String {
+    let missed = if set.missed_rays > 0 { format!(", {} missed", set.missed_rays) } else { String::new() };
+    let further = if set.further_roots > 0 { format!(", {} further roots", set.further_roots) } else { String::new() };
+    let classes: Vec<String> = set.classes.iter().map(|c| format!("{} {}", c.count, class_name(c.class))).collect();
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    format!(
+        "{} configurations{missed}{further} ({} in f64); closest features cover {} of A's triangles (evenness {:.2}) and \
+         {} of B's ({:.2})",
+        set.configurations,
+        classes.join(", "),
+        percent(set.coverage_a),
+        set.evenness_a,
+        percent(set.coverage_b),
+        set.evenness_b
+    )
+}
+
+fn class_name(class: Class) -> &'static str {
+    match class {
+        Class::Clear => "clear",
+        Class::Colliding => "colliding",
+        Class::Grazing => "grazing",
+    }
 }
 
 fn row(result: &AlgorithmResult) -> Vec<String> {

@@ -57,7 +57,7 @@ fn bad_settings_are_refused_before_anything_is_opened() {
         (&["--query", "pq", "--contacts", "all"], "--contacts"),
         (&["--count", "5", "--rotate", "20"], "--rotate"),
         (&["--configurations", "missing.f64"], "missing.f64"),
-        (&["--method", "grid"], "grid"),
+        (&["--method", "cube"], "cube"),
         (&["--speed", "fast"], "--speed"),
         (&["--configurations", &odd, "--seed", "1"], "--seed"),
         (&["--out", "/dev/null/results"], "/dev/null"),

@@ -4,6 +4,7 @@
 
 mod bench;
 mod errors;
+mod generate;
 mod look;
 mod serve;
 mod support;

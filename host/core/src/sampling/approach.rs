@@ -212,18 +212,18 @@ impl<'a> Approach<'a> {
 }
 
 /// Is the whole certified interval within `(wanted - tau, wanted + tau]`?
-fn within(truth: &Truth, wanted: f64, tau: f64) -> bool {
+pub(super) fn within(truth: &Truth, wanted: f64, tau: f64) -> bool {
     truth.distance_lo > wanted - tau && truth.distance_hi <= wanted + tau
 }
 
-fn bounds(shape: &Shape) -> (Point3<f64>, Point3<f64>) {
+pub(super) fn bounds(shape: &Shape) -> (Point3<f64>, Point3<f64>) {
     let first = shape.corners(0)[0];
     let used = shape.triangles().iter().flatten().map(|&v| shape.positions()[v as usize]);
     used.fold((first, first), |(lo, hi), p| (lo.inf(&p), hi.sup(&p)))
 }
 
 /// Centre of the bounding box and the largest distance of a vertex from it.
-fn ball(shape: &Shape) -> (Point3<f64>, f64) {
+pub(super) fn ball(shape: &Shape) -> (Point3<f64>, f64) {
     let (lo, hi) = bounds(shape);
     let centre = nalgebra::center(&lo, &hi);
     let used = shape.triangles().iter().flatten().map(|&v| shape.positions()[v as usize]);

@@ -1,6 +1,6 @@
 //! Evenly spread directions and rotations, jointly.
 //!
-//! One additive sequence in five dimensions (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences":
+//! An additive sequence in five dimensions (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences":
 //! the generalised golden ratio) gives two numbers to the direction and three to the rotation. Joint, because a product
 //! of few directions with few rotations would approach A along the same few rays again and again, and the heatmap would
 //! show the rays. Every prefix of the sequence is evenly spread, so a smaller N is a prefix of a larger one.
@@ -15,24 +15,44 @@ pub(super) type Sample = (Vector3<f64>, Matrix3<f64>);
 /// Sample `index` of the sequence that `seed` shifts.
 pub(super) fn sample(index: u64, seed: u64) -> Sample {
     // The real root of x^6 = x + 1.
-    const PHI: f64 = 1.134_724_138_401_519_4;
+    let u: [f64; 5] = point(1.134_724_138_401_519_4, index, seed);
+    (direction(u[0], u[1]), rotation(u[2], u[3], u[4]))
+}
+
+/// The same in six dimensions: a point of the unit cube and a rotation.
+pub(super) fn placement(index: u64, seed: u64) -> Sample {
+    // The real root of x^7 = x + 1.
+    let u: [f64; 6] = point(1.112_775_684_278_705_5, index, seed);
+    (Vector3::new(u[0], u[1], u[2]), rotation(u[3], u[4], u[5]))
+}
+
+fn point<const D: usize>(ratio: f64, index: u64, seed: u64) -> [f64; D] {
     let mut power = 1.0;
     let mut state = seed;
-    let u: [f64; 5] = std::array::from_fn(|_| {
-        power /= PHI;
+    std::array::from_fn(|_| {
+        power /= ratio;
         let shift = splitmix(&mut state);
         (shift + (index as f64 + 1.0) * power).fract()
-    });
-    (direction(u[0], u[1]), rotation(u[2], u[3], u[4]))
+    })
+}
+
+/// A number that looks like a random one of these two.
+pub(super) fn mix(x: u64, y: u64) -> u64 {
+    scramble(scramble(x.wrapping_add(GOLDEN)) ^ y.wrapping_mul(GOLDEN))
 }
 
 /// One of 2^53 shifts in [0, 1) (Steele, Lea and Flood 2014, SplitMix64).
 fn splitmix(state: &mut u64) -> f64 {
-    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let mut z = *state;
+    *state = state.wrapping_add(GOLDEN);
+    (scramble(*state) >> 11) as f64 / (1u64 << 53) as f64
+}
+
+const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+
+fn scramble(mut z: u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    z ^ (z >> 31)
 }
 
 /// Unit vector; equal areas of the unit square become equal areas of the sphere (Lambert's cylinder).

@@ -65,11 +65,21 @@ impl Pattern {
     }
 
     pub(super) fn len(&self) -> u64 {
-        self.directions.len() * self.axes.len() * self.turns
+        self.directions() * self.rotations()
+    }
+
+    /// Number of rotations; those of the first places are all of them.
+    pub(super) fn rotations(&self) -> u64 {
+        self.axes.len() * self.turns
+    }
+
+    /// Number of directions.
+    pub(super) fn directions(&self) -> u64 {
+        self.directions.len()
     }
 
     pub(super) fn sample(&self, index: u64) -> Sample {
-        let rotations = self.axes.len() * self.turns;
+        let rotations = self.rotations();
         let (place, rotation) = (index / rotations, index % rotations);
         let (theta, phi) = self.directions.angles(place);
         let ((sin, cos), (sin_phi, cos_phi)) = (libm::sincos(theta), libm::sincos(phi));

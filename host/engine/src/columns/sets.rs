@@ -14,6 +14,7 @@ use ocb_core::configuration::{
 use ocb_core::pose::Pose;
 
 use super::{SCHEMA_VERSION, batch, column, from_parquet, to_parquet};
+use crate::configurations::GENERATOR;
 use crate::{EngineError, Result};
 
 /// What the file says of itself.
@@ -37,6 +38,9 @@ pub fn set_parquet(of: &SetOf, set: &ConfigurationSet) -> Result<Vec<u8>> {
             ("opencollbench.separation", json(&set.separation)?),
             ("opencollbench.longest_side", set.longest_side.to_string()),
             ("opencollbench.missed_rays", set.missed_rays.to_string()),
+            ("opencollbench.box_side", maybe(set.box_side)),
+            ("opencollbench.spacing", maybe(set.spacing)),
+            ("opencollbench.generator", GENERATOR.to_owned()),
         ]
         .map(|(key, value)| (key.to_owned(), value)),
     );
@@ -84,6 +88,10 @@ pub fn set_parquet(of: &SetOf, set: &ConfigurationSet) -> Result<Vec<u8>> {
     )?)
 }
 
+fn maybe(number: Option<f64>) -> String {
+    number.map_or_else(String::new, |x| x.to_string())
+}
+
 fn json(value: &impl serde::Serialize) -> Result<String> {
     serde_json::to_string(value).map_err(|e| EngineError::fault("Naming the method failed", e))
 }
@@ -97,12 +105,15 @@ pub fn read_set(bytes: &[u8]) -> Result<ConfigurationSet> {
         schema.metadata().get(&key).cloned().ok_or_else(|| damaged(format!("{key} is missing")))
     };
     let number = |key: &str| said(key)?.parse::<f64>().map_err(|e| damaged(format!("{key}: {e}")));
+    let not_json = |e: serde_json::Error| damaged(e.to_string());
     let mut set = ConfigurationSet {
-        method: serde_json::from_str(&said("method")?).map_err(|e| damaged(e.to_string()))?,
-        separation: serde_json::from_str(&said("separation")?).map_err(|e| damaged(e.to_string()))?,
+        method: serde_json::from_str(&said("method")?).map_err(not_json)?,
+        separation: serde_json::from_str(&said("separation")?).map_err(not_json)?,
         longest_side: number("longest_side")?,
         placed: Vec::new(),
         missed_rays: number("missed_rays")? as u32,
+        box_side: number("box_side").ok(),
+        spacing: number("spacing").ok(),
     };
     for batch in &batches {
         append_placed(&mut set.placed, batch).map_err(damaged)?;
@@ -271,6 +282,8 @@ mod tests {
             longest_side: 2.0 / 3.0,
             placed: (0..3).map(placed).collect(),
             missed_rays: 1,
+            box_side: None,
+            spacing: Some(0.1 + 0.2),
         }
     }
 

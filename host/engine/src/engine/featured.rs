@@ -34,6 +34,8 @@ impl Engine {
             semantics: Semantics::Surface,
             method: Method::Sphere { sampling: Sampling::Count { count: CONFIGURATIONS }, seed: 0 },
             relative_distance: 0.0,
+            step: None,
+            ladder: false,
             algorithms: Vec::new(),
             passes: 3,
             budget_seconds: BUDGET_SECONDS,

@@ -4,13 +4,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use nalgebra::Vector3;
-use ocb_core::configuration::{Configuration, Placed, Sampling};
+use ocb_core::configuration::{Configuration, Method, Placed, Sampling, Separation};
 use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::pose::Pose;
 use ocb_core::query::{Query, Semantics};
 use ocb_core::record::Verdict;
-use ocb_core::sampling::sphere::Plan;
+use ocb_core::sampling::Plan;
 use ocb_core::stock;
 use ocb_core::validation::{Terms, judge};
 use ocb_sandbox::{Launcher, Outcome, Policy, Profile, Trial};
@@ -240,10 +240,10 @@ impl Smoke {
         let pair = Pair::new(&shape, &shape);
         let mut placed = Vec::new();
         for distance in DISTANCES {
-            let sampling = Sampling::Count { count: RAYS };
-            let plan = Plan::new(&shape, &shape, &sampling, distance, 1)
+            let method = Method::Sphere { sampling: Sampling::Count { count: RAYS }, seed: 1 };
+            let plan = Plan::new(&shape, &shape, &method, Separation::Relative { distance })
                 .map_err(|e| EngineError::fault("Placing the smoke configurations failed", e))?;
-            for found in (0..plan.len()).filter_map(|i| plan.place(i)) {
+            for found in (0..plan.units()).flat_map(|unit| plan.place(unit).placed) {
                 placed.push(found);
                 // Half the way to A's centre: a certain collision, which the sphere method alone never gives.
                 let mut configuration = found.configuration;

@@ -131,6 +131,12 @@ fn set_info() -> SetInfo {
         classes: vec![ClassCount { class: Class::Clear, count: 4 }],
         coverage_a: 0.1,
         coverage_b: 0.2,
+        exact: 1,
+        further_roots: 0,
+        evenness_a: 0.3,
+        evenness_b: 0.4,
+        spacing: None,
+        box_side: Some(1.5),
     }
 }
 

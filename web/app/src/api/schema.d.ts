@@ -672,6 +672,47 @@ export interface components {
             seed?: number;
         } | {
             /** @enum {string} */
+            kind: "grid";
+            /** @description How rotations and the grid's spacing are chosen. */
+            sampling: components["schemas"]["Sampling"];
+            /**
+             * Format: int64
+             * @description Seed of the low-discrepancy sequences.
+             */
+            seed?: number;
+        } | {
+            /**
+             * Format: double
+             * @description Distance of the bounding boxes' centres divided by L.
+             */
+            center_distance: number;
+            /**
+             * Format: int32
+             * @description Number of frames of the full turn.
+             */
+            count?: number;
+            /** @enum {string} */
+            kind: "trajectory";
+        } | {
+            /**
+             * Format: int32
+             * @description Number of poses.
+             */
+            count: number;
+            /**
+             * Format: double
+             * @description Share of poses that collide; the cube is chosen for it.
+             */
+            hit_share: number;
+            /** @enum {string} */
+            kind: "random";
+            /**
+             * Format: int64
+             * @description Seed of the low-discrepancy sequence.
+             */
+            seed?: number;
+        } | {
+            /** @enum {string} */
             kind: "file";
             /** @description Content hash (SHA-256, hex) of the file. */
             sha256: string;
@@ -858,6 +899,8 @@ export interface components {
              *     order that all algorithms share) as fit.
              */
             budget_seconds?: number;
+            /** @description Instead of a relative distance: the ten steps of the ladder in turn, on which eps* is measured. */
+            ladder?: boolean;
             /** @description How the configurations are found. */
             method: components["schemas"]["Method"];
             /** @description Object A (fixed). */
@@ -878,6 +921,11 @@ export interface components {
             relative_distance?: number;
             /** @description What counts as an object: surfaces, or solid bodies, which need closed objects and an algorithm that knows them. */
             semantics?: components["schemas"]["Semantics"];
+            /**
+             * Format: double
+             * @description Instead of a relative distance: a step of the scene's size S, 7e-15 to 0.1, apart (above 0) or crossing (below 0).
+             */
+            step?: number | null;
         };
         /** @description How many directions and rotations, and in which pattern. */
         Sampling: {
@@ -922,6 +970,11 @@ export interface components {
         Semantics: "surface" | "solid";
         /** @description The configuration set of a run. */
         SetInfo: {
+            /**
+             * Format: double
+             * @description Side of the cube of random placement.
+             */
+            box_side?: number | null;
             /** @description How many are of which class in f64. */
             classes: components["schemas"]["ClassCount"][];
             /**
@@ -941,16 +994,41 @@ export interface components {
             coverage_b: number;
             /**
              * Format: double
+             * @description How evenly: entropy of the closest features over A's triangles, divided by its maximum (1: all equally often).
+             */
+            evenness_a?: number;
+            /**
+             * Format: double
+             * @description The same of B.
+             */
+            evenness_b?: number;
+            /**
+             * Format: int32
+             * @description Configurations whose truth needed exact arithmetic.
+             */
+            exact?: number;
+            /**
+             * Format: int32
+             * @description Positions that no ray from outside toward A's centre meets first.
+             */
+            further_roots?: number;
+            /**
+             * Format: double
              * @description L, the longest side of A's bounding box.
              */
             longest_side: number;
             /**
              * Format: int32
-             * @description Rays without a position.
+             * @description Rays on which no position was found.
              */
             missed_rays: number;
             /** @description SHA-256 (hex) of the stored set. */
             sha256: string;
+            /**
+             * Format: double
+             * @description Distance between the nodes of the grid method.
+             */
+            spacing?: number | null;
         };
         /**
          * @description Which object of the scene.

@@ -14,14 +14,17 @@ export function commandLine(spec: RunSpec, file: (id: string) => string): string
   return lines.join(' \\\n  ')
 }
 
-function placement({ method, relative_distance: distance = 0 }: RunSpec): string {
-  if (method.kind !== 'sphere') return `--distance ${distance}`
+function placement({ method, relative_distance: distance = 0, step, ladder }: RunSpec): string {
+  if (method.kind === 'file') return '--configurations configurations.parquet'
+  if (method.kind === 'trajectory') return `--method trajectory --center-distance ${method.center_distance} --count ${method.count ?? 5000}`
+  if (method.kind === 'random') return `--method random --count ${method.count} --hit-share ${method.hit_share}`
   const { sampling } = method
   const how =
     sampling.kind === 'count'
       ? `--count ${sampling.count}`
       : `--rotate ${sampling.rotate} --move ${sampling.move}${sampling.kind === 'paper_compat' ? ' --paper-compat' : ''}`
-  return `--method sphere ${how} --distance ${distance}`
+  const apart = step == null ? `--distance ${distance}` : `--step=${step}`
+  return `--method ${method.kind} ${how} ${ladder ? '--ladder' : apart}`
 }
 
 /** A word that a POSIX shell takes as it is. */

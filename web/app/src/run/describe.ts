@@ -1,4 +1,4 @@
-import type { Method, RunInfo } from '../api/types'
+import type { Method, RunInfo, RunSpec } from '../api/types'
 import { count, significant } from '../ui/format'
 import { QUERY } from '../ui/words'
 
@@ -6,18 +6,27 @@ import { QUERY } from '../ui/words'
 export function describeRun(run: RunInfo): { title: string; query: string; placement: string } {
   const { spec, object_a_name: a, object_b_name: b } = run
   const itself = !spec.object_b || spec.object_b === spec.object_a
-  const distance = spec.relative_distance ?? 0
   return {
     title: itself ? `${a} against itself` : `${a} against ${b}`,
     query: QUERY[spec.query],
-    placement: `${placement(spec.method)}, distance ${distance === 0 ? '0' : significant(distance)}`,
+    placement: [placement(spec.method), separation(spec)].filter(Boolean).join(', '),
   }
 }
 
 function placement(method: Method): string {
   if (method.kind === 'file') return 'configurations from a file'
-  const { sampling } = method
-  if (sampling.kind === 'count') return `sphere, ${count(sampling.count)} samples`
-  const steps = `sphere, ${significant(sampling.rotate)}° / ${significant(sampling.move)}°`
+  if (method.kind === 'trajectory') return `trajectory, ${count(method.count ?? 5000)} frames at ${significant(method.center_distance)} L`
+  if (method.kind === 'random') return `random, ${count(method.count)} poses, ${significant(100 * method.hit_share)} % colliding`
+  const { kind, sampling } = method
+  if (sampling.kind === 'count') return `${kind}, ${count(sampling.count)} samples`
+  const steps = `${kind}, ${significant(sampling.rotate)}° / ${significant(sampling.move)}°`
   return sampling.kind === 'paper_compat' ? `${steps} as in the paper` : steps
+}
+
+/** How far apart or how deep; nothing where the method does not ask for it. */
+function separation({ method, relative_distance: distance = 0, step, ladder }: RunSpec): string {
+  if (method.kind !== 'sphere' && method.kind !== 'grid') return ''
+  if (ladder) return 'ladder of steps'
+  if (step != null) return `step ${step.toExponential()} of the size`
+  return `distance ${distance === 0 ? '0' : significant(distance)}`
 }

@@ -1,0 +1,293 @@
+//! Poses that somebody brings: a Parquet set of ours, JSON, CSV, or raw f64. Each is checked; an error names the row.
+//!
+//! Matrices are row-major and place an object in the world. Where only B is placed, A stands where its file puts it.
+
+use ocb_core::configuration::Configuration;
+use ocb_core::pose::Pose;
+use ocb_core::sampling::MAX_CONFIGURATIONS;
+use serde::Deserialize;
+
+use crate::columns;
+use crate::{EngineError, Result};
+
+/// Numbers of a matrix larger than this are refused: beyond it f64 overflows, and all is left to slow integers.
+const LARGEST: f64 = 1e60;
+/// Numbers nearer to 0 than this, and not 0, are refused: exact arithmetic would pay for every digit.
+const SMALLEST: f64 = 1e-100;
+/// Bytes of one raw matrix.
+const MATRIX_BYTES: usize = 16 * 8;
+
+/// Reads a file of configurations.
+pub fn read_file(bytes: &[u8]) -> Result<Vec<Configuration>> {
+    let poses = read(bytes).and_then(checked);
+    poses.map_err(|why| EngineError::Invalid(format!("This is no file of configurations: {why}.")))
+}
+
+fn read(bytes: &[u8]) -> std::result::Result<Vec<Configuration>, String> {
+    if bytes.starts_with(b"PAR1") {
+        return columns::read_poses(bytes);
+    }
+    // Text has no bytes below tab and is valid UTF-8; a raw matrix has a last row of seven zero bytes and more.
+    match std::str::from_utf8(bytes) {
+        Ok(text) if !text.is_empty() && !text.contains(|c: char| c < '\t') => {
+            let text = text.trim_start_matches('\u{feff}');
+            if text.trim_start().starts_with('[') { read_json(text) } else { read_csv(text) }
+        }
+        _ => read_raw(bytes),
+    }
+}
+
+/// What costs without limit is stopped here, before the oracle meets it.
+fn checked(poses: Vec<Configuration>) -> std::result::Result<Vec<Configuration>, String> {
+    match poses.len() as u64 {
+        0 => return Err("it holds none".into()),
+        n if n > MAX_CONFIGURATIONS => {
+            return Err(format!("it holds {n}, but at most {MAX_CONFIGURATIONS} are measured"));
+        }
+        _ => {}
+    }
+    for (row, configuration) in (1..).zip(&poses) {
+        for pose in [&configuration.pose_a, &configuration.pose_b] {
+            let bad = |x: &&f64| x.abs() > LARGEST || (**x != 0.0 && x.abs() < SMALLEST);
+            if let Some(x) = pose.linear.iter().chain(pose.translation.iter()).find(bad) {
+                return Err(format!(
+                    "row {row}: the number {x:e} is out of range; what is not 0 must be between {SMALLEST:e} and {LARGEST:e}"
+                ));
+            }
+        }
+    }
+    Ok(poses)
+}
+
+/// B in A's frame.
+fn placing_b(numbers: &[f64]) -> std::result::Result<Configuration, String> {
+    Ok(Configuration { pose_a: Pose::identity(), pose_b: pose(numbers)? })
+}
+
+/// 16 numbers, or 12 without the last row.
+fn pose(numbers: &[f64]) -> std::result::Result<Pose, String> {
+    let mut matrix = Pose::identity().to_row_major();
+    match numbers.len() {
+        12 | 16 => matrix[..numbers.len()].copy_from_slice(numbers),
+        n => return Err(format!("a matrix has 16 numbers, or 12 without its last row, not {n}")),
+    }
+    Pose::from_row_major(&matrix).map_err(|e| e.to_string())
+}
+
+fn read_raw(bytes: &[u8]) -> std::result::Result<Vec<Configuration>, String> {
+    if !bytes.len().is_multiple_of(MATRIX_BYTES) {
+        return Err(format!(
+            "it is neither Parquet nor JSON nor CSV, and its {} bytes are no whole number of 4x4 matrices of 8-byte \
+             numbers (128 bytes each)",
+            bytes.len()
+        ));
+    }
+    let matrix = |(i, chunk): (usize, &[u8])| {
+        let mut numbers = [0.0; 16];
+        for (number, raw) in numbers.iter_mut().zip(chunk.as_chunks::<8>().0) {
+            *number = f64::from_le_bytes(*raw);
+        }
+        placing_b(&numbers).map_err(|e| format!("matrix {}: {e}", i + 1))
+    };
+    bytes.chunks_exact(MATRIX_BYTES).enumerate().map(matrix).collect()
+}
+
+/// One matrix a line: 16 or 12 numbers separated by commas, semicolons, tabs or spaces. Empty lines and those that begin
+/// with `#` are skipped, and so is a first line without any number.
+fn read_csv(text: &str) -> std::result::Result<Vec<Configuration>, String> {
+    let mut all = Vec::new();
+    let mut first = true;
+    for (number, line) in (1..).zip(text.lines()) {
+        let line = line.trim();
+        if line.is_empty() || line.starts_with('#') {
+            continue;
+        }
+        let fields = || line.split([',', ';', '\t', ' ']).map(str::trim).filter(|field| !field.is_empty());
+        let header = first && fields().all(|field| field.parse::<f64>().is_err());
+        first = false;
+        if !header {
+            let number_of =
+                |field: &str| field.parse().map_err(|_| format!("line {number}: {} is no number", shown(field)));
+            let numbers: Vec<f64> = fields().map(number_of).collect::<std::result::Result<_, _>>()?;
+            all.push(placing_b(&numbers).map_err(|e| format!("line {number}: {e}"))?);
+        }
+    }
+    Ok(all)
+}
+
+/// The beginning of what stands in a file, in quotes.
+fn shown(text: &str) -> String {
+    format!("{:?}", text.chars().take(40).collect::<String>())
+}
+
+/// One configuration of a JSON file.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Row {
+    /// Four rows of four numbers.
+    Rows(Vec<Vec<String>>),
+    /// 16 or 12 numbers.
+    Numbers(Vec<String>),
+    /// Both objects are placed.
+    Poses { pose_a: Matrix, pose_b: Matrix },
+    /// Only B is.
+    PoseB { pose_b: Matrix },
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Matrix {
+    Rows(Vec<Vec<String>>),
+    Numbers(Vec<String>),
+}
+
+impl Matrix {
+    fn pose(self) -> std::result::Result<Pose, String> {
+        let numbers = match self {
+            Self::Numbers(numbers) => numbers,
+            Self::Rows(rows) if rows.iter().any(|row| row.len() != 4) => {
+                return Err("every row of a matrix has 4 numbers".into());
+            }
+            Self::Rows(rows) => rows.concat(),
+        };
+        let number = |text: &String| text.parse::<f64>().map_err(|_| format!("{} is no number", shown(text)));
+        pose(&numbers.iter().map(number).collect::<std::result::Result<Vec<f64>, String>>()?)
+    }
+}
+
+/// Puts quotes around every number: the reader of JSON rounds some of them to a neighbour of the nearest f64, and a pose
+/// is to be what its file says, bit for bit.
+fn quote_numbers(text: &str) -> String {
+    let mut quoted = String::with_capacity(text.len() + text.len() / 4);
+    let (mut in_string, mut in_number, mut escaped) = (false, false, false);
+    for c in text.chars() {
+        if in_number && (matches!(c, ',' | ']' | '}' | ':') || c.is_whitespace()) {
+            in_number = false;
+            quoted.push('"');
+        }
+        if in_string {
+            in_string = escaped || c != '"';
+            escaped = !escaped && c == '\\';
+        } else if c == '"' {
+            in_string = true;
+        } else if !in_number && (c == '-' || c.is_ascii_digit()) {
+            in_number = true;
+            quoted.push('"');
+        }
+        quoted.push(c);
+    }
+    quoted
+}
+
+/// An array of matrices (4 rows of 4, or 16 or 12 numbers), or of objects `{"pose_a": ..., "pose_b": ...}` with such
+/// matrices, of which `pose_a` may be missing.
+fn read_json(text: &str) -> std::result::Result<Vec<Configuration>, String> {
+    let rows: Vec<serde_json::Value> =
+        serde_json::from_str(&quote_numbers(text)).map_err(|e| format!("it is no array in JSON: {e}"))?;
+    let configuration = |(number, row): (usize, serde_json::Value)| {
+        let read = serde_json::from_value(row)
+            .map_err(|_| "it is neither a matrix nor an object with pose_a and pose_b".to_owned())
+            .and_then(|row| {
+                let (pose_a, pose_b) = match row {
+                    Row::Rows(rows) => (None, Matrix::Rows(rows)),
+                    Row::Numbers(numbers) => (None, Matrix::Numbers(numbers)),
+                    Row::Poses { pose_a, pose_b } => (Some(pose_a), pose_b),
+                    Row::PoseB { pose_b } => (None, pose_b),
+                };
+                let pose_a = pose_a.map_or(Ok(Pose::identity()), Matrix::pose)?;
+                Ok(Configuration { pose_a, pose_b: pose_b.pose()? })
+            });
+        read.map_err(|e| format!("row {}: {e}", number + 1))
+    };
+    rows.into_iter().enumerate().map(configuration).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SHIFT: [f64; 16] = [1.0, 0.0, 0.0, 0.5, 0.0, 1.0, 0.0, -2.0, 0.0, 0.0, 1.0, 3.0, 0.0, 0.0, 0.0, 1.0];
+
+    fn raw(entries: [f64; 16]) -> Vec<u8> {
+        entries.iter().flat_map(|x| x.to_le_bytes()).collect()
+    }
+
+    fn line(entries: &[f64], separator: &str) -> String {
+        entries.iter().map(f64::to_string).collect::<Vec<_>>().join(separator)
+    }
+
+    fn shift() -> Configuration {
+        Configuration { pose_a: Pose::identity(), pose_b: Pose::from_row_major(&SHIFT).expect("a pose") }
+    }
+
+    fn refused(bytes: &[u8]) -> String {
+        read_file(bytes).expect_err("a bad file").to_string()
+    }
+
+    #[test]
+    fn every_format_gives_the_same_poses() {
+        let rows = format!(
+            "[[{}],[{}],[{}],[{}]]",
+            line(&SHIFT[..4], ","),
+            line(&SHIFT[4..8], ","),
+            line(&SHIFT[8..12], ","),
+            line(&SHIFT[12..], ",")
+        );
+        let twelve = line(&SHIFT[..12], ",");
+        let files = [
+            raw(SHIFT),
+            format!("# poses\n\n{}\n", line(&SHIFT, ",")).into_bytes(),
+            format!("\u{feff}r00,r01,x,y\r\n{}\r\n", line(&SHIFT[..12], " ; ")).into_bytes(),
+            line(&SHIFT[..12], "\t").into_bytes(),
+            format!("[{rows}]").into_bytes(),
+            format!(" [[{twelve}]]").into_bytes(),
+            format!("[{{\"pose_b\": [{twelve}]}}]").into_bytes(),
+            format!("[{{\"pose_a\": [1,0,0,0,0,1,0,0,0,0,1,0], \"pose_b\": {rows}}}]").into_bytes(),
+        ];
+        for file in files {
+            assert_eq!(read_file(&file).expect("a good file"), [shift()], "{:?}", String::from_utf8_lossy(&file));
+        }
+        // A number that a hasty reader would round to its neighbour.
+        let exact = 0.516_213_402_387_451_1_f64;
+        let turned = format!("[[{},{exact},-2.5e0,3]]", line(&SHIFT[..9], ","));
+        assert_eq!(read_file(turned.as_bytes()).expect("a good file")[0].pose_b.linear[(2, 1)], exact);
+        let turned = format!("[{{\"pose_a\": [{twelve}], \"pose_b\": [{twelve}]}}]");
+        assert_eq!(read_file(turned.as_bytes()).expect("a good file")[0].pose_a, shift().pose_b);
+    }
+
+    #[test]
+    fn a_bad_file_is_refused_with_the_place() {
+        assert_eq!(refused(&[]), "This is no file of configurations: it holds none.");
+        assert_eq!(refused(b"# nothing\n"), "This is no file of configurations: it holds none.");
+        assert!(refused(&[0; 5]).contains("5 bytes are no whole number"));
+        let with = |i: usize, x: f64| {
+            let mut m = SHIFT;
+            m[i] = x;
+            m
+        };
+        let two = [raw(SHIFT), raw(with(3, f64::NAN))].concat();
+        assert!(refused(&two).contains("matrix 2: matrix entry 3"), "{}", refused(&two));
+        assert!(refused(&raw(with(12, 1.0))).contains("last row"));
+        assert!(refused(b"PAR1 but no more").starts_with("This is no file of configurations: "));
+        let good = line(&SHIFT, ",");
+        let text = |s: String| refused(s.as_bytes());
+        assert!(text(format!("{good}\n1,2,x")).contains("line 2: \"x\" is no number"));
+        assert!(text(format!("{good}\n1,2,3")).contains("line 2: a matrix has 16 numbers, or 12"));
+        assert!(text("a,b\nc,d".to_owned()).contains("line 2: \"c\" is no number"));
+        assert!(text(format!("{good}\n{}", line(&with(0, f64::INFINITY), ","))).contains("line 2: matrix entry 0"));
+        assert!(text("[1, 2]".to_owned()).contains("row 1: it is neither a matrix"));
+        assert!(text("[[1,2,3-4,5,6,7,8,9,10,11,12,13]]".to_owned()).contains("row 1: \"3-4\" is no number"));
+        assert!(text("[[1,2,3],".to_owned()).contains("no array in JSON"));
+        assert!(text("[[[1,2],[3,4]]]".to_owned()).contains("row 1: every row of a matrix has 4 numbers"));
+    }
+
+    #[test]
+    fn numbers_beyond_all_objects_are_refused() {
+        for x in [1e61, -1e300, 1e-101, 5e-324] {
+            let mut far = SHIFT;
+            far[3] = x;
+            let file = [raw(SHIFT), raw(far)].concat();
+            assert!(refused(&file).contains("row 2: the number"), "{}", refused(&file));
+        }
+    }
+}
