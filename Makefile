@@ -49,8 +49,9 @@ check-oracle: ## the oracle against CGAL, integers and planted faults (some 20 m
 	cargo test $(CARGO_FLAGS) --test oracle -- --nocapture
 	tests/oracle-check/faults.py all
 
-bench: build ## measure the three algorithms on the torus knot from the terminal
+bench: build ## the three algorithms on the torus knot; finding positions against peers (OBJECT=file.obj)
 	$(TARGET)/release/ocb bench stock:torus-knot --query cd --count 2000 --data $(DATA)
+	cargo bench --package ocb-tests --bench positions -- $(abspath $(or $(OBJECT),target/stock/dragon.obj))
 
 soak: build ## fuzz the jail's readers, then kill and restart the service for MINUTES (10)
 	tests/setup/soak.sh $(or $(MINUTES),10)
