@@ -12,10 +12,10 @@ use std::time::Instant;
 
 use nalgebra::Vector3;
 use ocb_box_tree::BoxTree;
-use ocb_core::configuration::{Placed, Sampling};
+use ocb_core::configuration::{Method, Placed, Sampling, Separation};
 use ocb_core::mesh::{Mesh, obj};
 use ocb_core::oracle::{Pair, Shape, U32};
-use ocb_core::sampling::sphere::Plan;
+use ocb_core::sampling::Plan;
 use opencollbench_plugin as plugin;
 use plugin::{Algorithm, Distance, Uncounted};
 
@@ -56,8 +56,8 @@ fn main() {
 fn compare(mesh: &Arc<Mesh>, rays: u32, distance: f64, mut fcl: Option<&mut Fcl>) {
     let shape = Shape::new(mesh.clone());
     let pair = Pair::new(&shape, &shape);
-    let plan = Plan::new(&shape, &shape, &Sampling::Count { count: rays }, distance, 0);
-    let plan = plan.expect("a plan");
+    let method = Method::Sphere { sampling: Sampling::Count { count: rays }, seed: 0 };
+    let plan = Plan::new(&shape, &shape, &method, Separation::Relative { distance }).expect("a plan");
     let mut tree = BoxTree::default();
     let positions: Vec<[f64; 3]> = mesh.positions().iter().map(|p| p.coords.into()).collect();
     let object = tree
@@ -65,9 +65,9 @@ fn compare(mesh: &Arc<Mesh>, rays: u32, distance: f64, mut fcl: Option<&mut Fcl>
         .expect("box-tree takes every mesh");
     let (mut ours, mut boxes, mut theirs) = (Walks::default(), Walks::default(), Walks::default());
     let mut exact = 0;
-    for index in 0..plan.len() {
+    for index in 0..plan.units() {
         let clock = Instant::now();
-        let placed = plan.place(index);
+        let placed = plan.place(index).placed.pop();
         ours.add(clock, 1.0, placed.is_some());
         let Some(placed) = placed else { continue };
         exact += u32::from(placed.truth.exact_used);
