@@ -6,7 +6,7 @@
 
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Stdio};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -16,6 +16,7 @@ use ocb_core::configuration::{Method, Placed, Sampling, Separation};
 use ocb_core::mesh::{Mesh, obj};
 use ocb_core::oracle::{Pair, Shape, U32};
 use ocb_core::sampling::Plan;
+use ocb_tests::process::command;
 use opencollbench_plugin as plugin;
 use plugin::{Algorithm, Distance, Uncounted};
 
@@ -176,7 +177,7 @@ impl Fcl {
         std::fs::create_dir_all(&files).expect("a temporary folder");
         let program = files.join("fcl_advance");
         let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/fcl_advance.cpp");
-        let built = Command::new("c++")
+        let built = command("c++")
             .args(["-std=c++17", "-O3", "-w", "-I/usr/include/eigen3", "-o"])
             .arg(&program)
             .arg(source)
@@ -193,7 +194,7 @@ impl Fcl {
         );
         bytes.extend(mesh.triangles().iter().flatten().flat_map(|i| i.to_le_bytes()));
         std::fs::write(files.join("mesh"), bytes).expect("room for a mesh");
-        let child = Command::new(program)
+        let child = command(program)
             .arg(files.join("mesh"))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
