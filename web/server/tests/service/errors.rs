@@ -16,7 +16,7 @@ async fn bad_specifications_are_refused_before_they_cost_anything() {
         ("method", count(1_000_000_000), 422, "10000000"),
         ("method", steps(0.0), 422, ""),
         ("method", steps(-20.0), 422, ""),
-        ("method", json!({ "kind": "grid" }), 422, "grid"),
+        ("method", json!({ "kind": "spiral" }), 422, "spiral"),
         ("method", json!({ "kind": "file", "sha256": "00" }), 422, ""),
         ("algorithms", json!(["no-such-thing"]), 422, "no-such-thing"),
         ("passes", json!(0), 422, "passes"),
