@@ -1,4 +1,5 @@
 import type { RunSpec } from '../api/types'
+import { PUBLISHED_FRAMES } from './form'
 
 /** The same run on the command line. `file` gives the file of an uploaded object, whose id only the service knows. */
 export function commandLine(spec: RunSpec, file: (id: string) => string): string {
@@ -16,7 +17,7 @@ export function commandLine(spec: RunSpec, file: (id: string) => string): string
 
 function placement({ method, relative_distance: distance = 0, step, ladder }: RunSpec): string {
   if (method.kind === 'file') return '--configurations configurations.parquet'
-  if (method.kind === 'trajectory') return `--method trajectory --center-distance ${method.center_distance} --count ${method.count ?? 5000}`
+  if (method.kind === 'trajectory') return `--method trajectory --center-distance ${method.center_distance} --count ${method.count ?? PUBLISHED_FRAMES}`
   if (method.kind === 'random') return `--method random --count ${method.count} --hit-share ${method.hit_share}`
   const { sampling } = method
   const how =

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest'
 import type { AlgorithmInfo, Query } from '../api/types'
 import { commandLine } from './command-line'
-import { chosenAlgorithms, fromSpec, initialForm, toSpec, whyUnfit } from './form'
+import { type BuilderForm, chosenAlgorithms, fromSpec, initialForm, toSpec, whyUnfit } from './form'
 import { find, objectKey, sliderToTriangles, trianglesToSlider, withTriangles } from './objects'
 
 const algorithm = (id: string, queries: Query[]): AlgorithmInfo => ({
@@ -32,8 +32,51 @@ describe('toSpec', () => {
 
   it('comes back through fromSpec', () => {
     const asked = { ...form(), objectB: 'stock:dragon', question: 'pq' as const, thoroughness: 'count' as const, count: 500, distance: 0.1, solid: true, off: ['collider'] }
-    const made = toSpec(asked, ALL)
-    expect('spec' in made && fromSpec(made.spec, ALL)).toEqual(asked)
+    const grid = { ...form(), method: 'grid' as const, paper: true, rotate: 15, separation: 'step' as const, step: -1e-6 }
+    const ladder = { ...form(), method: 'grid' as const, separation: 'ladder' as const }
+    const trajectory = { ...form(), method: 'trajectory' as const, count: 700, centerDistance: 0.8 }
+    const random = { ...form(), method: 'random' as const, count: 900, hitShare: 0.25 }
+    for (const wish of [asked, grid, ladder, trajectory, random]) {
+      const made = toSpec(wish, ALL)
+      expect('spec' in made && fromSpec(made.spec, ALL)).toEqual(wish)
+    }
+  })
+})
+
+describe('the methods', () => {
+  const made = (change: Partial<BuilderForm>) => {
+    const wish = toSpec({ ...form(), ...change }, ALL)
+    if ('missing' in wish) return { missing: wish.missing }
+    const { method, relative_distance, step, ladder } = wish.spec
+    return { asked: { method, relative_distance, step, ladder }, line: commandLine(wish.spec, (id) => id).split('\n')[2]?.trim().replace(/ \\$/, '') }
+  }
+  const sampling = { kind: 'count', count: 500 }
+  const counted = { thoroughness: 'count', count: 500 } as const
+
+  it('say one separation, and that only where the method looks for one', () => {
+    const left = { separation: 'step', step: 0.1, distance: 0.2 } as const
+    expect(made({ ...counted, ...left, method: 'grid' })).toEqual({
+      asked: { method: { kind: 'grid', sampling, seed: 0 }, step: 0.1 }, line: '--method grid --count 500 --step=0.1',
+    })
+    expect(made({ ...counted, ...left, step: -1e-7 }).line).toBe('--method sphere --count 500 --step=-1e-7')
+    expect(made({ ...counted, ...left, separation: 'ladder' })).toEqual({
+      asked: { method: { kind: 'sphere', sampling, seed: 0 }, ladder: true }, line: '--method sphere --count 500 --ladder',
+    })
+    expect(made({ ...counted, ...left, method: 'trajectory', centerDistance: 0.9 })).toEqual({
+      asked: { method: { kind: 'trajectory', center_distance: 0.9, count: 500 } }, line: '--method trajectory --center-distance 0.9 --count 500',
+    })
+    expect(made({ ...counted, ...left, method: 'random', hitShare: 0.3 })).toEqual({
+      asked: { method: { kind: 'random', count: 500, hit_share: 0.3, seed: 0 } }, line: '--method random --count 500 --hit-share 0.3',
+    })
+  })
+
+  it('name the field that is empty, and none that the method does not have', () => {
+    expect(made({ separation: 'step', step: '' })).toEqual({ missing: 'Give a step, for example 0.01, or -0.01 for crossing objects.' })
+    expect(made({ method: 'trajectory', centerDistance: '' })).toEqual({ missing: 'Give the distance of the centres; 1 is the usual one.' })
+    expect(made({ method: 'random', hitShare: '' })).toEqual({ missing: 'Give the share of colliding poses, for example 0.5.' })
+    expect(made({ method: 'random', count: '' })).toEqual({ missing: 'Give the number of configurations.' })
+    expect(made({ method: 'trajectory', rotate: '', distance: '', step: '', hitShare: '' })).toHaveProperty('asked')
+    expect(made({ separation: 'ladder', distance: '', step: '', centerDistance: '' })).toHaveProperty('asked')
   })
 })
 

@@ -1,4 +1,4 @@
-import type { AlgorithmInfo, Query, RunSpec, Sampling } from '../api/types'
+import type { AlgorithmInfo, Method, Query, RunSpec, Sampling } from '../api/types'
 
 /** What the reader has chosen; number fields may be empty while they type. */
 export interface BuilderForm {
@@ -9,22 +9,34 @@ export interface BuilderForm {
   contacts: 'first' | 'all'
   /** Objects are solid bodies: what lies inside collides, too. */
   solid: boolean
+  method: Exclude<Method['kind'], 'file'>
+  /** Of the sphere and the grid method. */
   thoroughness: 'steps' | 'count'
   rotate: number | ''
   move: number | ''
   paper: boolean
   count: number | ''
+  /** Of a trajectory: between the centres, in L. */
+  centerDistance: number | ''
+  /** Of random placement: share of poses that collide. */
+  hitShare: number | ''
+  separation: 'relative' | 'step' | 'ladder'
   distance: number | ''
+  /** A share of the scene's size S; below 0 the objects cross. */
+  step: number | ''
   passes: number | ''
   budget: number | ''
   /** Algorithms that the reader has switched off. */
   off: string[]
 }
 
+/** Of a trajectory that says no number: Zachmann's run. */
+export const PUBLISHED_FRAMES = 5000
+
 export function initialForm(): BuilderForm {
   return {
-    objectA: '', objectB: '', question: 'cd', contacts: 'first', solid: false, thoroughness: 'steps', rotate: 20, move: 20, paper: false,
-    count: 2000, distance: 0, passes: 3, budget: 60, off: [],
+    objectA: '', objectB: '', question: 'cd', contacts: 'first', solid: false, method: 'sphere', thoroughness: 'steps', rotate: 20, move: 20,
+    paper: false, count: 2000, centerDistance: 1, hitShare: 0.5, separation: 'relative', distance: 0, step: 0.01, passes: 3, budget: 60, off: [],
   }
 }
 
@@ -45,25 +57,63 @@ export function chosenAlgorithms(form: BuilderForm, algorithms: readonly Algorit
   return algorithms.filter((a) => !whyUnfit(a, query, form.solid) && !form.off.includes(a.id)).map(({ id }) => id)
 }
 
+/** Does the method look for a wanted separation? The poses of the others are given. */
+export function asksSeparation(method: Method['kind']): boolean {
+  return method === 'sphere' || method === 'grid'
+}
+
+/** What is still to be filled in, one sentence. */
+type Missing = { missing: string }
+
+function toCount({ count }: BuilderForm): number | Missing {
+  if (count === '') return { missing: 'Give the number of configurations.' }
+  // What does not fit the API's type would be refused in its words, not in ours.
+  if (Number.isInteger(count) && count >= 0 && count <= 0xffff_ffff) return count
+  return { missing: 'The number of configurations must be a whole number, at least 1 and at most 10,000,000.' }
+}
+
+function toSampling(form: BuilderForm): Sampling | Missing {
+  if (form.thoroughness === 'count') {
+    const count = toCount(form)
+    return typeof count === 'number' ? { kind: 'count', count } : count
+  }
+  const { rotate, move } = form
+  if (rotate === '' || move === '') return { missing: 'Give both steps in degrees.' }
+  return { kind: form.paper ? 'paper_compat' : 'steps', rotate, move }
+}
+
+function toMethod(form: BuilderForm): Method | Missing {
+  const { method: kind, centerDistance, hitShare } = form
+  if (kind === 'sphere' || kind === 'grid') {
+    const sampling = toSampling(form)
+    return 'missing' in sampling ? sampling : { kind, sampling, seed: 0 }
+  }
+  const count = toCount(form)
+  if (typeof count !== 'number') return count
+  if (kind === 'trajectory') {
+    return centerDistance === '' ? { missing: 'Give the distance of the centres; 1 is the usual one.' } : { kind, center_distance: centerDistance, count }
+  }
+  return hitShare === '' ? { missing: 'Give the share of colliding poses, for example 0.5.' } : { kind, count, hit_share: hitShare, seed: 0 }
+}
+
+function toSeparation({ method, separation, distance, step }: BuilderForm): Pick<RunSpec, 'relative_distance' | 'step' | 'ladder'> | Missing {
+  if (!asksSeparation(method)) return {}
+  if (separation === 'ladder') return { ladder: true }
+  if (separation === 'step') return step === '' ? { missing: 'Give a step, for example 0.01, or -0.01 for crossing objects.' } : { step }
+  return distance === '' ? { missing: 'Give a relative distance; 0 is the usual one.' } : { relative_distance: distance }
+}
+
 /** The form as the API wants it, or what is still missing, in words. Whether numbers are in range the service says. */
-export function toSpec(form: BuilderForm, algorithms: readonly AlgorithmInfo[]): { spec: RunSpec } | { missing: string } {
-  const { rotate, move, count, distance, passes, budget } = form
+export function toSpec(form: BuilderForm, algorithms: readonly AlgorithmInfo[]): { spec: RunSpec } | Missing {
+  const { passes, budget } = form
   if (!form.objectA) return { missing: 'Choose an object.' }
   const chosen = chosenAlgorithms(form, algorithms)
   if (chosen.length === 0) return { missing: 'Choose at least one algorithm that answers this question.' }
-  if (distance === '') return { missing: 'Give a relative distance; 0 is the usual one.' }
+  const method = toMethod(form)
+  if ('missing' in method) return method
+  const separation = toSeparation(form)
+  if ('missing' in separation) return separation
   if (passes === '' || budget === '') return { missing: 'Give the number of passes and the budget.' }
-  let sampling: Sampling
-  if (form.thoroughness === 'count') {
-    if (count === '') return { missing: 'Give the number of configurations.' }
-    if (!Number.isInteger(count) || count < 0 || count > 0xffff_ffff) {
-      return { missing: 'The number of configurations must be a whole number, at least 1 and at most 10,000,000.' }
-    }
-    sampling = { kind: 'count', count }
-  } else {
-    if (rotate === '' || move === '') return { missing: 'Give both steps in degrees.' }
-    sampling = { kind: form.paper ? 'paper_compat' : 'steps', rotate, move }
-  }
   if (!Number.isInteger(passes) || passes < 0 || passes > 0xffff_ffff) return { missing: 'The number of passes must be a whole number, 1 to 99.' }
   return {
     spec: {
@@ -71,8 +121,8 @@ export function toSpec(form: BuilderForm, algorithms: readonly AlgorithmInfo[]):
       ...(form.objectB && form.objectB !== form.objectA && { object_b: form.objectB }),
       query: queryOf(form),
       ...(form.solid && { semantics: 'solid' as const }),
-      method: { kind: 'sphere', sampling, seed: 0 },
-      relative_distance: distance,
+      method,
+      ...separation,
       algorithms: chosen,
       passes,
       budget_seconds: budget,
@@ -88,11 +138,16 @@ export function fromSpec(spec: RunSpec, algorithms: readonly AlgorithmInfo[]): B
   form.question = spec.query === 'proximity' ? 'pq' : 'cd'
   form.contacts = spec.query === 'collision_all' ? 'all' : 'first'
   form.solid = spec.semantics === 'solid'
-  if (spec.method.kind === 'sphere') {
-    const { sampling } = spec.method
+  const { method } = spec
+  if (method.kind !== 'file') form.method = method.kind
+  if (method.kind === 'sphere' || method.kind === 'grid') {
+    const { sampling } = method
     if (sampling.kind === 'count') Object.assign(form, { thoroughness: 'count', count: sampling.count })
     else Object.assign(form, { rotate: sampling.rotate, move: sampling.move, paper: sampling.kind === 'paper_compat' })
-  }
+  } else if (method.kind === 'trajectory') Object.assign(form, { centerDistance: method.center_distance, count: method.count ?? PUBLISHED_FRAMES })
+  else if (method.kind === 'random') Object.assign(form, { count: method.count, hitShare: method.hit_share })
+  if (spec.ladder) form.separation = 'ladder'
+  else if (spec.step != null) Object.assign(form, { separation: 'step', step: spec.step })
   form.distance = spec.relative_distance ?? 0
   form.passes = spec.passes ?? form.passes
   form.budget = spec.budget_seconds ?? form.budget

@@ -1,4 +1,5 @@
 import type { Method, RunInfo, RunSpec } from '../api/types'
+import { asksSeparation, PUBLISHED_FRAMES } from '../builder/form'
 import { count, significant } from '../ui/format'
 import { QUERY } from '../ui/words'
 
@@ -9,13 +10,14 @@ export function describeRun(run: RunInfo): { title: string; query: string; place
   return {
     title: itself ? `${a} against itself` : `${a} against ${b}`,
     query: QUERY[spec.query],
-    placement: [placement(spec.method), separation(spec)].filter(Boolean).join(', '),
+    placement: [describeMethod(spec.method), describeSeparation(spec)].filter(Boolean).join(', '),
   }
 }
 
-function placement(method: Method): string {
+/** How the configurations were found. */
+export function describeMethod(method: Method): string {
   if (method.kind === 'file') return 'configurations from a file'
-  if (method.kind === 'trajectory') return `trajectory, ${count(method.count ?? 5000)} frames at ${significant(method.center_distance)} L`
+  if (method.kind === 'trajectory') return `trajectory, ${count(method.count ?? PUBLISHED_FRAMES)} frames at ${significant(method.center_distance)} L`
   if (method.kind === 'random') return `random, ${count(method.count)} poses, ${significant(100 * method.hit_share)} % colliding`
   const { kind, sampling } = method
   if (sampling.kind === 'count') return `${kind}, ${count(sampling.count)} samples`
@@ -24,8 +26,8 @@ function placement(method: Method): string {
 }
 
 /** How far apart or how deep; nothing where the method does not ask for it. */
-function separation({ method, relative_distance: distance = 0, step, ladder }: RunSpec): string {
-  if (method.kind !== 'sphere' && method.kind !== 'grid') return ''
+export function describeSeparation({ method, relative_distance: distance = 0, step, ladder }: RunSpec): string {
+  if (!asksSeparation(method.kind)) return ''
   if (ladder) return 'ladder of steps'
   if (step != null) return `step ${step.toExponential()} of the size`
   return `distance ${distance === 0 ? '0' : significant(distance)}`
