@@ -53,7 +53,7 @@ bench: build ## the three algorithms on the torus knot; finding positions agains
 	$(TARGET)/release/ocb bench stock:torus-knot --query cd --count 2000 --data $(DATA)
 	cargo bench --package ocb-tests --bench positions -- $(abspath $(or $(OBJECT),target/stock/dragon.obj))
 
-soak: build ## fuzz the jail's readers, then kill and restart the service for MINUTES (10)
+soak: build ## fuzz the jail's readers, try ten million pairs, then kill and restart the service for MINUTES (10)
 	tests/setup/soak.sh $(or $(MINUTES),10)
 
 clean: ## remove what was built; keeps data/ and .tools/
