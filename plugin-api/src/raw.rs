@@ -13,7 +13,7 @@ pub mod parameters;
 /// `OCB_ABI_MAJOR`: two sides fit when theirs are equal.
 pub const ABI_MAJOR: u32 = 1;
 /// `OCB_ABI_MINOR`: grows when something is appended.
-pub const ABI_MINOR: u32 = 1;
+pub const ABI_MINOR: u32 = 2;
 /// `OCB_NO_TRIANGLE`.
 pub const NO_TRIANGLE: u32 = u32::MAX;
 /// Name of the one symbol that a plugin exports, with the final 0 that dlsym wants.
@@ -38,6 +38,8 @@ pub const CAPABILITY_SINGLE_PRECISION: u32 = 1;
 pub const CAPABILITY_COHERENT: u32 = 2;
 /// `OCB_CAPABILITY_SOLID`.
 pub const CAPABILITY_SOLID: u32 = 4;
+/// `OCB_CAPABILITY_THREADS`.
+pub const CAPABILITY_THREADS: u32 = 8;
 
 /// `OCB_REQUEST_SOLID`.
 pub const REQUEST_SOLID: u32 = 1;

@@ -105,8 +105,10 @@ pub fn forget_keys() {
     unsafe { libc::syscall(libc::SYS_keyctl, JOIN_SESSION_KEYRING, 0) };
 }
 
-/// Resource limits, soft and hard alike. `address_space` in bytes, `cpu` in seconds.
-pub fn set_limits(address_space: u64, cpu: u64) -> Result<(), ConfineError> {
+/// Resource limits, soft and hard alike. `address_space` in bytes, `cpu` in seconds, `tasks` all processes and threads
+/// of this user in this user namespace; absent where there is no such namespace, and they would be the user's own.
+pub fn set_limits(address_space: u64, cpu: u64, tasks: Option<u64>) -> Result<(), ConfineError> {
+    let tasks = tasks.map(|tasks| ("processes and threads", libc::RLIMIT_NPROC, tasks));
     let limits = [
         ("core", libc::RLIMIT_CORE, 0),
         ("address space", libc::RLIMIT_AS, address_space),
@@ -118,7 +120,7 @@ pub fn set_limits(address_space: u64, cpu: u64) -> Result<(), ConfineError> {
         ("message queues", libc::RLIMIT_MSGQUEUE, 0),
         ("pending signals", libc::RLIMIT_SIGPENDING, 64),
     ];
-    for (name, resource, value) in limits {
+    for (name, resource, value) in limits.into_iter().chain(tasks) {
         let limit = libc::rlimit { rlim_cur: value, rlim_max: value };
         // SAFETY: a live struct that the call reads.
         checked(unsafe { libc::setrlimit(resource, &raw const limit) }).map_err(|e| ConfineError::Limit(name, e))?;
@@ -126,23 +128,28 @@ pub fn set_limits(address_space: u64, cpu: u64) -> Result<(), ConfineError> {
     Ok(())
 }
 
-/// Stays on one CPU; the filter forbids the plugin to change that.
-pub fn stay_on_cpu(cpu: usize) -> Result<(), ConfineError> {
-    pin(&[cpu]).map(drop).map_err(ConfineError::Cpu)
+/// Stays on these CPUs; the filter forbids the plugin to change that.
+pub fn stay_on_cpus(cpus: &[usize]) -> Result<(), ConfineError> {
+    pin(cpus).map(drop).map_err(ConfineError::Cpu)
 }
 
 /// Keeps the calling thread on the given CPUs; returns where it might run before.
 pub(crate) fn pin(cpus: &[usize]) -> io::Result<Vec<usize>> {
-    use nix::sched::{CpuSet, sched_getaffinity, sched_setaffinity};
-    let me = nix::unistd::Pid::from_raw(0);
-    let before = sched_getaffinity(me)?;
-    let before = (0..CpuSet::count()).filter(|cpu| before.is_set(*cpu).unwrap_or(false)).collect();
+    use nix::sched::{CpuSet, sched_setaffinity};
+    let before = own_cpus()?;
     let mut set = CpuSet::new();
     for cpu in cpus {
         set.set(*cpu)?;
     }
-    sched_setaffinity(me, &set)?;
+    sched_setaffinity(nix::unistd::Pid::from_raw(0), &set)?;
     Ok(before)
+}
+
+/// Where the calling thread may run.
+pub(crate) fn own_cpus() -> io::Result<Vec<usize>> {
+    use nix::sched::{CpuSet, sched_getaffinity};
+    let all = sched_getaffinity(nix::unistd::Pid::from_raw(0))?;
+    Ok((0..CpuSet::count()).filter(|cpu| all.is_set(*cpu).unwrap_or(false)).collect())
 }
 
 /// Makes standard input an empty pipe and standard output the same pipe as standard error, puts `kept` at 3, 4, ... and

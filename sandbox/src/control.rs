@@ -30,8 +30,10 @@ pub struct Order {
     pub plugin_path: String,
     /// Size of the plugin file, bytes.
     pub plugin_bytes: u64,
-    /// CPU to stay on.
-    pub cpu: Option<usize>,
+    /// CPUs to stay on; the scheduler's choice when empty.
+    pub cpus: Vec<usize>,
+    /// Threads that the plugin may start.
+    pub startable_threads: usize,
     /// Address space limit of the runner, bytes.
     pub address_space_bytes: u64,
     /// Processor time limit of the runner, seconds.

@@ -32,6 +32,8 @@ pub struct Descriptor {
     pub solid: bool,
     /// Earlier queries speed up later ones: the order of queries matters.
     pub coherent: bool,
+    /// Can use several CPUs: it may enter the multi-threaded track.
+    pub threads: bool,
     /// Its parameters.
     pub parameters: Vec<Parameter>,
 }

@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 use serde::{Deserialize, Serialize};
 
 use crate::clock::Clock;
-use crate::confine::root::find_libraries;
+use crate::confine::root::{OPENMP, find_libraries};
 use crate::launcher::Launcher;
 use crate::layers::{LANDLOCK_ABI, Profile};
 use crate::memory::MemoryGroup;
@@ -112,6 +112,7 @@ pub fn examine(runner: &Path) -> Diagnosis {
             "use Linux 5.1 or newer with CONFIG_MEMFD_CREATE",
         ),
         libraries(),
+        openmp(),
         of_kernel(
             answer("mseal"),
             "sealed code (mseal)",
@@ -215,10 +216,17 @@ fn memory_group() -> Facility {
 }
 
 fn libraries() -> Facility {
-    let found = find_libraries().map(|all| all.iter().map(|l| l.name).collect::<Vec<_>>().join(", "));
+    let found = find_libraries(false).map(|all| all.iter().map(|l| l.name).collect::<Vec<_>>().join(", "));
     let effect = "what plugins may link";
     let get = "install glibc's and gcc's run-time libraries (Debian: libc6, libgcc-s1, libstdc++6)";
     facility("system libraries", true, found.map_err(|e| e.to_string()), effect, get)
+}
+
+fn openmp() -> Facility {
+    let here = find_libraries(true).is_ok_and(|all| all.iter().any(|library| library.name == OPENMP));
+    let found = if here { Ok(OPENMP.into()) } else { Err(format!("{OPENMP} is not here")) };
+    let effect = "plugins of the multi-threaded track may use OpenMP";
+    facility("OpenMP", false, found, effect, "install gcc's OpenMP library (Debian: libgomp1)")
 }
 
 fn ids() -> Facility {

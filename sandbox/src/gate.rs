@@ -103,6 +103,10 @@ impl Subject<'_> {
         self.elf.program_headers.iter().filter(move |header| header.p_type == kind)
     }
 
+    fn offers(&self, name: &str) -> bool {
+        self.offered.iter().any(|library| library.name == name)
+    }
+
     /// A string of the dynamic table.
     fn string(&self, offset: u64) -> String {
         usize::try_from(offset).ok().and_then(|at| self.elf.dynstrtab.get_at(at)).map_or_else(|| "?".into(), one_line)

@@ -11,8 +11,10 @@ use std::time::{Duration, Instant};
 
 use nix::poll::{PollFd, PollFlags, PollTimeout, poll};
 
+use crate::clock::ClockKind;
 use crate::confine::process_descriptor;
 use crate::control::{Control, Order, Report};
+use crate::cpus::Places;
 use crate::doorbell::futex_wait;
 use crate::evidence::{Launched, Messages, status_kib};
 use crate::gate::MAX_BYTES;
@@ -74,7 +76,7 @@ impl Jail {
         killer: &Killer,
         plugin: &Path,
         trial: &[u8],
-        futex: bool,
+        places: &Places,
         namespaces: bool,
     ) -> Result<Jail, Ending> {
         let fault = |step: &'static str| move |error: io::Error| Ending::from(Outcome::fault(step, error));
@@ -151,8 +153,10 @@ impl Jail {
         };
         // With a group the address space only has to stop absurd reservations; without one it is the memory limit.
         let meshes = trial.len() as u64;
+        let startable_threads = policy.startable_threads();
         let address_space_bytes = match jail.group {
-            Some(_) => 2 * policy.memory_bytes + meshes + (1 << 30),
+            // glibc reserves a stack and a heap for each thread, of which little is ever touched.
+            Some(_) => 2 * policy.memory_bytes + meshes + (1 << 30) + startable_threads as u64 * (128 << 20),
             None => policy.memory_bytes + meshes + (64 << 20),
         };
         let order = Order {
@@ -160,10 +164,11 @@ impl Jail {
             namespaces,
             plugin_path: plugin_path.to_string_lossy().into_owned(),
             plugin_bytes: metadata.len(),
-            cpu: policy.runner_cpu,
+            cpus: places.runner.clone(),
+            startable_threads,
             address_space_bytes,
             cpu_seconds: jail.cpu_limit(),
-            futex,
+            futex: places.kind == ClockKind::Futex,
         };
         let files = [sheet.as_fd(), request_file.as_fd(), answer_file.as_fd(), plugin_file.as_fd()];
         let mut started = || -> Result<(), Outcome> {
@@ -183,7 +188,7 @@ impl Jail {
     }
 
     pub(crate) fn cpu_limit(&self) -> u64 {
-        self.limits.trial_seconds.clamp(1.0, 1e9) as u64 + 30
+        self.limits.trial_seconds.clamp(1.0, 1e9) as u64 * self.limits.threads.max(1) as u64 + 30
     }
 
     /// Waits for init's process, then for the runner's.
@@ -278,6 +283,7 @@ impl Jail {
             landlock_abi: fact(0),
             sealed_mappings: fact(1),
             no_new_code: fact(2) != 0,
+            startable_threads: self.limits.startable_threads(),
             ..self.layers
         };
         self.layers.enough(&self.limits)

@@ -6,14 +6,15 @@ use std::time::{Duration, Instant};
 use ocb_core::mesh::Mesh;
 use ocb_core::query::Semantics;
 
-use crate::clock::{Clock, ClockFacts, ClockKind};
+use crate::clock::{Clock, ClockFacts};
+use crate::cpus::Places;
 use crate::descriptor::Descriptor;
 use crate::exchange::Exchange;
 use crate::gate::Inspection;
 use crate::launch::{Jail, Killer};
 use crate::layers::Profile;
 use crate::outcome::{Ending, Outcome, Phase};
-use crate::policy::{ClockChoice, Policy};
+use crate::policy::Policy;
 use crate::protocol::{Command, parse_descriptors, parse_inspection};
 use crate::session::{Pinned, Session};
 use crate::trial::write_trial;
@@ -76,7 +77,9 @@ impl Launcher {
 
     /// Does something in a jail of its own, without objects.
     fn aside<T>(&self, plugin: &Path, work: impl FnOnce(&mut Exchange) -> Result<T, Outcome>) -> Result<T, Ending> {
-        let mut exchange = self.jail(plugin, &write_trial("", &[], Semantics::Surface, &[]), &Killer::default())?;
+        let places = Places::here(&self.policy)?;
+        let sheet = write_trial("", &[], Semantics::Surface, &[]);
+        let mut exchange = self.jail(plugin, &sheet, &Killer::default(), &places)?;
         match work(&mut exchange) {
             Ok(found) => {
                 exchange.jail.end(Outcome::Completed);
@@ -99,9 +102,10 @@ impl Launcher {
     pub fn start_with(&self, trial: &Trial<'_>, killer: &Killer) -> Result<Session, Ending> {
         let meshes: Vec<&Mesh> = std::iter::once(trial.mesh_a).chain(trial.mesh_b).collect();
         let sheet = write_trial(trial.algorithm, trial.parameters, trial.semantics, &meshes);
-        let mut exchange = self.jail(trial.plugin, &sheet, killer)?;
+        let places = Places::here(&self.policy)?;
+        let mut exchange = self.jail(trial.plugin, &sheet, killer, &places)?;
         // Not before the jail has started: it would inherit the choice.
-        let pinned = match Pinned::to(self.policy.supervisor_cpu) {
+        let pinned = match Pinned::to(places.supervisor) {
             Ok(pinned) => pinned,
             Err(outcome) => return Err(exchange.jail.end(outcome)),
         };
@@ -130,39 +134,32 @@ impl Launcher {
 
     /// A jail that has been looked at. Where this machine forbids namespaces, a trusted plugin runs without, and a foreign
     /// one where the profile lets it.
-    fn jail(&self, plugin: &Path, trial: &[u8], killer: &Killer) -> Result<Exchange, Ending> {
-        match self.jail_in(plugin, trial, killer, true) {
+    fn jail(&self, plugin: &Path, trial: &[u8], killer: &Killer, places: &Places) -> Result<Exchange, Ending> {
+        match self.jail_in(plugin, trial, killer, places, true) {
             Err(Ending { outcome: Outcome::SandboxFault { step, .. }, .. })
                 if (self.policy.trusted || self.policy.profile == Profile::Dev)
                     && NAMESPACE_STEPS.contains(&step.as_str()) =>
             {
-                self.jail_in(plugin, trial, killer, false)
+                self.jail_in(plugin, trial, killer, places, false)
             }
             result => result,
         }
     }
 
-    fn jail_in(&self, plugin: &Path, trial: &[u8], killer: &Killer, namespaces: bool) -> Result<Exchange, Ending> {
-        let kind = self.clock_kind();
-        let jail =
-            Jail::start(&self.runner, &self.policy, killer, plugin, trial, kind == ClockKind::Futex, namespaces)?;
-        let mut exchange = Exchange::new(jail, kind, Clock::get(), self.policy.trial_seconds);
+    fn jail_in(
+        &self,
+        plugin: &Path,
+        trial: &[u8],
+        killer: &Killer,
+        places: &Places,
+        namespaces: bool,
+    ) -> Result<Exchange, Ending> {
+        let jail = Jail::start(&self.runner, &self.policy, killer, plugin, trial, places, namespaces)?;
+        let mut exchange = Exchange::new(jail, places.kind, Clock::get(), self.policy.trial_seconds);
         let closed = exchange.obeyed(Command::CloseListener, Phase::Load, self.policy.load_seconds);
         match closed.and_then(|_| exchange.jail.verify(namespaces)) {
             Ok(()) => Ok(exchange),
             Err(outcome) => Err(exchange.jail.end(outcome)),
-        }
-    }
-
-    fn clock_kind(&self) -> ClockKind {
-        let cpus = std::thread::available_parallelism().map_or(1, usize::from);
-        match (self.policy.clock, self.policy.runner_cpu, self.policy.supervisor_cpu) {
-            (ClockChoice::Spin, ..) => ClockKind::Spin,
-            (ClockChoice::Futex, ..) => ClockKind::Futex,
-            (ClockChoice::Auto, Some(runner), Some(supervisor)) if runner != supervisor => ClockKind::Spin,
-            (ClockChoice::Auto, Some(_), Some(_)) => ClockKind::Futex,
-            (ClockChoice::Auto, ..) if cpus > 1 => ClockKind::Spin,
-            (ClockChoice::Auto, ..) => ClockKind::Futex,
         }
     }
 }

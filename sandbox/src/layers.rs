@@ -47,6 +47,8 @@ pub(crate) struct Layers {
     pub sealed_mappings: u32,
     /// Memory can no longer become executable.
     pub no_new_code: bool,
+    /// Threads that the plugin may start.
+    pub startable_threads: usize,
 }
 
 impl Layers {
@@ -77,6 +79,9 @@ impl Layers {
             phrases.push("no new executable memory (MDWE)".into());
         }
         phrases.push("system call allow-list with notification".into());
+        if self.startable_threads > 0 {
+            phrases.push(format!("multi-threaded track: at most {} threads started", self.startable_threads));
+        }
         phrases
     }
 
@@ -88,6 +93,13 @@ impl Layers {
                 format!("foreign plugins need {what}, which this machine does not give; {get}, {OR_DEV}"),
             ))
         };
+        if self.startable_threads > 0 && !self.namespaces {
+            return missing(
+                "Threads",
+                "namespaces of their own, in which threads can be counted,",
+                "allow user namespaces",
+            );
+        }
         match (policy.trusted, policy.profile) {
             (true, _) => Ok(()),
             // Files are kept away by an own root or by Landlock; without both there is nothing between them.
@@ -123,6 +135,7 @@ mod tests {
         landlock_abi: LANDLOCK_ABI,
         sealed_mappings: 1,
         no_new_code: true,
+        startable_threads: 0,
     };
 
     fn refused(layers: Layers, trusted: bool, profile: Profile) -> Option<String> {
@@ -150,6 +163,9 @@ mod tests {
         assert_eq!(refused(shallow, false, Profile::Production), None);
         let naked = Layers { namespaces: false, landlock_abi: 0, ..ALL };
         assert_eq!(refused(naked, false, Profile::Dev).as_deref(), Some("Landlock"));
+        // Nobody can count threads without a namespace, not even those of a plugin that is trusted.
+        let uncounted = Layers { namespaces: false, startable_threads: 16, ..ALL };
+        assert_eq!(refused(uncounted, true, Profile::Dev).as_deref(), Some("Threads"));
         let text = Layers { group: None, ..ALL }.enough(&Policy::default()).unwrap_err().to_string();
         assert!(text.contains("--profile dev") && text.contains("run as root"), "{text}");
     }

@@ -12,6 +12,7 @@ pub mod clock;
 pub mod confine;
 #[doc(hidden)]
 pub mod control;
+mod cpus;
 pub mod descriptor;
 pub mod doctor;
 #[doc(hidden)]

@@ -17,7 +17,10 @@ pub struct Policy {
     pub trial_seconds: f64,
     /// Bytes that the plugin may write to its standard output and error.
     pub output_bytes: u64,
-    /// CPU that the runner is kept on; the scheduler's choice when absent.
+    /// CPUs that the plugin may use at once, with threads of its own when there are several. 1 is the single-threaded
+    /// track, where it can start none.
+    pub threads: usize,
+    /// CPU that the runner is kept on, with others beside it when it has threads; the scheduler's choice when absent.
     pub runner_cpu: Option<usize>,
     /// CPU that the supervising thread is kept on while a session lasts; the scheduler's choice when absent.
     pub supervisor_cpu: Option<usize>,
@@ -42,6 +45,16 @@ pub enum ClockChoice {
     Futex,
 }
 
+/// A plugin with several CPUs may start so many threads in any case: libraries have some beside those that work.
+const LEAST_THREADS: usize = 16;
+
+impl Policy {
+    /// How many threads the plugin may start beside the one that calls it.
+    pub fn startable_threads(&self) -> usize {
+        if self.threads > 1 { self.threads.max(LEAST_THREADS) } else { 0 }
+    }
+}
+
 impl Default for Policy {
     fn default() -> Self {
         Policy {
@@ -51,6 +64,7 @@ impl Default for Policy {
             query_seconds: 10.0,
             trial_seconds: 3600.0,
             output_bytes: 64 << 10,
+            threads: 1,
             runner_cpu: None,
             supervisor_cpu: None,
             clock: ClockChoice::Auto,

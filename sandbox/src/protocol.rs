@@ -303,7 +303,7 @@ mod tests {
     #[test]
     fn any_bytes_are_descriptors_or_a_reason() {
         let good = br#"[{"id":"a","name":"A","version":"1","authors":"","license":"","url":"","paper":"","queries":[],
-            "counters":false,"witness_points":false,"single_precision":false,"solid":false,"coherent":false,"parameters":[]}]"#;
+            "counters":false,"witness_points":false,"single_precision":false,"solid":false,"coherent":false,"threads":false,"parameters":[]}]"#;
         assert_eq!(parse_descriptors(good).unwrap()[0].id, "a");
         let mut next = numbers(1);
         for _ in 0..20_000 {

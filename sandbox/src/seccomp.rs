@@ -54,8 +54,17 @@ struct Allowed {
     call: String,
     #[serde(default)]
     when: Vec<BTreeMap<String, Value>>,
+    track: Option<Track>,
     #[serde(rename = "because")]
     _because: String,
+}
+
+/// Where alone a line holds.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Track {
+    /// In the multi-threaded track.
+    Threads,
 }
 
 #[derive(Deserialize)]
@@ -67,12 +76,13 @@ struct Quiet {
     _because: String,
 }
 
-/// Compiles the list for a process that calls itself `own_pid`.
-pub fn compile(own_pid: i32) -> Result<BpfProgram, FilterError> {
+/// Compiles the list for a process that calls itself `own_pid`, in the single- or in the multi-threaded track.
+pub fn compile(own_pid: i32, threads: bool) -> Result<BpfProgram, FilterError> {
     let list: List = serde_json::from_str(LIST)?;
-    let mut rules = BTreeMap::new();
-    for allowed in &list.allow {
-        let mut alternatives = Vec::new();
+    let mut rules: BTreeMap<i64, Vec<SeccompRule>> = BTreeMap::new();
+    for allowed in list.allow.iter().filter(|allowed| allowed.track.is_none() || threads) {
+        // A call may have a second line for one of the tracks.
+        let alternatives = rules.entry(i64::from(number(&allowed.call)?)).or_default();
         for when in &allowed.when {
             let conditions = when
                 .iter()
@@ -80,7 +90,6 @@ pub fn compile(own_pid: i32) -> Result<BpfProgram, FilterError> {
                 .collect::<Result<Vec<_>, _>>()?;
             alternatives.push(SeccompRule::new(conditions).map_err(|e| FilterError::Compile(e.to_string()))?);
         }
-        rules.insert(i64::from(number(&allowed.call)?), alternatives);
     }
     let filter =
         SeccompFilter::new(rules, SeccompAction::Trace(PLACEHOLDER.into()), SeccompAction::Allow, TargetArch::x86_64);
@@ -181,7 +190,7 @@ mod tests {
 
     #[test]
     fn the_list_compiles_and_asks_by_default() {
-        let program = compile(2).unwrap();
+        let program = compile(2, false).unwrap();
         assert!(program.iter().any(|i| i.code == RETURN && i.k == libc::SECCOMP_RET_USER_NOTIF));
         assert!(!program.iter().any(|i| i.code == RETURN && i.k & 0xffff_0000 == libc::SECCOMP_RET_TRACE));
         assert!(program.len() < usize::from(u16::MAX));
@@ -189,7 +198,7 @@ mod tests {
 
     #[test]
     fn a_foreign_architecture_is_killed() {
-        let program = compile(2).unwrap();
+        let program = compile(2, false).unwrap();
         assert!(program.iter().take(4).any(|i| i.code == RETURN && i.k == libc::SECCOMP_RET_KILL_PROCESS));
     }
 

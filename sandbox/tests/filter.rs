@@ -46,8 +46,9 @@ fn verdict(program: &[sock_filter], nr: i64, arguments: &[u64; 6]) -> Verdict {
     }
 }
 
-fn both() -> (Vec<sock_filter>, List) {
-    (seccomp::compile(OWN).unwrap(), List::read(OWN))
+/// The filter of the single-threaded track or of the other one, and what the list says.
+fn both(threads: bool) -> (Vec<sock_filter>, List) {
+    (seccomp::compile(OWN, threads).unwrap(), List::read(OWN, threads))
 }
 
 /// Numbers worth asking about: all there are, room above, the x32 twins, and the ends of the range.
@@ -57,21 +58,23 @@ fn numbers() -> impl Iterator<Item = i64> {
 
 #[test]
 fn every_number_is_treated_as_listed() {
-    let (program, list) = both();
-    let mut asked = 0;
-    for nr in numbers() {
-        for arguments in [[0; 6], [u64::MAX; 6], [1; 6], [1 << 32; 6]] {
-            let expected = list.verdict(nr, &arguments);
-            assert_eq!(verdict(&program, nr, &arguments), expected, "{nr} {arguments:x?}");
-            asked += u32::from(expected == Verdict::Ask);
+    for threads in [false, true] {
+        let (program, list) = both(threads);
+        let mut asked = 0;
+        for nr in numbers() {
+            for arguments in [[0; 6], [u64::MAX; 6], [1; 6], [1 << 32; 6]] {
+                let expected = list.verdict(nr, &arguments);
+                assert_eq!(verdict(&program, nr, &arguments), expected, "{nr} {arguments:x?}");
+                asked += u32::from(expected == Verdict::Ask);
+            }
         }
+        assert!(asked > 15_000, "{asked}");
     }
-    assert!(asked > 15_000, "{asked}");
 }
 
 #[test]
 fn a_foreign_architecture_is_killed() {
-    let (program, _) = both();
+    let (program, _) = both(false);
     // i386, x32's own mark does not exist here, ARM 64, no machine at all.
     for architecture in [0x4000_0003, 0xc000_00b7, 0, u32::MAX] {
         for nr in [0, 1, 39, 231] {
@@ -88,7 +91,8 @@ fn near(value: u64) -> impl Iterator<Item = u64> {
 
 #[test]
 fn every_condition_holds_bit_by_bit() {
-    let (program, list) = both();
+    // The other track's list is this one and more.
+    let (program, list) = both(true);
     let (mut conditions, mut denied) = (0, 0);
     for (nr, alternatives) in &list.allow {
         for all in alternatives {
@@ -120,20 +124,35 @@ fn every_condition_holds_bit_by_bit() {
     assert!(conditions >= 20 && denied >= 500, "{conditions} conditions, {denied} denials");
 }
 
+/// What glibc's pthread_create asks for: VM FS FILES SIGHAND THREAD SYSVSEM SETTLS PARENT_SETTID CHILD_CLEARTID.
+const NEW_THREAD: u64 = 0x3d_0f00;
+
 #[test]
-fn priority_inheritance_and_new_threads_are_not_there() {
-    let (program, _) = both();
-    // LOCK_PI, UNLOCK_PI, TRYLOCK_PI, WAIT_REQUEUE_PI, CMP_REQUEUE_PI, LOCK_PI2, with and without PRIVATE and REALTIME.
-    for operation in [6, 7, 8, 11, 12, 13] {
-        for flags in [0, 128, 256, 384] {
-            assert_eq!(verdict(&program, libc::SYS_futex, &[0, operation | flags, 0, 0, 0, 0]), Verdict::Ask);
+fn priority_inheritance_and_new_processes_are_not_there() {
+    for threads in [false, true] {
+        let (program, _) = both(threads);
+        // LOCK_PI, UNLOCK_PI, TRYLOCK_PI, WAIT_REQUEUE_PI, CMP_REQUEUE_PI, LOCK_PI2, with and without PRIVATE, REALTIME.
+        for operation in [6, 7, 8, 11, 12, 13] {
+            for flags in [0, 128, 256, 384] {
+                assert_eq!(verdict(&program, libc::SYS_futex, &[0, operation | flags, 0, 0, 0, 0]), Verdict::Ask);
+            }
         }
-    }
-    // What glibc's pthread_create asks for, and everything else that makes a process.
-    for nr in [libc::SYS_clone, libc::SYS_fork, libc::SYS_vfork, libc::SYS_execve, libc::SYS_execveat] {
-        for flags in [0x3d_0f00, 0, 0x0120_0011] {
-            assert_eq!(verdict(&program, nr, &[flags, 0, 0, 0, 0, 0]), Verdict::Ask);
+        for nr in [libc::SYS_clone, libc::SYS_fork, libc::SYS_vfork, libc::SYS_execve, libc::SYS_execveat] {
+            for flags in [0, 0x0120_0011] {
+                assert_eq!(verdict(&program, nr, &[flags, 0, 0, 0, 0, 0]), Verdict::Ask);
+            }
         }
+        assert_eq!(verdict(&program, libc::SYS_clone3, &[0; 6]), Verdict::Quiet(libc::ENOSYS));
+        assert_eq!(verdict(&program, libc::SYS_sched_setaffinity, &[0; 6]), Verdict::Quiet(libc::EPERM));
     }
-    assert_eq!(verdict(&program, libc::SYS_clone3, &[0; 6]), Verdict::Quiet(libc::ENOSYS));
+}
+
+#[test]
+fn a_thread_is_all_that_the_multi_threaded_track_may_clone() {
+    let clone = |threads, flags| verdict(&both(threads).0, libc::SYS_clone, &[flags, 0, 0, 0, 0, 0]);
+    assert_eq!((clone(false, NEW_THREAD), clone(true, NEW_THREAD)), (Verdict::Ask, Verdict::Allow));
+    // Every namespace, no thread at all, and each single bit beside, the upper half included.
+    for flags in near(NEW_THREAD) {
+        assert_eq!(clone(true, flags), Verdict::Ask, "{flags:#x}");
+    }
 }

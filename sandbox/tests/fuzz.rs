@@ -5,10 +5,12 @@
 
 mod common;
 
+use std::os::fd::AsRawFd;
 use std::time::{Duration, Instant};
 
 use common::{apart, fixture, launcher_with, policy, start};
 use ocb_core::query::Query;
+use ocb_sandbox::control::{Control, Report};
 use ocb_sandbox::protocol::{
     SLOT_WORDS, answer, contacts_to_copy, parse_answer, parse_counters, parse_descriptors, parse_inspection,
     parse_status, parse_text_len, slot,
@@ -124,7 +126,7 @@ fn the_gate_reads_anything() {
 }
 
 const DESCRIPTORS: &[u8] = br#"[{"id":"a","name":"A","version":"1","authors":"","license":"","url":"","paper":"",
-    "queries":[],"counters":false,"witness_points":false,"single_precision":false,"solid":false,"coherent":false,
+    "queries":[],"counters":false,"witness_points":false,"single_precision":false,"solid":false,"coherent":false,"threads":false,
     "parameters":[{"name":"k","description":"","minimum":0,"maximum":1,"default":0.5,"integer":false}]}]"#;
 const FINDINGS: &[u8] = br#"{"rejections":[{"rule":"r","what":"w","why":"y","mend":"m"}],"facts":null}"#;
 
@@ -173,14 +175,59 @@ fn the_parser_reads_anything() {
     );
 }
 
+/// No plugin reaches the control socket (the runner closes it before it loads anything); what our own processes say on it
+/// is read with the same care.
+#[test]
+fn the_control_socket_reads_anything() {
+    let reports = [
+        &br#""InitStarted""#[..],
+        br#"{"RunnerStarted":{"own_ids":true}}"#,
+        br#"{"RunnerEnded":{"status":139}}"#,
+        br#"{"Fault":{"step":"Ids","reason":"no"}}"#,
+    ];
+    let (ours, theirs) = Control::pair().unwrap();
+    let theirs = theirs.into_fd();
+    let mut numbers = Numbers(0xc0de);
+    let (mut read, mut refused) = (0u64, 0u64);
+    for _ in 0..inputs(20_000, 1.0) {
+        let mut bytes = reports[numbers.below(4)].to_vec();
+        for _ in 0..numbers.below(3) {
+            let at = numbers.below(bytes.len());
+            bytes[at] = numbers.nasty(256) as u8;
+        }
+        bytes.truncate(1 + numbers.below(2 * bytes.len()));
+        // SAFETY: a live buffer of this length.
+        let sent = unsafe { libc::send(theirs.as_raw_fd(), bytes.as_ptr().cast(), bytes.len(), 0) };
+        assert_eq!(sent, bytes.len() as isize);
+        match ours.receive::<Report>() {
+            Ok(Some(_)) => read += 1,
+            Ok(None) => panic!("nobody has left"),
+            Err(_) => refused += 1,
+        }
+    }
+    drop(theirs);
+    assert!(matches!(ours.receive::<Report>(), Ok(None)));
+    assert!(read > 1000 && refused > 1000, "{read} read, {refused} refused");
+}
+
 /// A plugin that writes random words over the answer's head, slot and text, then leaves, crashes, loops or goes on.
 #[test]
 fn a_scribbling_plugin_gets_an_outcome() {
-    let plugin = fixture(&["ATTACK=scribble", "IN_CONTACTS"]);
-    let launcher = launcher_with(Policy { query_seconds: 0.3, ..policy() });
+    scribbled("scribble", 1, inputs(25, 0.001));
+}
+
+/// The same by a thread, at any moment of the host's reading.
+#[test]
+fn a_scribbling_thread_gets_an_outcome() {
+    scribbled("scribble_meanwhile", 2, inputs(10, 0.0005));
+}
+
+fn scribbled(attack: &str, threads: usize, trials: u64) {
+    let plugin = fixture(&[&format!("ATTACK={attack}"), "IN_CONTACTS"]);
+    let launcher = launcher_with(Policy { query_seconds: 0.3, threads, ..policy() });
     let mut numbers = Numbers(0x5c21);
     let mut outcomes = std::collections::BTreeMap::new();
-    for trial in 0..inputs(25, 0.001) {
+    for trial in 0..trials {
         let mut session = start(&launcher, &plugin).expect("nothing has struck yet");
         let begun = Instant::now();
         for _ in 0..20 {
@@ -197,6 +244,6 @@ fn a_scribbling_plugin_gets_an_outcome() {
         assert!(begun.elapsed() < Duration::from_secs(30), "trial {trial} took {:?}", begun.elapsed());
         *outcomes.entry(ending.outcome.name()).or_insert(0u64) += 1;
     }
-    println!("{outcomes:?}");
-    assert!(outcomes.len() >= 3, "{outcomes:?}");
+    println!("{attack}: {outcomes:?}");
+    assert!(outcomes.len() >= 4 - threads, "{outcomes:?}");
 }

@@ -145,7 +145,26 @@ fn foreign_libraries_paths_and_hooks_are_refused() {
     check_refused(&folder.build(ENTRY, &["-Wl,--auxiliary,libc.so.6"]), "loader hooks", "DT_AUXILIARY");
     check_refused(&folder.build(ENTRY, &["-Wl,--filter,libc.so.6"]), "loader hooks", "DT_FILTER");
     check_refused(&folder.build(ENTRY, &["-Wl,--audit,x.so"]), "loader hooks", "DT_AUDIT");
-    check_refused(&folder.build(ENTRY, &["-Wl,--depaudit,x.so"]), "loader hooks", "DT_DEPAUDIT");
+    let audited = folder.build(ENTRY, &["-Wl,--depaudit,x.so"]);
+    check_refused(&audited, "loader hooks", "DT_DEPAUDIT");
+    // No linker of today writes this one: a neighbour's tag is changed into it.
+    let mut bytes = std::fs::read(&audited).unwrap();
+    let (depaudit, config) = (0x6fff_fefb_u64.to_le_bytes(), 0x6fff_fefa_u64.to_le_bytes());
+    let at = bytes.windows(8).position(|tag| tag == depaudit).expect("the tag of DT_DEPAUDIT");
+    bytes[at..at + 8].copy_from_slice(&config);
+    check_refused(&folder.file("config", &bytes), "loader hooks", "DT_CONFIG");
+}
+
+#[test]
+fn too_many_symbols_are_refused() {
+    let folder = folder();
+    let symbols = |count: u32| {
+        let one = ".macro one\\n.globl s\\\\@\\ns\\\\@:\\n.endm\\n";
+        let all = format!("{ENTRY}\n__asm__(\".data\\n{one}.rept {count}\\none\\n.endr\\n.text\");");
+        folder.build(&all, &["-Wl,--hash-style=gnu", "-nostdlib"])
+    };
+    assert_eq!(inspect(&symbols(199_000)).rejections, []);
+    check_refused(&symbols(200_001), "symbols", "-fvisibility=hidden");
 }
 
 #[test]

@@ -93,6 +93,7 @@ fn another_user(part: &str) {
     place(&fixture(&[]), "honest.so");
     place(&fixture(&["ATTACK=raw_call", "RAW=41"]), "socket.so");
     place(&fixture(&["ATTACK=open_passwd"]), "open.so");
+    place(&fixture(&["ATTACK=many_threads"]), "threads.so");
     // In a user namespace of its own a process may forbid further ones to itself and its children.
     let refuse = "echo 0 > /proc/sys/user/max_user_namespaces && exec \"$@\"";
     // SAFETY: reads a number.
@@ -120,6 +121,11 @@ fn ordinary(folder: &Path) {
     let mut session = start(&launcher, &folder.join("socket.so")).unwrap();
     let outcome = session.query(Query::CollisionFirst, &apart(0.5)).unwrap_err();
     assert!(matches!(&outcome, Outcome::SyscallDenied { call, .. } if call.nr == libc::SYS_socket), "{outcome}");
+    // Threads are counted in the jail's user namespace: those of this user's other programs do not matter.
+    let threads = Launcher::new(folder.join("ocb-runner"), Policy { threads: 2, ..policy() });
+    let mut session = start(&threads, &folder.join("threads.so")).unwrap();
+    let outcome = session.query(Query::CollisionFirst, &apart(0.5)).unwrap_err();
+    assert!(outcome.to_string().contains("16 threads, then EAGAIN"), "{outcome}");
 }
 
 /// What `ocb doctor` tells is what happens, and what is missing is told with the way to get it.
@@ -153,6 +159,12 @@ fn where_namespaces_are_refused(folder: &Path) {
     let Err(refused) = start(&foreign, &folder.join("honest.so")) else { panic!("it ran without namespaces") };
     let Outcome::SandboxFault { step, reason } = &refused.outcome else { panic!("{refused}") };
     assert!(step == "Namespaces" && reason.contains("max_user_namespaces"), "{refused}");
+
+    let several = Policy { trusted: true, threads: 2, ..production.clone() };
+    let Err(refused) = start(&Launcher::new(folder.join("ocb-runner"), several), &folder.join("honest.so")) else {
+        panic!("threads that nobody counts")
+    };
+    assert!(matches!(&refused.outcome, Outcome::SandboxFault { step, .. } if step == "Threads"), "{refused}");
 
     for policy in [Policy { trusted: true, ..production }, Policy { profile: Profile::Dev, ..policy() }] {
         let launcher = Launcher::new(folder.join("ocb-runner"), policy);

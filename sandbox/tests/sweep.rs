@@ -44,7 +44,7 @@ fn main() {
     if child == 0 {
         swept(board);
     }
-    let list = List::read(child);
+    let list = List::read(child, false);
     let listener = listener_of(child, board);
     let mut notified = BTreeSet::new();
     board.go.store(1, Ordering::SeqCst);
@@ -77,7 +77,7 @@ fn main() {
 
 /// Number and arguments: all zeros for everybody, and all ones for what is never made.
 fn calls(own_pid: i32) -> Vec<(i64, [u64; 6])> {
-    let list = List::read(own_pid);
+    let list = List::read(own_pid, false);
     let numbers: Vec<i64> = (0..1100).chain((0x4000_0000..).take(600)).chain([9999, 0x7fff_ffff]).collect();
     let swept = |nr: &&i64| !PASS_THROUGH.contains(nr) && !NO_RETURN.contains(nr);
     let zeros = numbers.iter().filter(swept).map(|nr| (*nr, [0; 6]));
@@ -94,7 +94,7 @@ fn swept(board: &Board) -> ! {
     let calls = calls(own);
     // SAFETY: integers only; required of a process without privileges.
     unsafe { libc::prctl(libc::PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) };
-    let listener = seccomp::install(&seccomp::compile(own).unwrap()).unwrap();
+    let listener = seccomp::install(&seccomp::compile(own, false).unwrap()).unwrap();
     board.listener.store(i64::from(listener) + 1, Ordering::SeqCst);
     while board.go.load(Ordering::SeqCst) == 0 {
         std::hint::spin_loop();

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # soak.sh MINUTES: first at full size what the tests do in slices: a million files for the jail's gate, ten million messages
-# for the supervisor, a thousand trials (OCB_FUZZ, OCB_TRIALS), ten million pairs of triangles for the oracle's filters
-# (OCB_PAIRS). Then the restart tests (the service is killed at every stage of a run) over and over. The first failure ends
-# it; the last line says how often they passed.
+# for the supervisor, a thousand trials, a hundred rounds of honest plugins (OCB_FUZZ, OCB_TRIALS, OCB_HONEST), ten million
+# pairs of triangles for the oracle's filters (OCB_PAIRS). Then the restart tests (the service is killed at every stage of a
+# run) over and over. The first failure ends it; the last line says how often they passed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 minutes=${1:?usage: soak.sh MINUTES}
-export OCB_FUZZ=${OCB_FUZZ:-1000000} OCB_TRIALS=${OCB_TRIALS:-1000} OCB_PAIRS=${OCB_PAIRS:-10000000}
-cargo test --release --workspace --test fuzz --test leftovers -- --nocapture
+export OCB_FUZZ=${OCB_FUZZ:-1000000} OCB_TRIALS=${OCB_TRIALS:-1000} OCB_HONEST=${OCB_HONEST:-100}
+export OCB_PAIRS=${OCB_PAIRS:-10000000}
+cargo test --release --workspace --test fuzz --test leftovers --test honest_plugins -- --nocapture
 cargo test --release --workspace --lib troublesome_pairs -- --nocapture
 rounds=0
 started=$SECONDS

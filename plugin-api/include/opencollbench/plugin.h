@@ -10,7 +10,7 @@
  *
  * THE LIFE OF A PLUGIN
  *
- *   dlopen                                    in a fresh process with no files, no network, no threads, bounded memory
+ *   dlopen                                    in a fresh process with no files, no network, bounded memory
  *   ocb_plugin_v1(1)                          once
  *   create                                    once, if present
  *   ocb.parameters/1: set                     any number of times
@@ -22,7 +22,9 @@
  *
  * RULES THAT HOLD EVERYWHERE
  *
- * - Threads. Every call comes from the same thread, never two at once. Starting a thread is denied.
+ * - Threads. Every call comes from the same thread, never two at once. A plugin may start threads of its own only in the
+ *   multi-threaded track, for algorithms with OCB_CAPABILITY_THREADS; elsewhere starting one ends the process. They must
+ *   be idle between calls: work that goes on after a function has returned is neither timed nor fair.
  * - Memory. Whoever allocates frees. What the host passes in is valid only until the call returns: copy what you keep.
  *   What the plugin returns through the descriptor (structs, strings, extension tables) must stay valid and unchanged
  *   until the process ends; static data is meant.
@@ -46,7 +48,7 @@
 
 /* Two sides fit when their major versions are equal. The minor version grows when something is appended. */
 #define OCB_ABI_MAJOR 1u
-#define OCB_ABI_MINOR 1u
+#define OCB_ABI_MINOR 2u
 
 /* Put before the definition of `ocb_plugin_v1`. Everything else should be static or hidden. */
 #if defined(__GNUC__)
@@ -127,7 +129,13 @@ enum {
     /* Answering is sped up by earlier queries (temporal coherence, front tracking): the order of queries matters. */
     OCB_CAPABILITY_COHERENT = 2,
     /* `collide` and `distance` heed OCB_REQUEST_SOLID. Without this bit the host never asks for solid bodies. Since 1.1. */
-    OCB_CAPABILITY_SOLID = 4
+    OCB_CAPABILITY_SOLID = 4,
+    /*
+     * The algorithm can use several threads and may enter the multi-threaded track. There sched_getaffinity, which OpenMP
+     * and the like ask, says how many CPUs it has, and it may start 16 threads or as many as these. Where one cannot be
+     * started it must answer all the same. Since 1.2.
+     */
+    OCB_CAPABILITY_THREADS = 8
 };
 
 /* One algorithm: who made it, and its functions. Owned by the plugin, static. */

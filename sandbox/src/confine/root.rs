@@ -18,11 +18,21 @@ pub const LIBRARIES: &str = "/lib";
 /// The loader's path in every dynamic x86-64 program of glibc.
 pub const LOADER: &str = "/lib64/ld-linux-x86-64.so.2";
 
-/// What a plugin may link. The last four are optional: empty shells of glibc 2.34 and newer, and libstdc++, which a
-/// machine without C++ programs lacks.
-const NAMES: [&str; 7] =
-    ["libc.so.6", "libm.so.6", "libgcc_s.so.1", "libstdc++.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1"];
+/// What a plugin may link. All but the first three are optional: empty shells of glibc 2.34 and newer, libstdc++, which a
+/// machine without C++ programs lacks, and OpenMP.
+const NAMES: [&str; 8] = [
+    "libc.so.6",
+    "libm.so.6",
+    "libgcc_s.so.1",
+    "libstdc++.so.6",
+    "libpthread.so.0",
+    "libdl.so.2",
+    "librt.so.1",
+    OPENMP,
+];
 const REQUIRED: usize = 3;
+/// The library that is for plugins with threads alone.
+pub const OPENMP: &str = "libgomp.so.1";
 
 /// A library of this machine.
 #[derive(Clone, Debug)]
@@ -34,14 +44,15 @@ pub struct Library {
 }
 
 /// Finds the libraries on this machine: where this very program's libc came from, then the usual places.
-pub fn find_libraries() -> Result<Vec<Library>, ConfineError> {
+pub fn find_libraries(threads: bool) -> Result<Vec<Library>, ConfineError> {
     let maps = std::fs::read_to_string("/proc/self/maps").unwrap_or_default();
     let libc = maps.lines().filter_map(|line| line.find('/').map(|at| Path::new(&line[at..])));
     let own = libc.filter(|path| path.file_name().is_some_and(|name| name == "libc.so.6")).find_map(Path::parent);
     let usual = ["/lib/x86_64-linux-gnu", "/usr/lib/x86_64-linux-gnu", "/lib64", "/usr/lib64", "/usr/lib"];
     let places: Vec<&Path> = own.into_iter().chain(usual.iter().map(Path::new)).collect();
     let mut found = Vec::new();
-    for (i, name) in NAMES.into_iter().enumerate() {
+    let names = NAMES.into_iter().filter(|name| threads || *name != OPENMP);
+    for (i, name) in names.enumerate() {
         match places.iter().map(|place| place.join(name)).find(|path| path.exists()) {
             Some(path) => found.push(Library { name, path }),
             None if i < REQUIRED => {

@@ -8,6 +8,7 @@ use goblin::elf::program_header::{PF_W, PF_X, PT_DYNAMIC, PT_GNU_STACK, PT_INTER
 use goblin::elf::sym::{STB_GLOBAL, STT_FUNC};
 
 use super::{Rejection, Subject, one_line};
+use crate::confine::root::OPENMP;
 
 /// The function that every plugin exports.
 const ENTRY: &str = "ocb_plugin_v1";
@@ -46,7 +47,7 @@ pub const UNREADABLE: Rule = Rule {
 };
 
 /// All others, in the order in which they are told.
-pub const RULES: [Rule; 12] = [
+pub const RULES: [Rule; 13] = [
     Rule {
         name: "machine",
         why: "plugins run on Linux on x86-64",
@@ -140,10 +141,19 @@ pub const RULES: [Rule; 12] = [
         why: "the jail holds glibc, libgcc and libstdc++ and nothing else",
         mend: "link other libraries statically (the .a file, or -static-libgomp where there is one) or leave them out",
         broken: |s| {
-            let known = |name: &str| name == LOADER || s.offered.iter().any(|library| library.name == name);
+            let known = |name: &str| name == LOADER || name == OPENMP || s.offers(name);
             let foreign: Vec<String> =
                 s.dynamic(DT_NEEDED).map(|at| s.string(at)).filter(|name| !known(name)).take(8).collect();
             (!foreign.is_empty()).then(|| format!("it needs {}", foreign.join(", ")))
+        },
+    },
+    Rule {
+        name: "threads",
+        why: "the library starts threads, which the multi-threaded track alone allows (where the machine has it)",
+        mend: "compile without -fopenmp, or declare OCB_CAPABILITY_THREADS and enter the multi-threaded track",
+        broken: |s| {
+            let needed = s.dynamic(DT_NEEDED).any(|at| s.string(at) == OPENMP);
+            (needed && !s.offers(OPENMP)).then(|| format!("it needs {OPENMP}"))
         },
     },
     Rule {

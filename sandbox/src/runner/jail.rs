@@ -61,7 +61,7 @@ fn launch_with(control: &Control) -> Result<(), Report> {
     let _ = nix::unistd::setsid();
     // SAFETY: an integer; the runner must be able to read what init creates.
     unsafe { libc::umask(0o022) };
-    let libraries = root::find_libraries().map_err(fault)?;
+    let libraries = root::find_libraries(order.startable_threads > 0).map_err(fault)?;
     let (released, release) = io::pipe().map_err(talk)?;
     let init = clone_init(order.namespaces).map_err(|e| fault(namespace_error(e)))?;
     if init == 0 {
@@ -172,8 +172,8 @@ fn inside(
         confine::hide_host_name().map_err(fault)?;
     }
     confine::forget_keys();
-    if let Some(cpu) = order.cpu {
-        confine::stay_on_cpu(cpu).map_err(fault)?;
+    if !order.cpus.is_empty() {
+        confine::stay_on_cpus(&order.cpus).map_err(fault)?;
     }
     // SAFETY: a plain fork of a single-threaded process.
     let runner = unsafe { libc::fork() };
@@ -214,7 +214,10 @@ fn become_runner(
         Err(error) => error,
         Ok(()) => {
             let steps = || -> Result<std::convert::Infallible, ConfineError> {
-                confine::set_limits(order.address_space_bytes, order.cpu_seconds)?;
+                // The runner, and init where the runner has no id of its own.
+                let tasks = 1 + order.startable_threads as u64 + u64::from(!own_ids);
+                let tasks = order.namespaces.then_some(tasks);
+                confine::set_limits(order.address_space_bytes, order.cpu_seconds, tasks)?;
                 confine::drop_capabilities()?;
                 if own_ids {
                     confine::take_ids(RUNNER_ID)?;
@@ -238,6 +241,7 @@ fn arguments(order: &Order, libraries: &[root::Library], own_ids: bool, trial_by
         if order.namespaces { "jail" } else { "bare" },
         if own_ids { "own" } else { "same" },
         if order.futex { "futex" } else { "spin" },
+        if order.startable_threads > 0 { "threads" } else { "single" },
     ];
     let plugin = if order.namespaces { root::PLUGIN } else { &order.plugin_path };
     let libraries = libraries.iter().map(|l| match order.namespaces {

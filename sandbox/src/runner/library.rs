@@ -249,6 +249,7 @@ impl Algorithm {
             single_precision: raw.capabilities & raw::CAPABILITY_SINGLE_PRECISION != 0,
             solid: self.knows_solids(),
             coherent: raw.capabilities & raw::CAPABILITY_COHERENT != 0,
+            threads: raw.capabilities & raw::CAPABILITY_THREADS != 0,
             parameters: self.knobs()?.into_iter().map(knob).collect(),
         })
     }

@@ -44,7 +44,7 @@ pub fn run(mode: &str, plugin: &str, trial_bytes: &str, libraries: &[&str]) -> !
     };
     // Everything but 0, 1, 2 and the listener, which the supervisor's first command closes.
     drop(control);
-    let listener = match filter() {
+    let listener = match filter(mode.split(',').any(|part| part == "threads")) {
         Ok(listener) => listener,
         Err(error) => {
             // The socket is gone; the supervisor sees an early end and these words.
@@ -58,8 +58,9 @@ pub fn run(mode: &str, plugin: &str, trial_bytes: &str, libraries: &[&str]) -> !
     serve(&shared, Measured::new(plugin.to_string(), libraries.iter().map(ToString::to_string).collect()), listener)
 }
 
-fn filter() -> Result<i32, ConfineError> {
-    let program = seccomp::compile(std::process::id() as i32).map_err(|e| ConfineError::Seccomp(e.to_string()))?;
+fn filter(threads: bool) -> Result<i32, ConfineError> {
+    let program =
+        seccomp::compile(std::process::id() as i32, threads).map_err(|e| ConfineError::Seccomp(e.to_string()))?;
     seccomp::install(&program).map_err(|e| ConfineError::Seccomp(e.to_string()))
 }
 

@@ -2,19 +2,7 @@
 
 use crate::Attack;
 use crate::Expected::{Denied, Harmless, Left, Signal};
-use crate::Form::{self, Query, QueryAndConstructor};
-
-macro_rules! attack {
-    ($id:literal, $title:literal, $name:literal, $form:expr, $expected:expr) => {
-        Attack {
-            id: $id,
-            title: $title,
-            defines: &[concat!("ATTACK=", $name)],
-            form: $form as Form,
-            expected: $expected,
-        }
-    };
-}
+use crate::Form::{Loading, Query, QueryAndConstructor};
 
 pub const ALL: &[Attack] = &[
     attack!("C1", "store to address 8", "store_to_null", QueryAndConstructor, Signal(libc::SIGSEGV)),
@@ -24,29 +12,25 @@ pub const ALL: &[Attack] = &[
     attack!("C1", "raise SIGABRT", "raise_abort", Query, Signal(libc::SIGABRT)),
     attack!("C2", "C++ exception that nobody catches", "throw_out", QueryAndConstructor, Signal(libc::SIGABRT)),
     attack!("C2", "C++ exception caught inside, told by iostream", "catch_inside", Query, Harmless),
+    attack!("C2", "Rust panic that nobody catches", "panic_out", QueryAndConstructor, Signal(libc::SIGABRT)),
     attack!("C3", "longjmp into a frame that is gone", "jump_back", Query, Signal(libc::SIGSEGV)),
     attack!("C3", "smash the stack of the runner", "smash_stack", Query, Signal(libc::SIGSEGV)),
     attack!("C4", "_exit(0)", "leave", QueryAndConstructor, Left(0)),
     attack!("C4", "exit(3)", "leave_politely", Query, Left(3)),
-    Attack {
-        id: "C6",
-        title: "system call in the chooser of an indirect function (IFUNC)",
-        defines: &["ATTACK=call_chosen", "RESOLVER"],
-        form: Form::Loading,
-        expected: Denied("socket"),
-    },
-    Attack {
-        id: "C6",
-        title: "1.5 GiB of thread-local storage",
-        defines: &["ATTACK=touch_thread_storage", "THREAD_STORAGE=(3ul<<29)"],
-        form: Query,
-        expected: Left(127),
-    },
-    Attack {
-        id: "C7",
-        title: "exports malloc, memcpy and clock_gettime",
-        defines: &["ATTACK=nothing_more", "INTERPOSE"],
-        form: Query,
-        expected: Harmless,
-    },
+    attack!(
+        "C6",
+        "system call in the chooser of an indirect function (IFUNC)",
+        "call_chosen"["RESOLVER"],
+        Loading,
+        Denied("socket")
+    ),
+    attack!(
+        "C6",
+        "1.5 GiB of thread-local storage",
+        "touch_thread_storage"["THREAD_STORAGE=(3ul<<29)"],
+        Query,
+        Left(127)
+    ),
+    attack!("C6", "ten thousand relocations", "nothing_more"["RELOCATIONS=10000"], Query, Harmless),
+    attack!("C7", "exports malloc, memcpy and clock_gettime", "nothing_more"["INTERPOSE"], Query, Harmless),
 ];

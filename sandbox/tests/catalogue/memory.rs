@@ -1,20 +1,11 @@
 //! The memory of the process: code, clock, input, answer.
 
 use crate::Attack;
-use crate::Expected::{Denied, Harmless, Left, Says, Signal, TimedOut, Violation};
-use crate::Form::{self, Contacts, Query, QueryAndConstructor};
+use crate::Expected::{Denied, Harmless, Left, Says, Signal, TimedOut, Violation, WorkSeen};
+use crate::Form::{Contacts, Query, QueryAndConstructor};
 
-macro_rules! attack {
-    ($id:literal, $title:literal, $name:literal, $form:expr, $expected:expr) => {
-        Attack {
-            id: $id,
-            title: $title,
-            defines: &[concat!("ATTACK=", $name)],
-            form: $form as Form,
-            expected: $expected,
-        }
-    };
-}
+/// A word of the reference answers, as the test puts it into the host's memory.
+pub const CANARY: u64 = 0x7a31_9c55_e2d8_06b4;
 
 pub const ALL: &[Attack] = &[
     attack!("M1", "writable and executable memory", "writable_code", QueryAndConstructor, Denied("mmap")),
@@ -24,6 +15,7 @@ pub const ALL: &[Attack] = &[
     attack!("M2", "make libc's code writable", "code_to_data", Query, Says("EPERM")),
     attack!("M2", "put a page over the vDSO", "overlay_clock", Query, Says("EPERM")),
     attack!("M3", "put a page over the clock's data", "overlay_clock_data", Query, Says("EPERM")),
+    attack!("M4", "put a clock of its own into every pointer", "patch_clocks"["WORK=3000000"], Query, WorkSeen),
     attack!("I1", "store into the input", "store_into_input", Query, Signal(libc::SIGSEGV)),
     attack!("I1", "make the input writable", "unprotect_input", Query, Says("EACCES")),
     attack!("I2", "put a page over its own view of the input", "overlay_input", Query, Says("own view replaced")),
@@ -32,5 +24,13 @@ pub const ALL: &[Attack] = &[
     attack!("I3, I8", "announce an answer that is not there, then sleep", "forge_next_answer", Contacts, TimedOut),
     attack!("I3", "announce the answer and leave", "forge_and_leave", Contacts, Left(0)),
     attack!("I9", "leave the floating-point state changed", "spoil_floating_point", Query, Harmless),
+    attack!("I8", "announce an answer twice", "announce_twice", Contacts, Violation),
     attack!("I10", "search the environment", "search_reference", Query, Says("0 unknown words")),
+    attack!(
+        "I10",
+        "search its memory for the host's answers",
+        "search_memory"["CANARY=0x7a319c55e2d806b4ul"],
+        Query,
+        Says("0 of the host's, the question itself")
+    ),
 ];

@@ -2,19 +2,7 @@
 
 use crate::Attack;
 use crate::Expected::{Denied, OutOfMemory, OutputLimit, Says, Signal, TimedOut};
-use crate::Form::{self, Query, QueryAndConstructor};
-
-macro_rules! attack {
-    ($id:literal, $title:literal, $name:literal, $form:expr, $expected:expr) => {
-        Attack {
-            id: $id,
-            title: $title,
-            defines: &[concat!("ATTACK=", $name)],
-            form: $form as Form,
-            expected: $expected,
-        }
-    };
-}
+use crate::Form::{Query, QueryAndConstructor};
 
 pub const ALL: &[Attack] = &[
     attack!("R1", "allocate and touch for ever", "touch_forever", Query, OutOfMemory),

@@ -42,8 +42,8 @@ fn number(entry: &Value) -> i64 {
 }
 
 impl List {
-    /// For a process of this id.
-    pub fn read(own_pid: i32) -> Self {
+    /// For a process of this id, in the single- or in the multi-threaded track.
+    pub fn read(own_pid: i32, threads: bool) -> Self {
         let list: Value = serde_json::from_str(seccomp::LIST).unwrap();
         let condition = |(text, value): (&String, &Value)| {
             let value = value.as_u64().unwrap_or(own_pid as u64);
@@ -63,7 +63,12 @@ impl List {
             let when = entry["when"].as_array().into_iter().flatten();
             when.map(|all| all.as_object().unwrap().iter().map(condition).collect()).collect()
         };
-        let entries = |name: &str| list[name].as_array().unwrap().clone();
+        let holds = |entry: &&Value| match entry["track"].as_str() {
+            None => true,
+            Some("threads") => threads,
+            Some(other) => panic!("{other}"),
+        };
+        let entries = |name: &str| list[name].as_array().unwrap().iter().filter(holds).cloned().collect::<Vec<_>>();
         let errno = |name: &str| match name {
             "0" => 0,
             "EPERM" => libc::EPERM,
@@ -84,9 +89,10 @@ impl List {
             return Verdict::Quiet(*errno);
         }
         let holds = |c: &Condition| (c.low..=c.high).contains(&(arguments[c.argument] & c.mask));
-        let allowed = self.allow.iter().find(|(allowed, _)| *allowed == nr).is_some_and(|(_, alternatives)| {
-            alternatives.is_empty() || alternatives.iter().any(|all| all.iter().all(holds))
-        });
+        let allowed =
+            self.allow.iter().filter(|(allowed, _)| *allowed == nr).any(|(_, alternatives)| {
+                alternatives.is_empty() || alternatives.iter().any(|all| all.iter().all(holds))
+            });
         if allowed { Verdict::Allow } else { Verdict::Ask }
     }
 }

@@ -1,50 +1,22 @@
-//! Compiles a fixture and runs it.
-#![allow(dead_code, reason = "each test file uses its part")]
+//! Compiles fixtures (`build.rs`), runs them, and judges what they answer.
+#![allow(dead_code, unused_imports, reason = "each test file uses its part")]
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
-use std::sync::Mutex;
+use std::sync::Arc;
 
 use nalgebra::{Matrix3, Point3, Vector3};
-use ocb_core::configuration::Configuration;
+use ocb_core::configuration::{Configuration, Placed};
 use ocb_core::mesh::Mesh;
+use ocb_core::oracle::{Pair, Shape};
 use ocb_core::pose::Pose;
-use ocb_core::query::{Query, Semantics};
+use ocb_core::query::{Answer, Query, Semantics};
+use ocb_core::record::Verdict;
+use ocb_core::validation::{Precision, Terms, judge};
 use ocb_sandbox::{Ending, Launcher, Outcome, Policy, Profile, Session, Trial};
 
-/// A fixture with these faults, compiled once per test program into a folder beside it.
-pub fn fixture(defines: &[&str]) -> PathBuf {
-    static COMPILED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-    let mut compiled = COMPILED.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    let name = defines.join("+").to_lowercase().replace(['=', '"', ' '], "-");
-    let folder = std::env::current_exe().unwrap().with_extension("fixtures");
-    std::fs::create_dir_all(&folder).unwrap();
-    let file = folder.join(format!("fixture{name}.so"));
-    if !compiled.contains(&file) {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let include = root.join("../plugin-api/include");
-        let source = root.join("tests/fixtures/fixture.c");
-        let defines: Vec<String> = defines.iter().map(|d| format!("-D{d}")).collect();
-        let mut words = vec!["-std=gnu11", "-O1", "-fPIC", "-shared", "-fvisibility=hidden", "-w"];
-        words.extend(["-I", include.to_str().unwrap()]);
-        words.extend(defines.iter().map(String::as_str));
-        words.extend([source.to_str().unwrap(), "-lm", "-o", file.to_str().unwrap()]);
-        let throws = root.join("tests/fixtures/attacks/exceptions.cpp");
-        if defines.iter().any(|d| ["-DATTACK=throw_out", "-DATTACK=catch_inside"].contains(&d.as_str())) {
-            words.extend(["-std=gnu++17", throws.to_str().unwrap(), "-lstdc++"]);
-        }
-        cc(&words);
-        compiled.push(file.clone());
-    }
-    file
-}
+mod build;
 
-/// Runs the C compiler.
-#[expect(clippy::disallowed_methods, reason = "the tests compile their fixtures")]
-pub fn cc(words: &[&str]) {
-    let done = Command::new("cc").args(words).output().expect("a C compiler named cc");
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-}
+pub use build::{cc, fixture, honest};
 
 /// Short limits, so that a test ends.
 pub fn policy() -> Policy {
@@ -86,6 +58,12 @@ pub fn apart(x: f64) -> Configuration {
     Configuration { pose_a: Pose::identity(), pose_b }
 }
 
+/// The same with B turned upright, so that its triangles cross those of A where the two meet at all.
+pub fn upright(x: f64) -> Configuration {
+    let linear = Matrix3::new(1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0);
+    Configuration { pose_b: Pose { linear, translation: Vector3::new(x, 0.25, -0.25) }, ..apart(x) }
+}
+
 pub fn start(launcher: &Launcher, plugin: &Path) -> Result<Session, Ending> {
     let mesh = mesh();
     launcher.start(&Trial {
@@ -107,6 +85,16 @@ pub fn one_question(defines: &[&str], query: Query) -> Ending {
         }
         Err(ending) => ending,
     }
+}
+
+/// What an answer is worth, by the oracle.
+pub fn judged(query: Query, configuration: &Configuration, answer: &Answer) -> Verdict {
+    let shape = Shape::new(Arc::new(mesh()));
+    let pair = Pair::new(&shape, &shape);
+    let truth = pair.truth(configuration);
+    let placed = Placed { configuration: *configuration, truth, root_index: 0, wanted: None };
+    let terms = Terms { query, semantics: Semantics::Surface, precision: Precision::Double };
+    judge(&pair, &placed, terms, answer).verdict
 }
 
 /// The outcome of one collision query.

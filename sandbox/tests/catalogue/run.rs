@@ -1,0 +1,77 @@
+//! Runs an attack in its form.
+
+use ocb_core::query::{Answer, Query};
+use ocb_core::record::Verdict;
+use ocb_sandbox::{Ending, Launcher, Phase, Policy};
+
+use crate::common::{alive, apart, fixture, judged, launcher_with, policy, start};
+use crate::{Attack, Form};
+
+/// What came of it.
+pub struct Ran {
+    /// The last word on the session.
+    pub ending: Ending,
+    /// Of the collision queries that were answered.
+    pub shortest_ns: f64,
+    /// Of the distances.
+    pub verdicts: Vec<Verdict>,
+}
+
+/// The difference to what was expected.
+pub fn check(attack: &Attack, constructor: bool) -> Result<(), String> {
+    for _ in 0..if attack.form == Form::Twice { 2 } else { 1 } {
+        let ran = run(attack, constructor);
+        let phase = if constructor { Phase::Load } else { Phase::Query };
+        if !attack.expected.met_by(&ran, phase) {
+            let form = if constructor { " (constructor)" } else { "" };
+            let (ending, expected) = (&ran.ending, attack.expected.text());
+            let (what, more) = (attack.defines.join(" "), (ran.shortest_ns, &ran.verdicts));
+            return Err(format!("{}{form} {what}: {ending} {more:?}, not {expected}", attack.id));
+        }
+    }
+    Ok(())
+}
+
+fn run(attack: &Attack, constructor: bool) -> Ran {
+    let form = attack.form;
+    let mut defines = attack.defines.to_vec();
+    defines.extend((constructor && form != Form::Loading).then_some("IN_CONSTRUCTOR"));
+    defines.extend(matches!(form, Form::Contacts | Form::ThreadsContacts).then_some("IN_CONTACTS"));
+    let threads = if matches!(form, Form::Threads | Form::ThreadsContacts) { 2 } else { 1 };
+    ask(&launcher_with(Policy { threads, ..policy() }), attack, &defines)
+}
+
+/// Asks what the form wants, and two collision queries, so that a harmless attack has to go on being honest.
+fn ask(launcher: &Launcher, attack: &Attack, defines: &[&str]) -> Ran {
+    let mut ran =
+        Ran { ending: Ending::from(ocb_sandbox::Outcome::Completed), shortest_ns: f64::MAX, verdicts: vec![] };
+    let mut session = match start(launcher, &fixture(defines)) {
+        Ok(session) => session,
+        Err(ending) => return Ran { ending, ..ran },
+    };
+    let pid = session.pid();
+    let mut contacts = None;
+    match attack.form {
+        Form::Contacts | Form::ThreadsContacts => contacts = session.query(Query::CollisionAll, &apart(0.5)).ok(),
+        Form::Distances => {
+            for x in [2.0, 3.5] {
+                let Ok(sample) = session.query(Query::Proximity, &apart(x)) else { break };
+                ran.verdicts.push(judged(Query::Proximity, &apart(x), &sample.answer));
+            }
+        }
+        _ => {}
+    }
+    for (distance, met) in [(0.5, true), (2.0, false)] {
+        let Ok(sample) = session.query(Query::CollisionFirst, &apart(distance)) else { break };
+        assert!(matches!(sample.answer, Answer::Collision { hit, .. } if hit == met), "{defines:?}: {sample:?}");
+        ran.shortest_ns = ran.shortest_ns.min(sample.raw_ns);
+    }
+    ran.ending = session.finish();
+    // Not before the rest has been asked: whoever could reach this answer has had the time.
+    if let (Some(sample), Form::ThreadsContacts) = (contacts, attack.form) {
+        let honest = Answer::Contacts { total: 3, pairs: vec![[0, 10], [1, 11], [2, 12]] };
+        assert_eq!(sample.answer, honest, "{defines:?}");
+    }
+    assert!(!alive(pid), "{defines:?} left its process behind");
+    ran
+}
