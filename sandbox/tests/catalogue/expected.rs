@@ -33,6 +33,8 @@ pub enum Expected {
     Judged(&'static [Verdict]),
     /// The same as harmless, and its work takes the time that it takes.
     WorkSeen,
+    /// The same as harmless, and no time is below the clock's resolution.
+    Bounded,
 }
 
 /// Work of the fixtures (`WORK`) takes no less on any machine.
@@ -59,6 +61,7 @@ impl Expected {
                 format!("judged {}", names.join(", "))
             }
             Expected::WorkSeen => "harmless: the clock sees its work".into(),
+            Expected::Bounded => "harmless: its time is the clock's resolution, never 0".into(),
         }
     }
 
@@ -82,6 +85,7 @@ impl Expected {
             (Expected::Harmless, Outcome::Completed) => true,
             (Expected::Judged(verdicts), Outcome::Completed) => ran.verdicts == verdicts,
             (Expected::WorkSeen, Outcome::Completed) => ran.shortest_ns > LEAST_WORK_NS,
+            (Expected::Bounded, Outcome::Completed) => ran.bounded,
             _ => false,
         }
     }

@@ -1,7 +1,7 @@
 //! The memory of the process: code, clock, input, answer.
 
 use crate::Attack;
-use crate::Expected::{Denied, Harmless, Left, Says, Signal, TimedOut, Violation, WorkSeen};
+use crate::Expected::{Bounded, Denied, Harmless, Left, Says, Signal, TimedOut, Violation, WorkSeen};
 use crate::Form::{Contacts, Query, QueryAndConstructor};
 
 /// A word of the reference answers, as the test puts it into the host's memory.
@@ -15,7 +15,9 @@ pub const ALL: &[Attack] = &[
     attack!("M2", "make libc's code writable", "code_to_data", Query, Says("EPERM")),
     attack!("M2", "put a page over the vDSO", "overlay_clock", Query, Says("EPERM")),
     attack!("M3", "put a page over the clock's data", "overlay_clock_data", Query, Says("EPERM")),
-    attack!("M4", "put a clock of its own into every pointer", "patch_clocks"["WORK=3000000"], Query, WorkSeen),
+    attack!("M4, T1", "put a clock of its own into every pointer", "patch_clocks"["WORK=3000000"], Query, WorkSeen),
+    attack!("T4", "look for the next question while it answers this one", "look_ahead", Query, Harmless),
+    attack!("T16", "answer at once", "nothing_more", Query, Bounded),
     attack!("I1", "store into the input", "store_into_input", Query, Signal(libc::SIGSEGV)),
     attack!("I1", "make the input writable", "unprotect_input", Query, Says("EACCES")),
     attack!("I2", "put a page over its own view of the input", "overlay_input", Query, Says("own view replaced")),

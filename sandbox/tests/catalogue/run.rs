@@ -13,6 +13,8 @@ pub struct Ran {
     pub ending: Ending,
     /// Of the collision queries that were answered.
     pub shortest_ns: f64,
+    /// No time of theirs is below the clock's resolution.
+    pub bounded: bool,
     /// Of the distances.
     pub verdicts: Vec<Verdict>,
 }
@@ -43,8 +45,12 @@ fn run(attack: &Attack, constructor: bool) -> Ran {
 
 /// Asks what the form wants, and two collision queries, so that a harmless attack has to go on being honest.
 fn ask(launcher: &Launcher, attack: &Attack, defines: &[&str]) -> Ran {
-    let mut ran =
-        Ran { ending: Ending::from(ocb_sandbox::Outcome::Completed), shortest_ns: f64::MAX, verdicts: vec![] };
+    let mut ran = Ran {
+        ending: Ending::from(ocb_sandbox::Outcome::Completed),
+        shortest_ns: f64::MAX,
+        bounded: true,
+        verdicts: vec![],
+    };
     let mut session = match start(launcher, &fixture(defines)) {
         Ok(session) => session,
         Err(ending) => return Ran { ending, ..ran },
@@ -65,6 +71,7 @@ fn ask(launcher: &Launcher, attack: &Attack, defines: &[&str]) -> Ran {
         let Ok(sample) = session.query(Query::CollisionFirst, &apart(distance)) else { break };
         assert!(matches!(sample.answer, Answer::Collision { hit, .. } if hit == met), "{defines:?}: {sample:?}");
         ran.shortest_ns = ran.shortest_ns.min(sample.raw_ns);
+        ran.bounded &= sample.time_ns >= session.clock().resolution_ns();
     }
     ran.ending = session.finish();
     // Not before the rest has been asked: whoever could reach this answer has had the time.
