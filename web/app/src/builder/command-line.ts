@@ -18,14 +18,15 @@ export function commandLine(spec: RunSpec, file: (id: string) => string): string
 function placement({ method, relative_distance: distance = 0, step, ladder }: RunSpec): string {
   if (method.kind === 'file') return '--configurations configurations.parquet'
   if (method.kind === 'trajectory') return `--method trajectory --center-distance ${method.center_distance} --count ${method.count ?? PUBLISHED_FRAMES}`
-  if (method.kind === 'random') return `--method random --count ${method.count} --hit-share ${method.hit_share}`
+  const seed = method.seed ? ` --seed ${method.seed}` : ''
+  if (method.kind === 'random') return `--method random --count ${method.count} --hit-share ${method.hit_share}${seed}`
   const { sampling } = method
   const how =
     sampling.kind === 'count'
       ? `--count ${sampling.count}`
       : `--rotate ${sampling.rotate} --move ${sampling.move}${sampling.kind === 'paper_compat' ? ' --paper-compat' : ''}`
   const apart = step == null ? `--distance ${distance}` : `--step=${step}`
-  return `--method ${method.kind} ${how} ${ladder ? '--ladder' : apart}`
+  return `--method ${method.kind} ${how}${seed} ${ladder ? '--ladder' : apart}`
 }
 
 /** A word that a POSIX shell takes as it is. */

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import type { AlgorithmInfo, Query } from '../api/types'
+import type { AlgorithmInfo, Method, Query } from '../api/types'
 import { commandLine } from './command-line'
 import { type BuilderForm, chosenAlgorithms, fromSpec, initialForm, toSpec, whyUnfit } from './form'
 import { find, objectKey, sliderToTriangles, trianglesToSlider, withTriangles } from './objects'
@@ -36,7 +36,9 @@ describe('toSpec', () => {
     const ladder = { ...form(), method: 'grid' as const, separation: 'ladder' as const }
     const trajectory = { ...form(), method: 'trajectory' as const, count: 700, centerDistance: 0.8 }
     const random = { ...form(), method: 'random' as const, count: 900, hitShare: 0.25 }
-    for (const wish of [asked, grid, ladder, trajectory, random]) {
+    const seeded = [asked, grid, ladder, random].map((wish) => ({ ...wish, seed: 17 }))
+    const given = { ...form(), method: 'file' as const, poses: '5eed'.repeat(16) }
+    for (const wish of [asked, grid, ladder, trajectory, random, ...seeded, given]) {
       const made = toSpec(wish, ALL)
       expect('spec' in made && fromSpec(made.spec, ALL)).toEqual(wish)
     }
@@ -68,6 +70,24 @@ describe('the methods', () => {
     expect(made({ ...counted, ...left, method: 'random', hitShare: 0.3 })).toEqual({
       asked: { method: { kind: 'random', count: 500, hit_share: 0.3, seed: 0 } }, line: '--method random --count 500 --hit-share 0.3',
     })
+  })
+
+  it('keep their seed and their poses when a run is asked again', () => {
+    const poses = '5eed'.repeat(16)
+    const again = (method: Method) => made(fromSpec({ object_a: 'stock:bunny', query: 'proximity', method }, ALL))
+    expect(again({ kind: 'sphere', sampling: { kind: 'count', count: 500 }, seed: 17 })).toEqual({
+      asked: { method: { kind: 'sphere', sampling, seed: 17 }, relative_distance: 0 }, line: '--method sphere --count 500 --seed 17 --distance 0',
+    })
+    expect(again({ kind: 'random', count: 500, hit_share: 0.3, seed: 18 })).toEqual({
+      asked: { method: { kind: 'random', count: 500, hit_share: 0.3, seed: 18 } }, line: '--method random --count 500 --hit-share 0.3 --seed 18',
+    })
+    expect(again({ kind: 'file', sha256: poses })).toEqual({ asked: { method: { kind: 'file', sha256: poses } }, line: '--configurations configurations.parquet' })
+    expect(made({ method: 'file' })).toHaveProperty('missing')
+    // What a browser cannot hold would be sent as another number.
+    expect(again({ kind: 'random', count: 500, hit_share: 0.3, seed: 2 ** 53 })).toHaveProperty('missing')
+    expect(made({ seed: '' })).toHaveProperty('missing')
+    expect(made({ method: 'trajectory', seed: '' })).toHaveProperty('asked')
+    expect(made({ paper: true, seed: '' })).toHaveProperty('asked')
   })
 
   it('name the field that is empty, and none that the method does not have', () => {

@@ -9,13 +9,17 @@ export interface BuilderForm {
   contacts: 'first' | 'all'
   /** Objects are solid bodies: what lies inside collides, too. */
   solid: boolean
-  method: Exclude<Method['kind'], 'file'>
+  method: Method['kind']
   /** Of the sphere and the grid method. */
   thoroughness: 'steps' | 'count'
   rotate: number | ''
   move: number | ''
   paper: boolean
   count: number | ''
+  /** Of all methods that draw something. */
+  seed: number | ''
+  /** SHA-256 of the file whose poses a run is asked again with; empty when there is none. */
+  poses: string
   /** Of a trajectory: between the centres, in L. */
   centerDistance: number | ''
   /** Of random placement: share of poses that collide. */
@@ -36,7 +40,7 @@ export const PUBLISHED_FRAMES = 5000
 export function initialForm(): BuilderForm {
   return {
     objectA: '', objectB: '', question: 'cd', contacts: 'first', solid: false, method: 'sphere', thoroughness: 'steps', rotate: 20, move: 20,
-    paper: false, count: 2000, centerDistance: 1, hitShare: 0.5, separation: 'relative', distance: 0, step: 0.01, passes: 3, budget: 60, off: [],
+    paper: false, count: 2000, seed: 0, poses: '', centerDistance: 1, hitShare: 0.5, separation: 'relative', distance: 0, step: 0.01, passes: 3, budget: 60, off: [],
   }
 }
 
@@ -62,6 +66,12 @@ export function asksSeparation(method: Method['kind']): boolean {
   return method === 'sphere' || method === 'grid'
 }
 
+/** Does it draw anything? */
+export function hasSeed({ method, thoroughness, paper }: BuilderForm): boolean {
+  // The paper's own pattern is the same whatever the seed.
+  return method === 'random' || (asksSeparation(method) && !(thoroughness === 'steps' && paper))
+}
+
 /** What is still to be filled in, one sentence. */
 type Missing = { missing: string }
 
@@ -82,18 +92,28 @@ function toSampling(form: BuilderForm): Sampling | Missing {
   return { kind: form.paper ? 'paper_compat' : 'steps', rotate, move }
 }
 
+function toSeed(form: BuilderForm): number | Missing {
+  const { seed } = form
+  // A larger one would be another number by the time it is sent.
+  if (seed !== '' && Number.isSafeInteger(seed) && seed >= 0) return seed
+  return hasSeed(form) ? { missing: 'The seed must be a whole number, at least 0 and at most 9,007,199,254,740,991.' } : 0
+}
+
 function toMethod(form: BuilderForm): Method | Missing {
-  const { method: kind, centerDistance, hitShare } = form
+  const { method: kind, centerDistance, hitShare, poses } = form
+  if (kind === 'file') return poses === '' ? { missing: 'No poses are given; choose another method.' } : { kind, sha256: poses }
+  const seed = toSeed(form)
+  if (typeof seed !== 'number') return seed
   if (kind === 'sphere' || kind === 'grid') {
     const sampling = toSampling(form)
-    return 'missing' in sampling ? sampling : { kind, sampling, seed: 0 }
+    return 'missing' in sampling ? sampling : { kind, sampling, seed }
   }
   const count = toCount(form)
   if (typeof count !== 'number') return count
   if (kind === 'trajectory') {
     return centerDistance === '' ? { missing: 'Give the distance of the centres; 1 is the usual one.' } : { kind, center_distance: centerDistance, count }
   }
-  return hitShare === '' ? { missing: 'Give the share of colliding poses, for example 0.5.' } : { kind, count, hit_share: hitShare, seed: 0 }
+  return hitShare === '' ? { missing: 'Give the share of colliding poses, for example 0.5.' } : { kind, count, hit_share: hitShare, seed }
 }
 
 function toSeparation({ method, separation, distance, step }: BuilderForm): Pick<RunSpec, 'relative_distance' | 'step' | 'ladder'> | Missing {
@@ -139,13 +159,15 @@ export function fromSpec(spec: RunSpec, algorithms: readonly AlgorithmInfo[]): B
   form.contacts = spec.query === 'collision_all' ? 'all' : 'first'
   form.solid = spec.semantics === 'solid'
   const { method } = spec
-  if (method.kind !== 'file') form.method = method.kind
+  form.method = method.kind
   if (method.kind === 'sphere' || method.kind === 'grid') {
     const { sampling } = method
     if (sampling.kind === 'count') Object.assign(form, { thoroughness: 'count', count: sampling.count })
     else Object.assign(form, { rotate: sampling.rotate, move: sampling.move, paper: sampling.kind === 'paper_compat' })
   } else if (method.kind === 'trajectory') Object.assign(form, { centerDistance: method.center_distance, count: method.count ?? PUBLISHED_FRAMES })
   else if (method.kind === 'random') Object.assign(form, { count: method.count, hitShare: method.hit_share })
+  else form.poses = method.sha256
+  if ('seed' in method) form.seed = method.seed ?? 0
   if (spec.ladder) form.separation = 'ladder'
   else if (spec.step != null) Object.assign(form, { separation: 'step', step: spec.step })
   form.distance = spec.relative_distance ?? 0
