@@ -12,4 +12,5 @@ mod margins;
 mod meshes;
 mod pairs;
 mod relations;
+mod rounding;
 mod stability;
