@@ -125,9 +125,9 @@ fn shown(text: &str) -> String {
 #[serde(untagged)]
 enum Row {
     /// Four rows of four numbers.
-    Rows(Vec<Vec<String>>),
+    Rows(Vec<Vec<f64>>),
     /// 16 or 12 numbers.
-    Numbers(Vec<String>),
+    Numbers(Vec<f64>),
     /// Both objects are placed.
     Poses { pose_a: Matrix, pose_b: Matrix },
     /// Only B is.
@@ -137,53 +137,27 @@ enum Row {
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Matrix {
-    Rows(Vec<Vec<String>>),
-    Numbers(Vec<String>),
+    Rows(Vec<Vec<f64>>),
+    Numbers(Vec<f64>),
 }
 
 impl Matrix {
     fn pose(self) -> std::result::Result<Pose, String> {
-        let numbers = match self {
-            Self::Numbers(numbers) => numbers,
+        match self {
+            Self::Numbers(numbers) => pose(&numbers),
             Self::Rows(rows) if rows.iter().any(|row| row.len() != 4) => {
-                return Err("every row of a matrix has 4 numbers".into());
+                Err("every row of a matrix has 4 numbers".into())
             }
-            Self::Rows(rows) => rows.concat(),
-        };
-        let number = |text: &String| text.parse::<f64>().map_err(|_| format!("{} is no number", shown(text)));
-        pose(&numbers.iter().map(number).collect::<std::result::Result<Vec<f64>, String>>()?)
-    }
-}
-
-/// Puts quotes around every number: the reader of JSON rounds some of them to a neighbour of the nearest f64, and a pose
-/// is to be what its file says, bit for bit.
-fn quote_numbers(text: &str) -> String {
-    let mut quoted = String::with_capacity(text.len() + text.len() / 4);
-    let (mut in_string, mut in_number, mut escaped) = (false, false, false);
-    for c in text.chars() {
-        if in_number && (matches!(c, ',' | ']' | '}' | ':') || c.is_whitespace()) {
-            in_number = false;
-            quoted.push('"');
+            Self::Rows(rows) => pose(&rows.concat()),
         }
-        if in_string {
-            in_string = escaped || c != '"';
-            escaped = !escaped && c == '\\';
-        } else if c == '"' {
-            in_string = true;
-        } else if !in_number && (c == '-' || c.is_ascii_digit()) {
-            in_number = true;
-            quoted.push('"');
-        }
-        quoted.push(c);
     }
-    quoted
 }
 
 /// An array of matrices (4 rows of 4, or 16 or 12 numbers), or of objects `{"pose_a": ..., "pose_b": ...}` with such
 /// matrices, of which `pose_a` may be missing.
 fn read_json(text: &str) -> std::result::Result<Vec<Configuration>, String> {
     let rows: Vec<serde_json::Value> =
-        serde_json::from_str(&quote_numbers(text)).map_err(|e| format!("it is no array in JSON: {e}"))?;
+        serde_json::from_str(text).map_err(|e| format!("it is no array in JSON: {e}"))?;
     let configuration = |(number, row): (usize, serde_json::Value)| {
         let read = serde_json::from_value(row)
             .map_err(|_| "it is neither a matrix nor an object with pose_a and pose_b".to_owned())
@@ -276,7 +250,7 @@ mod tests {
         assert!(text("a,b\nc,d".to_owned()).contains("line 2: \"c\" is no number"));
         assert!(text(format!("{good}\n{}", line(&with(0, f64::INFINITY), ","))).contains("line 2: matrix entry 0"));
         assert!(text("[1, 2]".to_owned()).contains("row 1: it is neither a matrix"));
-        assert!(text("[[1,2,3-4,5,6,7,8,9,10,11,12,13]]".to_owned()).contains("row 1: \"3-4\" is no number"));
+        assert!(text("[[1,2,3-4,5,6,7,8,9,10,11,12,13]]".to_owned()).contains("no array in JSON: expected"));
         assert!(text("[[1,2,3],".to_owned()).contains("no array in JSON"));
         assert!(text("[[[1,2],[3,4]]]".to_owned()).contains("row 1: every row of a matrix has 4 numbers"));
     }

@@ -370,3 +370,15 @@ mod contract {
         assert_eq!(before + store.queued().await.unwrap().len(), 20);
     }
 }
+
+#[test]
+fn numbers_come_back_from_json_to_the_last_bit() {
+    let mut state = 0u64;
+    for _ in 0..100_000 {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        // Of the sizes that lengths, shares and times have.
+        let number = f64::from_bits((1003 + state % 40) << 52 | state >> 12);
+        let again: f64 = from_json(&to_json(&number).unwrap()).unwrap();
+        assert_eq!(again.to_bits(), number.to_bits(), "{number:e} became {again:e}");
+    }
+}
