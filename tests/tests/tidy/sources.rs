@@ -51,6 +51,21 @@ fn the_core_does_no_io_and_knows_no_clock() {
 }
 
 #[test]
+fn what_is_named_by_its_hash_does_not_depend_on_the_systems_sines() {
+    let functions = ["sin", "cos", "tan", "sin_cos", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh"]
+        .into_iter()
+        .chain(["exp", "exp2", "exp_m1", "ln", "ln_1p", "log", "log2", "log10", "powf", "cbrt", "hypot"]);
+    let calls: Vec<String> = functions.flat_map(|f| [format!(".{f}("), format!("f64::{f}")]).collect();
+    let calls: Vec<&str> = calls.iter().map(String::as_str).collect();
+    for folder in ["stock", "sampling", "oracle", "bvh"] {
+        let mut files = rust_below(&format!("host/core/src/{folder}"));
+        files.retain(|(p, _)| !p.ends_with("tests.rs"));
+        let found = hits(&files, &calls);
+        assert!(found.is_empty(), "take these from libm, the same on every machine:\n{}", found.join("\n"));
+    }
+}
+
+#[test]
 fn unsafe_stands_in_few_files() {
     // The ABI on both of its sides, the jail, and the place that pins threads to CPUs; a test's support may play the host.
     const ALLOWED: [&str; 4] =

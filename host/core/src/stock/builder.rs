@@ -42,8 +42,6 @@ impl Soup {
     }
 
     /// Centred, bounding-box diagonal 1, coordinates rounded to f32.
-    ///
-    /// That rounding also hides the last bits of sine and cosine, which differ between machines' libraries.
     pub fn into_mesh(self) -> Mesh {
         let rough =
             Mesh::new(self.positions, self.triangles).expect("the maker gives finite points and real triangles");
@@ -95,7 +93,7 @@ pub fn fit(triangles: u32, make: impl Fn(Detail) -> Soup) -> Soup {
     let mut best = (f64::INFINITY, 0.0, Soup::default());
     let try_density = |density: f64, best: &mut (f64, f64, Soup)| {
         let soup = make(Detail { density, triangles, phase: 0.0 });
-        let miss = (soup.triangles.len() as f64 / wish).ln();
+        let miss = libm::log(soup.triangles.len() as f64 / wish);
         if miss.abs() < best.0 {
             *best = (miss.abs(), density, soup);
         }
@@ -116,7 +114,7 @@ pub fn fit(triangles: u32, make: impl Fn(Detail) -> Soup) -> Soup {
         density = if too_few > 0.0 && too_many.is_finite() {
             (too_few * too_many).sqrt()
         } else {
-            density * (-0.5 * miss).exp().clamp(0.25, 4.0)
+            density * libm::exp(-0.5 * miss).clamp(0.25, 4.0)
         };
     }
     let around = best.1;
@@ -124,7 +122,7 @@ pub fn fit(triangles: u32, make: impl Fn(Detail) -> Soup) -> Soup {
         if best.0 < 10.0 * NEAR {
             break;
         }
-        try_density(around * 1.01f64.powi(k), &mut best);
+        try_density(around * libm::pow(1.01, f64::from(k)), &mut best);
     }
     best.2
 }

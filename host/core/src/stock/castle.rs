@@ -98,7 +98,7 @@ fn tower(soup: &mut Soup, detail: &mut Detail, at: Vector, radius: f64, height: 
     soup.add_at(lathe(part, &cornered(part, &roof), 6), |p| p + at);
     if fine {
         for i in 0..8 {
-            let (sin, cos) = (TAU * (f64::from(i) + 0.5) / 8.0).sin_cos();
+            let (sin, cos) = libm::sincos(TAU * (f64::from(i) + 0.5) / 8.0);
             let middle = at + Vector::new(1.17 * radius * cos, 1.17 * radius * sin, height + 0.03);
             let half = Vector::new(0.06 * radius, 0.22 * radius, 0.05);
             soup.add_at(cuboid(detail.part(), Point::origin(), half), |p| {

@@ -48,7 +48,7 @@ pub fn lustre(mut detail: Detail) -> Soup {
 }
 
 fn turn(p: Point, angle: f64) -> Point {
-    let (sin, cos) = (TAU * angle).sin_cos();
+    let (sin, cos) = libm::sincos(TAU * angle);
     Point::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y, p.z)
 }
 

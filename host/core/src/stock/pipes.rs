@@ -97,7 +97,7 @@ fn center_line(path: &[Cell], detail: Detail) -> Vec<Point> {
         let hub = here - BEND * arriving + BEND * leaving;
         let n = detail.steps(FRAC_PI_2 * BEND, 2);
         line.extend((1..=n).map(|k| {
-            let (sin, cos) = (FRAC_PI_2 * k as f64 / n as f64).sin_cos();
+            let (sin, cos) = libm::sincos(FRAC_PI_2 * k as f64 / n as f64);
             hub - BEND * cos * leaving + BEND * sin * arriving
         }));
     }

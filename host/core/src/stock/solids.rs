@@ -64,7 +64,7 @@ pub fn lathe(detail: Detail, profile: &[(f64, f64)], least: usize) -> Soup {
             let n = if r > 0.0 { detail.steps(TAU * r, least.max(3)) } else { 1 };
             let start = soup.positions.len() as u32;
             soup.positions.extend((0..n).map(|i| {
-                let (sin, cos) = (TAU * i as f64 / n as f64).sin_cos();
+                let (sin, cos) = libm::sincos(TAU * i as f64 / n as f64);
                 Point::new(r * cos, r * sin, z)
             }));
             (start, n)
@@ -100,7 +100,7 @@ pub fn cornered(detail: Detail, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut profile = vec![points[0]];
     for pair in points.windows(2) {
         let ((r0, z0), (r1, z1)) = (pair[0], pair[1]);
-        let n = detail.steps((r1 - r0).hypot(z1 - z0), 1);
+        let n = detail.steps(libm::hypot(r1 - r0, z1 - z0), 1);
         profile.extend((1..=n).map(|i| {
             let t = i as f64 / n as f64;
             if i == n { (r1, z1) } else { (r0 + t * (r1 - r0), z0 + t * (z1 - z0)) }
@@ -160,7 +160,7 @@ pub fn tube(centers: &[Point], radius: impl Fn(usize) -> f64, sides: usize) -> S
         across = (across - along * along.dot(&across)).normalize();
         let up = along.cross(&across);
         soup.positions.extend((0..sides).map(|j| {
-            let (sin, cos) = (TAU * j as f64 / sides as f64).sin_cos();
+            let (sin, cos) = libm::sincos(TAU * j as f64 / sides as f64);
             center + radius(i) * (cos * across + sin * up)
         }));
     }
@@ -190,8 +190,8 @@ pub fn bent_tube(detail: Detail, points: &[Point], thick: f64, radius: impl Fn(f
 /// A torus about the z axis.
 pub fn torus(detail: Detail, radius: f64, thick: f64) -> Soup {
     torus_grid(detail.steps(TAU * radius, 5), detail.steps(TAU * thick, 3), |u, v| {
-        let (sin_u, cos_u) = (TAU * u).sin_cos();
-        let (sin_v, cos_v) = (TAU * v).sin_cos();
+        let (sin_u, cos_u) = libm::sincos(TAU * u);
+        let (sin_v, cos_v) = libm::sincos(TAU * v);
         let r = radius + thick * cos_v;
         Point::new(r * cos_u, r * sin_u, thick * sin_v)
     })

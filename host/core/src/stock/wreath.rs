@@ -24,14 +24,14 @@ pub fn wreath(mut detail: Detail) -> Soup {
 
 /// Outwards, upwards and along the ring at an angle (turns).
 fn frame(angle: f64) -> [Vector; 3] {
-    let (sin, cos) = (TAU * angle).sin_cos();
+    let (sin, cos) = libm::sincos(TAU * angle);
     [Vector::new(cos, sin, 0.0), Vector::z(), Vector::new(-sin, cos, 0.0)]
 }
 
 /// A place around the ring's center line: `angle` and `roll` in turns, at a distance from the line.
 fn around(angle: f64, roll: f64, distance: f64) -> (Point, Vector) {
     let [out, up, _] = frame(angle);
-    let (sin, cos) = (TAU * roll).sin_cos();
+    let (sin, cos) = libm::sincos(TAU * roll);
     let away = cos * out + sin * up;
     (Point::from(out + distance * away), away)
 }
@@ -42,7 +42,7 @@ fn twig(soup: &mut Soup, detail: &mut Detail, phase: f64, offset: f64) {
     soup.add(torus_grid(part.steps(TAU, 12), part.steps(TAU * 0.05, 3), |u, v| {
         let along = (center(u + 1e-4) - center(u - 1e-4)).normalize();
         let across = along.cross(&Vector::z()).normalize();
-        let (sin, cos) = (TAU * v).sin_cos();
+        let (sin, cos) = libm::sincos(TAU * v);
         center(u) + 0.045 * (cos * across + sin * along.cross(&across))
     }));
 }
@@ -59,13 +59,13 @@ fn leaf(soup: &mut Soup, detail: &mut Detail, i: u32, of: u32) {
     let direction = (0.75 * along + 0.8 * away).normalize();
     let side = direction.cross(&away).normalize();
     let normal = side.cross(&direction);
-    let size = 0.3 + 0.08 * (5.0 * i).sin();
+    let size = 0.3 + 0.08 * libm::sin(5.0 * i);
     let wide = 0.3 * size;
     let n = [part.steps(size, 2), part.steps(2.0 * wide, 1), 1];
     soup.add(block(n, |u| {
         let t = 0.5 + 0.5 * u.x;
         // Widest before the middle, pointed but never without width; curled back towards the tip.
-        let width = wide * (0.06 + 1.7 * t.sqrt() * (1.0 - t).powf(0.8));
+        let width = wide * (0.06 + 1.7 * t.sqrt() * libm::pow(1.0 - t, 0.8));
         let thick = 0.014 * (1.05 - u.y * u.y) * (1.05 - 0.8 * t);
         let curl = 0.25 * size * t * t - 0.3 * wide * u.y * u.y * width / wide;
         root + direction * (size * t) + side * (width * u.y) - normal * curl + normal * (thick * u.z)
