@@ -1,5 +1,6 @@
 //! Grid, steps, random placement and trajectory: certified, without duplicates, and what each is for.
 
+use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -188,6 +189,22 @@ fn the_wanted_share_of_random_poses_collides() {
     for bad in [0.0, 1.0, -0.5, f64::NAN] {
         let method = Method::Random { count: 10, hit_share: bad, seed: 0 };
         assert!(matches!(count(&method), Err(SamplingError::HitShare(_))));
+    }
+}
+
+#[test]
+fn a_plan_that_is_stopped_looks_at_nothing_more() {
+    let shape = stock("torus-knot");
+    let sampling = Sampling::Count { count: 100 };
+    for method in [Method::Grid { sampling, seed: 1 }, Method::Random { count: 100, hit_share: 0.3, seed: 1 }] {
+        let separation = Separation::Relative { distance: 0.0 };
+        for most in [0, 1, 50, 600] {
+            let asked = Cell::new(0);
+            let stopped = || asked.replace(asked.get() + 1) == most;
+            let plan = Plan::unless_stopped(&shape, &shape, &method, separation, &stopped);
+            // It would ask more than these times if it were not told.
+            assert_eq!((plan.map(|_| ()), asked.get()), (Err(SamplingError::Stopped), most + 1));
+        }
     }
 }
 

@@ -7,8 +7,8 @@ mod file;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use ocb_core::configuration::{Class, Configuration, ConfigurationSet, Placed, Separation};
-use ocb_core::oracle::{Pair, Shape};
-use ocb_core::sampling::{Found, Plan};
+use ocb_core::oracle::{self, Pair, Shape};
+use ocb_core::sampling::{self, Found, Plan, SamplingError};
 use rayon::prelude::*;
 
 use crate::blobs::sha256_hex;
@@ -18,15 +18,24 @@ use crate::{EngineError, Result};
 use coverage::Coverage;
 pub use file::read_file;
 
-/// Changes whenever the same request would give another set or another truth; stored sets of older versions stay
-/// readable but are not reused.
-pub const GENERATOR: &str = "3";
+/// What a set depends on beside the request. Stored sets of other versions stay readable but are not used again.
+#[derive(Clone, Copy)]
+struct Versions {
+    sampling: u32,
+    oracle: u32,
+}
+
+const VERSIONS: Versions = Versions { sampling: sampling::VERSION, oracle: oracle::VERSION };
 
 /// What determines a set: the meshes, the method and the separation.
 pub fn set_key(mesh_a: &str, mesh_b: &str, spec: &RunSpec) -> Result<String> {
+    key(VERSIONS, mesh_a, mesh_b, spec)
+}
+
+fn key(Versions { sampling, oracle }: Versions, mesh_a: &str, mesh_b: &str, spec: &RunSpec) -> Result<String> {
     let determines = serde_json::to_string(&(&spec.method, spec.separation()))
         .map_err(|e| EngineError::fault("Naming the method failed", e))?;
-    Ok(sha256_hex(format!("{GENERATOR}|{mesh_a}|{mesh_b}|{determines}").as_bytes()))
+    Ok(sha256_hex(format!("{sampling}|{oracle}|{mesh_a}|{mesh_b}|{determines}").as_bytes()))
 }
 
 /// How far the work is, and whether it is still wanted. Shared between the workers and whoever reports.
@@ -68,8 +77,11 @@ pub fn make(
         Found { placed: units.into_iter().flat_map(|unit| unit.placed).collect(), missed: 0 }
     } else {
         let separation = set.separation.unwrap_or(Separation::Relative { distance: 0.0 });
-        let plan = Plan::new(a, b, &spec.method, separation)
-            .map_err(|e| EngineError::Invalid(format!("These configurations cannot be found: {e}.")))?;
+        let plan = match Plan::unless_stopped(a, b, &spec.method, separation, &|| gauge.stop.load(Ordering::Relaxed)) {
+            Ok(plan) => plan,
+            Err(SamplingError::Stopped) => return Ok(None),
+            Err(e) => return Err(EngineError::Invalid(format!("These configurations cannot be found: {e}."))),
+        };
         (set.box_side, set.spacing) = (plan.box_side(), plan.spacing());
         plan.gather(on_all_cpus(plan.units(), gauge, |unit| plan.place(unit)))
     };
@@ -141,9 +153,13 @@ mod tests {
             }))
             .unwrap()
         };
-        let key = |a: &str, distance, count| set_key(a, "b", &spec(distance, count)).unwrap();
-        assert_eq!(key("a", 0.0, 5), key("a", 0.0, 5));
-        let keys = HashSet::from([key("a", 0.0, 5), key("c", 0.0, 5), key("a", 0.1, 5), key("a", 0.0, 6)]);
+        let asked = |a: &str, distance, count| set_key(a, "b", &spec(distance, count)).unwrap();
+        assert_eq!(asked("a", 0.0, 5), asked("a", 0.0, 5));
+        let keys = HashSet::from([asked("a", 0.0, 5), asked("c", 0.0, 5), asked("a", 0.1, 5), asked("a", 0.0, 6)]);
         assert_eq!(keys.len(), 4);
+        let versioned = |sampling, oracle| key(Versions { sampling, oracle }, "a", "b", &spec(0.0, 5)).unwrap();
+        let keys =
+            HashSet::from([versioned(1, 1), versioned(2, 1), versioned(1, 2), versioned(11, 1), versioned(1, 11)]);
+        assert_eq!(keys.len(), 5);
     }
 }

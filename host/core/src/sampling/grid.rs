@@ -62,6 +62,7 @@ impl<'a> Plan<'a> {
         sampling: &Sampling,
         separation: Separation,
         seed: u64,
+        stopped: &dyn Fn() -> bool,
     ) -> Result<Self, SamplingError> {
         let placer = Placer::new(a, b, separation)?;
         let largest = a.largest() + b.largest();
@@ -103,7 +104,10 @@ impl<'a> Plan<'a> {
             return Err(SamplingError::TooFine(nodes));
         }
         if let Sampling::Count { count } = *sampling {
-            let found: usize = (0..PILOT).map(|rotation| plan.place(rotation).placed.len()).sum();
+            let mut found = 0;
+            for rotation in 0..PILOT {
+                found += plan.place_unless(rotation, stopped).ok_or(SamplingError::Stopped)?.placed.len();
+            }
             let all = (found as f64 / PILOT as f64).max(0.1);
             plan.stride = (all / EACH).round().max(1.0) as u64;
             plan.rotations = (f64::from(count) * plan.stride as f64 / all * SPARE).ceil() as u64;
@@ -122,6 +126,11 @@ impl<'a> Plan<'a> {
 
     /// All positions of one rotation, in the order of their nodes.
     pub(super) fn place(&self, number: u64) -> Found {
+        self.place_unless(number, &|| false).unwrap_or_default()
+    }
+
+    /// The same; `None` when it was stopped.
+    fn place_unless(&self, number: u64, stopped: &dyn Fn() -> bool) -> Option<Found> {
         let (offset, rotation) = match &self.pattern {
             Some(pattern) => (Vector3::repeat(0.5), pattern.sample(number).1),
             None => placement(number, self.seed),
@@ -131,6 +140,9 @@ impl<'a> Plan<'a> {
         let near = self.spacing / 4.0;
         let mut kept: Vec<(u64, Descent)> = Vec::new();
         for node in (0..nx * ny * nz).filter(|node| mix(number, *node).is_multiple_of(self.stride)) {
+            if stopped() {
+                return None;
+            }
             let cell = Vector3::new((node % nx) as f64, (node / nx % ny) as f64, (node / nx / ny) as f64);
             let translation = corner + (cell + offset) * self.spacing - turned_centre;
             let start = Configuration { pose_a: Pose::identity(), pose_b: Pose { linear: rotation, translation } };
@@ -149,13 +161,16 @@ impl<'a> Plan<'a> {
         }
         let mut found = Found::default();
         for (index, descent) in kept {
+            if stopped() {
+                return None;
+            }
             let from_centre = descent.placed.configuration.pose_b.translation + turned_centre - self.centre_a;
             match self.placer.arrive(index, &descent, &from_centre, 0.01 * self.spacing) {
                 Some(placed) => found.placed.push(placed),
                 None => found.missed += 1,
             }
         }
-        found
+        Some(found)
     }
 
     /// The corner of the region in which the centre of B's box may be near enough, and the nodes along its sides.

@@ -20,6 +20,9 @@ use crate::oracle::Shape;
 pub use number::count;
 pub use placer::check as check_separation;
 
+/// Changes whenever the same request gives other configurations.
+pub const VERSION: u32 = 3;
+
 /// No set has more configurations than this.
 pub const MAX_CONFIGURATIONS: u64 = 10_000_000;
 
@@ -65,6 +68,9 @@ pub enum SamplingError {
         /// What the last box gave.
         found: f64,
     },
+    /// Nobody wants the rest.
+    #[error("it was stopped")]
+    Stopped,
     /// A file of poses needs no search.
     #[error("the poses of a file are given, not found")]
     Given,
@@ -103,18 +109,31 @@ impl<'a> Plan<'a> {
     ///
     /// `separation` is what [`Method::Sphere`] and [`Method::Grid`] look for; the others do not need it.
     pub fn new(a: &'a Shape, b: &'a Shape, method: &Method, separation: Separation) -> Result<Self, SamplingError> {
+        Self::unless_stopped(a, b, method, separation, &|| false)
+    }
+
+    /// The same, but ends with [`SamplingError::Stopped`] soon after `stopped` says so; it is asked again and again.
+    pub fn unless_stopped(
+        a: &'a Shape,
+        b: &'a Shape,
+        method: &Method,
+        separation: Separation,
+        stopped: &dyn Fn() -> bool,
+    ) -> Result<Self, SamplingError> {
         let expected = count(method)?;
         Ok(match *method {
             Method::Sphere { sampling, seed } => {
                 Self::Sphere(sphere::Plan::new(a, b, &sampling, expected, separation, seed)?)
             }
             Method::Grid { sampling, seed } => {
-                Self::Grid(Box::new(grid::Plan::new(a, b, &sampling, separation, seed)?))
+                Self::Grid(Box::new(grid::Plan::new(a, b, &sampling, separation, seed, stopped)?))
             }
             Method::Trajectory { center_distance, count } => {
                 Self::Trajectory(trajectory::Plan::new(a, b, center_distance, count))
             }
-            Method::Random { count, hit_share, seed } => Self::Random(random::Plan::new(a, b, count, hit_share, seed)?),
+            Method::Random { count, hit_share, seed } => {
+                Self::Random(random::Plan::new(a, b, count, hit_share, seed, stopped)?)
+            }
             Method::File { .. } => return Err(SamplingError::Given),
         })
     }

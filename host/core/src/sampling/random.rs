@@ -28,7 +28,14 @@ pub struct Plan<'a> {
 impl<'a> Plan<'a> {
     /// The centre of B's bounding box is anywhere in a cube around the centre of A's; the cube's side is found by
     /// bisection on the first thousand poses, whose collisions are certain.
-    pub(super) fn new(a: &'a Shape, b: &'a Shape, count: u32, share: f64, seed: u64) -> Result<Self, SamplingError> {
+    pub(super) fn new(
+        a: &'a Shape,
+        b: &'a Shape,
+        count: u32,
+        share: f64,
+        seed: u64,
+        stopped: &dyn Fn() -> bool,
+    ) -> Result<Self, SamplingError> {
         let ((centre_a, radius_a), (centre_b, radius_b)) = (ball(a), ball(b));
         let mut plan = Self {
             pair: Pair::new(a, b),
@@ -43,7 +50,7 @@ impl<'a> Plan<'a> {
         let mut found = 0.0;
         for _ in 0..24 {
             plan.side = f64::midpoint(lower, upper);
-            found = plan.hits() as f64 / PILOT as f64;
+            found = plan.hits(stopped)? as f64 / PILOT as f64;
             if (found - share).abs() < 0.5 / PILOT as f64 {
                 break;
             }
@@ -59,8 +66,15 @@ impl<'a> Plan<'a> {
         Ok(plan)
     }
 
-    fn hits(&self) -> usize {
-        (0..PILOT).filter(|&i| self.pair.hit(&self.configuration(i))).count()
+    fn hits(&self, stopped: &dyn Fn() -> bool) -> Result<u64, SamplingError> {
+        let mut hits = 0;
+        for pose in 0..PILOT {
+            if stopped() {
+                return Err(SamplingError::Stopped);
+            }
+            hits += u64::from(self.pair.hit(&self.configuration(pose)));
+        }
+        Ok(hits)
     }
 
     pub(super) fn len(&self) -> u64 {

@@ -11,10 +11,11 @@ use nalgebra::Point3;
 use ocb_core::configuration::{
     Class, Configuration, ConfigurationSet, Containment, Placed, Separation, Truth, Witness,
 };
+use ocb_core::oracle;
 use ocb_core::pose::Pose;
+use ocb_core::sampling;
 
 use super::{SCHEMA_VERSION, batch, column, from_parquet, to_parquet};
-use crate::configurations::GENERATOR;
 use crate::{EngineError, Result};
 
 /// What the file says of itself.
@@ -40,7 +41,8 @@ pub fn set_parquet(of: &SetOf, set: &ConfigurationSet) -> Result<Vec<u8>> {
             ("opencollbench.missed_rays", set.missed_rays.to_string()),
             ("opencollbench.box_side", maybe(set.box_side)),
             ("opencollbench.spacing", maybe(set.spacing)),
-            ("opencollbench.generator", GENERATOR.to_owned()),
+            ("opencollbench.sampling", sampling::VERSION.to_string()),
+            ("opencollbench.oracle", oracle::VERSION.to_string()),
         ]
         .map(|(key, value)| (key.to_owned(), value)),
     );
