@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Mutex, PoisonError};
 
+use ocb_sandbox::protocol::{answer, request};
+
 const C: &[&str] = &["-std=gnu11", "-O1", "-fPIC", "-shared", "-fvisibility=hidden", "-w", "-I", INCLUDE];
 const CPP: &[&str] = &["-std=gnu++17", "-O1", "-fPIC", "-shared", "-fvisibility=hidden", "-I", INCLUDE];
 const RUST: &[&str] = &["--edition", "2024", "-O"];
@@ -25,7 +27,10 @@ pub fn fixture(defines: &[&str]) -> PathBuf {
         _ => Vec::new(),
     };
     once(&format!("fixture{name}.so"), |file| {
-        let defines: Vec<String> = defines.iter().map(|d| format!("-D{d}")).collect();
+        let mut defines: Vec<String> = defines.iter().map(|d| format!("-D{d}")).collect();
+        // Where things lie in the shared memory, as anybody could find out who reads these sources.
+        defines.push(format!("-DCONTACTS_AT={}", answer::CONTACTS));
+        defines.push(format!("-DPOSES_AT={}", request::POSES));
         let source = source("fixture.c");
         let mut words = C.to_vec();
         words.extend(defines.iter().map(String::as_str));
