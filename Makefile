@@ -49,7 +49,7 @@ check-oracle: ## the oracle against CGAL, integers and planted faults (some 20 m
 	cargo test $(CARGO_FLAGS) --test oracle -- --nocapture
 	tests/oracle-check/faults.py all
 
-bench: build ## the three algorithms on the torus knot; finding positions against peers (OBJECT=file.obj)
+bench: build ## the algorithms on the torus knot; finding positions against peers (OBJECT=file.obj)
 	$(TARGET)/release/ocb bench stock:torus-knot --query cd --count 2000 --data $(DATA)
 	cargo bench --package ocb-tests --bench positions -- $(abspath $(or $(OBJECT),target/stock/dragon.obj))
 

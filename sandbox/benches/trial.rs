@@ -15,8 +15,12 @@ fn main() {
     let rounds = arguments.first().and_then(|n| n.parse().ok()).unwrap_or(50usize);
     // Cargo builds the shipped plugins into the same folder as the runner.
     let runner = PathBuf::from(env!("CARGO_BIN_EXE_ocb-runner"));
-    let shipped =
-        [("libocb_brute_force.so", "brute-force"), ("libocb_box_tree.so", "box-tree"), ("libocb_parry.so", "parry")];
+    let shipped = [
+        ("libocb_brute_force.so", "brute-force"),
+        ("libocb_box_tree.so", "box-tree"),
+        ("libocb_fast.so", "ocb-fast"),
+        ("libocb_parry.so", "parry"),
+    ];
     let named: Vec<(PathBuf, String)> = match arguments.get(1..) {
         None | Some([]) => shipped.iter().map(|(f, a)| (runner.with_file_name(f), (*a).to_string())).collect(),
         Some(named) => named.iter().filter_map(|n| n.split_once(':')).map(|(f, a)| (f.into(), a.into())).collect(),

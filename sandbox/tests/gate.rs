@@ -62,7 +62,7 @@ fn honest_files_pass() {
     assert!(facts.newest_versions.iter().any(|v| v.starts_with("GLIBC_2.")), "{facts:?}");
     assert!(facts.constructors >= 1 && facts.relro && facts.compilers.iter().any(|c| c.contains("GCC")), "{facts:?}");
     assert!(facts.build_id.is_some_and(|id| id.len() == 40 && id.chars().all(|c| c.is_ascii_hexdigit())));
-    for name in ["libocb_brute_force.so", "libocb_box_tree.so", "libocb_parry.so"] {
+    for name in ["libocb_brute_force.so", "libocb_box_tree.so", "libocb_fast.so", "libocb_parry.so"] {
         let shipped = runner().with_file_name(name);
         // Not built when the sandbox is built alone.
         if shipped.exists() {

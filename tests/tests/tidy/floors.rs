@@ -51,9 +51,9 @@ fn closure(metadata: &Value, name: &str) -> BTreeSet<String> {
 }
 
 const PLUGIN_API: &str = "opencollbench-plugin";
-/// What brute force and box tree share: tests between two triangles. It knows nothing of ours either.
+/// What brute force, box tree and ocb-fast share: tests between two triangles. It knows nothing of ours either.
 const TRIANGLES: &str = "ocb-triangles";
-const PLUGINS: [&str; 3] = ["ocb-brute-force", "ocb-box-tree", "ocb-parry"];
+const PLUGINS: [&str; 4] = ["ocb-brute-force", "ocb-box-tree", "ocb-fast", "ocb-parry"];
 
 #[test]
 fn a_floor_knows_only_the_floors_below() {

@@ -1,7 +1,7 @@
 //! Meshes, poses and known sets for the tests of the plugins. Included by path, so each test uses a part of it.
 #![allow(dead_code, reason = "each test binary uses a part")]
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use opencollbench_plugin::{
     Algorithm, Collision, ContactList, Contacts, Count, Distance, Mesh, Placed, Pose, Separation, Uncounted, raw,
@@ -238,23 +238,31 @@ pub struct KnownSet {
     pub distances: Option<Vec<f64>>,
 }
 
-/// Reads `<mesh>.<set>` from the project's shared data.
-pub fn known_set(mesh: &str, set: &str) -> KnownSet {
+/// A file of the project's shared data.
+fn shared(folder: &str, name: &str) -> PathBuf {
     let root = std::env::var_os("OCB_SHARED")
         .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from);
-    let read = |path: PathBuf| {
-        std::fs::read(&path).unwrap_or_else(|error| {
-            panic!(
-                "this test needs {}: {error}. Put the project's shared data (folders `meshes` and `configurations`) in \
-                 the folder `shared` beside the repository, or say where it is by the environment variable OCB_SHARED",
-                path.display()
-            )
-        })
-    };
-    let numbers = |path: PathBuf| -> Vec<f64> {
-        read(path).as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect()
-    };
-    let text = read(root.join("meshes").join(format!("{mesh}.obj")));
+    root.join(folder).join(name)
+}
+
+/// What is in a file of the project's shared data.
+pub fn shared_file(folder: &str, name: &str) -> Vec<u8> {
+    read(&shared(folder, name))
+}
+
+fn read(path: &Path) -> Vec<u8> {
+    std::fs::read(path).unwrap_or_else(|error| {
+        panic!(
+            "this needs {}: {error}. Put the project's shared data (folders `meshes` and `configurations`) in the folder \
+             `shared` beside the repository, or say where it is by the environment variable OCB_SHARED",
+            path.display()
+        )
+    })
+}
+
+/// A mesh of the project's shared data.
+pub fn known_mesh(mesh: &str) -> Soup {
+    let text = read(&shared("meshes", &format!("{mesh}.obj")));
     let mut soup = Soup { positions: Vec::new(), triangles: Vec::new() };
     for line in String::from_utf8_lossy(&text).lines() {
         let mut words = line.split_whitespace();
@@ -277,9 +285,23 @@ pub fn known_set(mesh: &str, set: &str) -> KnownSet {
             _ => {}
         }
     }
-    let file = |end: &str| root.join("configurations").join(format!("{mesh}.{set}{end}"));
-    let poses: Vec<Pose> = numbers(file(".f64")).as_chunks::<16>().0.iter().map(|m| Pose(*m)).collect();
-    let distances = file(".distance.f64").exists().then(|| numbers(file(".distance.f64")));
+    soup
+}
+
+/// The poses of a set of the project's shared data, and their distances if they are known; none if there is no such set.
+pub fn known_poses(mesh: &str, set: &str) -> Option<(Vec<Pose>, Option<Vec<f64>>)> {
+    let file = |end: &str| shared("configurations", &format!("{mesh}.{set}{end}"));
+    let numbers = |path: PathBuf| -> Option<Vec<f64>> {
+        path.exists().then(|| read(&path).as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect())
+    };
+    let poses = numbers(file(".f64"))?.as_chunks::<16>().0.iter().map(|m| Pose(*m)).collect();
+    Some((poses, numbers(file(".distance.f64"))))
+}
+
+/// Reads `<mesh>.<set>` from the project's shared data.
+pub fn known_set(mesh: &str, set: &str) -> KnownSet {
+    let soup = known_mesh(mesh);
+    let (poses, distances) = known_poses(mesh, set).unwrap_or_else(|| panic!("{mesh}.{set} is not in the shared data"));
     assert_eq!(poses.len(), 1000, "{mesh}.{set} is not the set that this test knows");
     KnownSet { soup, poses, distances }
 }

@@ -1,0 +1,177 @@
+//! Two registers of 256 bits.
+
+use core::arch::x86_64::*;
+use core::ops::{Add, Mul, Sub};
+
+use super::{Bits, Lanes};
+
+/// Sixteen numbers in two registers. Values are made in [`super::Path::run`] alone, below a check for the instructions.
+#[derive(Clone, Copy)]
+pub struct Avx2(__m256, __m256);
+
+/// Calls instructions on values that exist only where these instructions do.
+macro_rules! instructions {
+    ($body:expr) => {
+        // SAFETY: `Path::run` makes values of this type only after it has found AVX2 and FMA; addresses are those of
+        // references to as many numbers as are read or written, and need no alignment.
+        unsafe { $body }
+    };
+}
+
+/// A function of two values for both registers.
+macro_rules! of_two {
+    ($one:expr, $other:expr, $instruction:ident) => {
+        instructions!(Self($instruction($one.0, $other.0), $instruction($one.1, $other.1)))
+    };
+}
+
+impl Add for Avx2 {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        of_two!(self, other, _mm256_add_ps)
+    }
+}
+
+impl Sub for Avx2 {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        of_two!(self, other, _mm256_sub_ps)
+    }
+}
+
+impl Mul for Avx2 {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        of_two!(self, other, _mm256_mul_ps)
+    }
+}
+
+impl Lanes for Avx2 {
+    type Mask = (__m256, __m256);
+
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        instructions!(Self(_mm256_set1_ps(x), _mm256_set1_ps(x)))
+    }
+
+    #[inline(always)]
+    fn load(from: &[f32; 16]) -> Self {
+        let (low, high) = from.split_at(8);
+        instructions!(Self(_mm256_loadu_ps(low.as_ptr()), _mm256_loadu_ps(high.as_ptr())))
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f32; 16]) {
+        let (low, high) = to.split_at_mut(8);
+        instructions!({
+            _mm256_storeu_ps(low.as_mut_ptr(), self.0);
+            _mm256_storeu_ps(high.as_mut_ptr(), self.1);
+        })
+    }
+
+    #[inline(always)]
+    fn spread(from: &[f32; 4]) -> Self {
+        instructions!({
+            let four = _mm256_castps128_ps256(_mm_loadu_ps(from.as_ptr()));
+            let low = _mm256_permutevar8x32_ps(four, _mm256_set_epi32(1, 1, 1, 1, 0, 0, 0, 0));
+            Self(low, _mm256_permutevar8x32_ps(four, _mm256_set_epi32(3, 3, 3, 3, 2, 2, 2, 2)))
+        })
+    }
+
+    #[inline(always)]
+    fn tile(from: &[f32; 4]) -> Self {
+        instructions!({
+            let four = _mm_loadu_ps(from.as_ptr());
+            let twice = _mm256_set_m128(four, four);
+            Self(twice, twice)
+        })
+    }
+
+    #[inline(always)]
+    fn mul_add(self, factor: Self, summand: Self) -> Self {
+        let low = instructions!(_mm256_fmadd_ps(self.0, factor.0, summand.0));
+        Self(low, instructions!(_mm256_fmadd_ps(self.1, factor.1, summand.1)))
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        let sign = Self::splat(-0.0);
+        of_two!(sign, self, _mm256_andnot_ps)
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        of_two!(self, other, _mm256_min_ps)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        of_two!(self, other, _mm256_max_ps)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        instructions!(Self(_mm256_sqrt_ps(self.0), _mm256_sqrt_ps(self.1)))
+    }
+
+    #[inline(always)]
+    fn reciprocal(self) -> Self {
+        instructions!(Self(_mm256_rcp_ps(self.0), _mm256_rcp_ps(self.1)))
+    }
+
+    #[inline(always)]
+    fn lanes(bits: Bits) -> Self::Mask {
+        instructions!({
+            let bits = _mm256_set1_epi32(bits as i32);
+            let low = _mm256_set_epi32(0x80, 0x40, 0x20, 0x10, 8, 4, 2, 1);
+            let high = _mm256_slli_epi32::<8>(low);
+            let set = |of| _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_and_si256(bits, of), of));
+            (set(low), set(high))
+        })
+    }
+
+    #[inline(always)]
+    fn unless_above(keep: Self::Mask, x: Self, bound: Self) -> Self::Mask {
+        let low = instructions!(_mm256_and_ps(keep.0, _mm256_cmp_ps::<_CMP_NGT_UQ>(x.0, bound.0)));
+        (low, instructions!(_mm256_and_ps(keep.1, _mm256_cmp_ps::<_CMP_NGT_UQ>(x.1, bound.1))))
+    }
+
+    #[inline(always)]
+    fn above(self, other: Self) -> Self::Mask {
+        let low = instructions!(_mm256_cmp_ps::<_CMP_GT_OQ>(self.0, other.0));
+        (low, instructions!(_mm256_cmp_ps::<_CMP_GT_OQ>(self.1, other.1)))
+    }
+
+    #[inline(always)]
+    fn either(one: Self::Mask, other: Self::Mask) -> Self::Mask {
+        instructions!((_mm256_or_ps(one.0, other.0), _mm256_or_ps(one.1, other.1)))
+    }
+
+    #[inline(always)]
+    fn or_else(self, mask: Self::Mask, other: Self) -> Self {
+        instructions!(Self(_mm256_blendv_ps(other.0, self.0, mask.0), _mm256_blendv_ps(other.1, self.1, mask.1)))
+    }
+
+    #[inline(always)]
+    fn bits(mask: Self::Mask) -> Bits {
+        instructions!(_mm256_movemask_ps(mask.0) as Bits | (_mm256_movemask_ps(mask.1) as Bits) << 8)
+    }
+
+    #[inline(always)]
+    fn prefetch<T>(what: &T) {
+        prefetch(what);
+    }
+}
+
+/// Asks for all cache lines of a value.
+#[inline(always)]
+pub fn prefetch<T>(what: &T) {
+    let start = core::ptr::from_ref(what).cast::<i8>();
+    for line in (0..size_of::<T>()).step_by(64) {
+        // SAFETY: the address stays within the value; every x86-64 processor can prefetch.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(start.add(line)) };
+    }
+}
