@@ -3,6 +3,10 @@
 use std::sync::OnceLock;
 use std::time::Duration;
 
+use ocb_core::statistics::quantile;
+
+use crate::protocol::MAX_BATCH;
+
 /// A clock for the time between two moments of one thread's or two CPUs' work: the time stamp counter where the kernel
 /// itself trusts it, otherwise `CLOCK_MONOTONIC_RAW`.
 #[derive(Clone, Copy, Debug)]
@@ -70,17 +74,21 @@ fn raw_ns() -> u64 {
     now.tv_sec as u64 * 1_000_000_000 + now.tv_nsec as u64
 }
 
-/// How the clock of one session behaved.
+/// How the clock of one session behaved, before foreign code was loaded into its runner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClockFacts {
     /// Which hand-off.
     pub kind: ClockKind,
-    /// Median round trip of a question that the runner answers without the plugin, nanoseconds.
+    /// Median round trip of a question to the null plugin, nanoseconds.
     pub null_median_ns: f64,
     /// Its 5th percentile.
     pub null_p05_ns: f64,
     /// Its 95th percentile.
     pub null_p95_ns: f64,
+    /// What each further question of a batch to the null plugin adds, nanoseconds.
+    pub null_each_ns: f64,
+    /// Median time of the calibration loop on the runner's CPU, nanoseconds, with its round trip.
+    pub calibration_ns: f64,
 }
 
 /// Which hand-off a session uses.
@@ -102,12 +110,33 @@ impl ClockKind {
     }
 }
 
+/// Round trips of one session that say how its clock behaves.
+#[derive(Debug, Default)]
+pub(crate) struct Trips {
+    /// Of one question to the null plugin.
+    pub null: Vec<f64>,
+    /// Of a batch of [`MAX_BATCH`].
+    pub null_batch: Vec<f64>,
+    /// Of the calibration loop.
+    pub calibration: Vec<f64>,
+}
+
 impl ClockFacts {
-    /// From the round trips of one session; at least one.
-    pub(crate) fn of(kind: ClockKind, mut null_ns: Vec<f64>) -> Self {
-        null_ns.sort_by(f64::total_cmp);
-        let at = |share: f64| null_ns[((null_ns.len() - 1) as f64 * share).round() as usize];
-        ClockFacts { kind, null_median_ns: at(0.5), null_p05_ns: at(0.05), null_p95_ns: at(0.95) }
+    /// From at least one round trip of each kind.
+    pub(crate) fn of(kind: ClockKind, mut trips: Trips) -> Self {
+        let [null, batch, calibration] = [&mut trips.null, &mut trips.null_batch, &mut trips.calibration].map(|all| {
+            all.sort_by(f64::total_cmp);
+            &all[..]
+        });
+        let null_median_ns = quantile(null, 0.5);
+        ClockFacts {
+            kind,
+            null_median_ns,
+            null_p05_ns: quantile(null, 0.05),
+            null_p95_ns: quantile(null, 0.95),
+            null_each_ns: ((quantile(batch, 0.5) - null_median_ns) / (MAX_BATCH - 1) as f64).max(0.0),
+            calibration_ns: quantile(calibration, 0.5),
+        }
     }
 
     /// The shortest time that can be told from nothing: the spread of the null round trip, nanoseconds, at least 1.
@@ -115,9 +144,9 @@ impl ClockFacts {
         (self.null_p95_ns - self.null_p05_ns).max(1.0)
     }
 
-    /// The plugin's part of a round trip, and whether it is only an upper bound.
-    pub(crate) fn subtract(&self, raw_ns: f64) -> (f64, bool) {
-        let time_ns = raw_ns - self.null_median_ns;
+    /// The plugin's part of a round trip of so many questions, and whether it is only an upper bound.
+    pub(crate) fn subtract(&self, raw_ns: f64, questions: usize) -> (f64, bool) {
+        let time_ns = raw_ns - self.null_median_ns - self.null_each_ns * (questions - 1) as f64;
         let resolution = self.resolution_ns();
         if time_ns < resolution { (resolution, true) } else { (time_ns, false) }
     }
@@ -129,11 +158,18 @@ mod tests {
 
     #[test]
     fn times_below_the_spread_are_bounds_and_never_zero() {
-        let facts = ClockFacts::of(ClockKind::Spin, (200..=300).map(f64::from).collect());
+        let trips = Trips {
+            null: (200..=300).map(f64::from).collect(),
+            null_batch: vec![250.0 + 63.0 * 20.0],
+            calibration: vec![10_250.0],
+        };
+        let facts = ClockFacts::of(ClockKind::Spin, trips);
         assert_eq!((facts.null_p05_ns, facts.null_median_ns, facts.null_p95_ns), (205.0, 250.0, 295.0));
-        assert_eq!(facts.subtract(260.0), (90.0, true));
-        assert_eq!(facts.subtract(100.0), (90.0, true));
-        assert_eq!(facts.subtract(1250.0), (1000.0, false));
+        assert_eq!((facts.null_each_ns, facts.calibration_ns), (20.0, 10_250.0));
+        assert_eq!(facts.subtract(260.0, 1), (90.0, true));
+        assert_eq!(facts.subtract(100.0, 1), (90.0, true));
+        assert_eq!(facts.subtract(1250.0, 1), (1000.0, false));
+        assert_eq!(facts.subtract(1250.0, 11), (800.0, false));
     }
 
     #[test]

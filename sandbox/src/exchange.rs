@@ -3,14 +3,14 @@
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use ocb_core::configuration::Configuration;
+use ocb_core::instance::Presented;
 
 use crate::clock::{Clock, ClockKind};
 use crate::doorbell::{futex_wait, futex_wake};
 use crate::launch::Jail;
 use crate::outcome::{Outcome, Phase};
 use crate::protocol::{
-    Command, SLOT_WORDS, Status, answer, clean_text, contacts_to_copy, parse_status, parse_text_len, request,
+    Command, MAX_BATCH, SLOT_WORDS, Status, answer, clean_text, contacts_to_copy, parse_status, parse_text_len, request,
 };
 
 /// The jail is looked at so often while an answer is awaited.
@@ -28,7 +28,7 @@ pub(crate) struct Exchange {
     kind: ClockKind,
     clock: Clock,
     number: u32,
-    slot: [u64; SLOT_WORDS],
+    slots: Vec<[u64; SLOT_WORDS]>,
     last: Instant,
     trial_seconds: f64,
     trial_ends: Instant,
@@ -47,30 +47,44 @@ impl Exchange {
     pub fn new(jail: Jail, kind: ClockKind, clock: Clock, trial_seconds: f64) -> Self {
         let now = Instant::now();
         let trial_ends = now + Duration::from_secs_f64(trial_seconds.clamp(0.0, 1e9));
-        Self { jail, kind, clock, number: 0, slot: [0; SLOT_WORDS], last: now, trial_seconds, trial_ends }
+        Self { jail, kind, clock, number: 0, slots: vec![[0; SLOT_WORDS]], last: now, trial_seconds, trial_ends }
     }
 
     pub fn kind(&self) -> ClockKind {
         self.kind
     }
 
-    /// The copy of the newest answer.
-    pub fn slot(&self) -> &[u64; SLOT_WORDS] {
-        &self.slot
+    /// The copies of the newest answers, one per question.
+    pub fn slots(&self) -> &[[u64; SLOT_WORDS]] {
+        &self.slots
     }
 
-    /// Writes the poses of the next question.
-    pub fn place(&mut self, configuration: &Configuration) {
-        let poses = [configuration.pose_a.to_row_major(), configuration.pose_b.to_row_major()];
-        for (i, pose) in poses.iter().enumerate() {
-            self.jail.request.store(request::POSES + 128 * i, &pose.map(f64::to_bits));
+    /// Writes the poses of the next questions, at most [`MAX_BATCH`].
+    pub fn place(&mut self, questions: &[Presented]) {
+        self.ask_for(questions.len());
+        let swapped = (0..).zip(questions).fold(0u64, |mask, (i, q)| mask | u64::from(q.swapped) << i);
+        self.jail.request.u64(request::SWAPPED).store(swapped, Ordering::Relaxed);
+        for (question, Presented { configuration, .. }) in questions.iter().enumerate() {
+            let poses = [configuration.pose_a.to_row_major(), configuration.pose_b.to_row_major()];
+            for (i, pose) in poses.iter().enumerate() {
+                let at = request::POSES + request::POSES_STRIDE * question + 128 * i;
+                self.jail.request.store(at, &pose.map(f64::to_bits));
+            }
         }
+    }
+
+    /// The next command asks so many questions.
+    pub fn ask_for(&mut self, questions: usize) {
+        assert!((1..=MAX_BATCH).contains(&questions), "a command asks 1 to {MAX_BATCH} questions");
+        self.jail.request.u64(request::QUESTIONS).store(questions as u64, Ordering::Relaxed);
+        self.slots.resize(questions, [0; SLOT_WORDS]);
     }
 
     /// Makes sure that a watching runner watches, so that the next question finds it as the null questions did.
     pub fn wake(&mut self, limit_seconds: f64) -> Result<(), Outcome> {
         let asleep = self.jail.answer.u32(answer::RUNNER_SLEEPS).load(Ordering::Relaxed) != 0;
         if self.kind == ClockKind::Spin && (asleep || self.last.elapsed() > DROWSY) {
+            self.ask_for(1);
             self.obeyed(Command::Null, Phase::Query, limit_seconds)?;
         }
         Ok(())
@@ -81,7 +95,7 @@ impl Exchange {
         timed.missed_ns > MISSED_NS && timed.missed_ns > timed.raw_ns / 200.0
     }
 
-    /// Gives a command, waits for its answer and copies it once. An error status becomes its outcome; "gave up" and
+    /// Gives a command, waits for its answers and copies each once. An error status becomes its outcome; "gave up" and
     /// "unsupported" are answers.
     pub fn obeyed(&mut self, command: Command, phase: Phase, limit_seconds: f64) -> Result<Timed, Outcome> {
         let before = self.jail.answer.u32(answer::NUMBER).load(Ordering::Acquire);
@@ -91,12 +105,17 @@ impl Exchange {
         self.jail.request.u64(request::COMMAND).store(command as u64, Ordering::Relaxed);
         let timed = self.round_trip(phase, limit_seconds)?;
         self.last = Instant::now();
-        self.jail.answer.load(answer::SLOT, &mut self.slot);
-        match parse_status(&self.slot).map_err(|rule| Outcome::ProtocolViolation { phase, rule })? {
-            Status::Ok | Status::GaveUp | Status::Unsupported => Ok(timed),
-            Status::Error => Err(Outcome::Failed { phase, reason: self.reason(phase)? }),
-            Status::NotLoaded => Err(Outcome::LoadError { reason: self.reason(phase)? }),
+        for (i, slot) in self.slots.iter_mut().enumerate() {
+            self.jail.answer.load(answer::SLOT + answer::SLOT_STRIDE * i, slot);
         }
+        for slot in &self.slots {
+            match parse_status(slot).map_err(|rule| Outcome::ProtocolViolation { phase, rule })? {
+                Status::Ok | Status::GaveUp | Status::Unsupported => {}
+                Status::Error => return Err(Outcome::Failed { phase, reason: self.reason(slot, phase)? }),
+                Status::NotLoaded => return Err(Outcome::LoadError { reason: self.reason(slot, phase)? }),
+            }
+        }
+        Ok(timed)
     }
 
     fn round_trip(&mut self, phase: Phase, limit_seconds: f64) -> Result<Timed, Outcome> {
@@ -161,20 +180,24 @@ impl Exchange {
 
     /// The text beside the newest answer.
     pub fn text(&self, phase: Phase) -> Result<Vec<u8>, Outcome> {
-        let len = parse_text_len(&self.slot).map_err(|rule| Outcome::ProtocolViolation { phase, rule })?;
+        self.text_of(&self.slots[0], phase)
+    }
+
+    fn text_of(&self, slot: &[u64; SLOT_WORDS], phase: Phase) -> Result<Vec<u8>, Outcome> {
+        let len = parse_text_len(slot).map_err(|rule| Outcome::ProtocolViolation { phase, rule })?;
         Ok(self.jail.answer.load_bytes(answer::TEXT, len))
     }
 
     /// The contacts beside the newest answer, as many as it announces and the buffer holds.
     pub fn contacts(&self) -> Vec<u64> {
-        let mut words = vec![0; contacts_to_copy(&self.slot)];
+        let mut words = vec![0; contacts_to_copy(&self.slots[0])];
         self.jail.answer.load(answer::CONTACTS, &mut words);
         words
     }
 
     /// The text as a reason for people: one line without its full stop.
-    fn reason(&self, phase: Phase) -> Result<String, Outcome> {
-        let text = clean_text(&self.text(phase)?).replace(['\n', '\t'], " ");
+    fn reason(&self, slot: &[u64; SLOT_WORDS], phase: Phase) -> Result<String, Outcome> {
+        let text = clean_text(&self.text_of(slot, phase)?).replace(['\n', '\t'], " ");
         let short: String = text.chars().take(2000).collect();
         Ok(short.trim().trim_end_matches('.').to_string())
     }

@@ -2,7 +2,7 @@
 //!
 //! The threat model, the layers in their order and the limits stand in `sandbox/README.md`. The way of a trial:
 //! [`Launcher::start`] -> a jail with a runner that has closed itself off -> the look from outside -> the plugin is
-//! loaded, the objects are built -> [`Session::query`], as often as wanted -> [`Session::finish`].
+//! loaded, the objects are built -> [`Session::pass`] or single questions -> [`Session::finish`].
 
 #[cfg(not(all(target_os = "linux", target_arch = "x86_64")))]
 compile_error!("the jail is written for Linux on x86-64: its system call list and floating-point care are per machine");
@@ -20,11 +20,13 @@ pub mod doorbell;
 mod evidence;
 mod exchange;
 pub mod gate;
+pub mod integrity;
 pub mod launch;
 pub mod launcher;
 pub mod layers;
 mod memory;
 pub mod outcome;
+pub mod pass;
 pub mod policy;
 #[doc(hidden)]
 pub mod protocol;
@@ -35,6 +37,7 @@ pub mod session;
 pub mod shared;
 #[doc(hidden)]
 pub mod trial;
+mod usage;
 mod verify;
 
 pub use clock::{ClockFacts, ClockKind};
@@ -44,5 +47,7 @@ pub use launch::Killer;
 pub use launcher::{Launcher, Trial};
 pub use layers::Profile;
 pub use outcome::{DeniedCall, Ending, Outcome, Phase};
+pub use pass::{Observation, PassFacts, PassPlan, Time};
 pub use policy::{ClockChoice, Policy};
-pub use session::{Sample, Session};
+pub use protocol::MAX_BATCH;
+pub use session::{Batch, Sample, Session};

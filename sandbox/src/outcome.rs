@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::integrity::Finding;
+
 /// How a runner ended. `Display` is one sentence for the person who asked for the run.
 ///
 /// Every variant except [`Outcome::SandboxFault`] and [`Outcome::Cancelled`] speaks about the plugin. All evidence is
@@ -65,6 +67,11 @@ pub enum Outcome {
         /// Which rule.
         rule: String,
     },
+    /// What was measured from outside does not fit together.
+    TimingIntegrity {
+        /// The check, and what it found.
+        finding: Finding,
+    },
     /// The host ended it on request; nobody's fault.
     Cancelled,
     /// The jail could not be built or kept: our fault or this machine's, never the plugin's.
@@ -123,6 +130,7 @@ impl Outcome {
             Outcome::OutputLimit { .. } => "OutputLimit",
             Outcome::SyscallDenied { .. } => "SyscallDenied",
             Outcome::ProtocolViolation { .. } => "ProtocolViolation",
+            Outcome::TimingIntegrity { .. } => "TimingIntegrity",
             Outcome::Cancelled => "Cancelled",
             Outcome::SandboxFault { .. } => "SandboxFault",
         }
@@ -168,6 +176,9 @@ impl fmt::Display for Outcome {
             }
             Outcome::ProtocolViolation { phase, rule } => {
                 write!(f, "The plugin tampered with its runner {phase}: {rule}.")
+            }
+            Outcome::TimingIntegrity { finding } => {
+                write!(f, "The plugin's times are not believed; {finding}.")
             }
             Outcome::Cancelled => write!(f, "The run was cancelled."),
             Outcome::SandboxFault { step, reason } => {

@@ -1,9 +1,9 @@
 //! What lies where in the shared memory, and the parsing of everything that a runner says.
 //!
 //! Two memory files carry the conversation: the **request** (written by the supervisor alone) and the **answer**
-//! (writable by the runner). There is one slot each way. The supervisor writes a command, then its number; the runner
-//! writes an answer, then the same number. The next command does not exist before the answer to this one has been
-//! copied out. A third file, the **trial**, holds meshes and parameters, sealed.
+//! (writable by the runner). The supervisor writes a command with one question or a batch of them, then its number; the
+//! runner writes as many answers, then the same number. The next command does not exist before the answers to this one
+//! have been copied out. A third file, the **trial**, holds meshes and parameters, sealed.
 //!
 //! Parsing is pure: it takes words that were copied once and returns values or the broken rule.
 
@@ -21,10 +21,16 @@ pub mod request {
     pub const SUPERVISOR_SLEEPS: usize = 128;
     /// u64: the command, a [`super::Command`].
     pub const COMMAND: usize = 256;
-    /// 16 + 16 u64: bits of the row-major poses of A and B.
-    pub const POSES: usize = 320;
+    /// u64: how many questions it asks, 1 to [`super::MAX_BATCH`].
+    pub const QUESTIONS: usize = 264;
+    /// u64: bit i is set when question i puts object B first, and then its poses as well.
+    pub const SWAPPED: usize = 272;
+    /// 16 + 16 u64 per question: bits of the row-major poses of A and B.
+    pub const POSES: usize = 512;
+    /// From one question's poses to the next one's.
+    pub const POSES_STRIDE: usize = 256;
     /// Size of the file.
-    pub const BYTES: usize = 4096;
+    pub const BYTES: usize = (POSES + POSES_STRIDE * super::MAX_BATCH).next_multiple_of(4096);
 }
 
 /// Byte offsets in the answer file.
@@ -38,10 +44,12 @@ pub mod answer {
     /// u32 each, written before the plugin is loaded: ABI of Landlock in force, number of sealed mappings, whether memory
     /// can no longer become executable. 0 is "not in force".
     pub const HARDENING: usize = 260;
-    /// The slot: [`super::SLOT_WORDS`] u64.
+    /// The slots, one per question: [`super::SLOT_WORDS`] u64 each.
     pub const SLOT: usize = 512;
+    /// From one slot to the next.
+    pub const SLOT_STRIDE: usize = 8 * super::SLOT_WORDS;
     /// Text: descriptors or a reason.
-    pub const TEXT: usize = 1024;
+    pub const TEXT: usize = SLOT + SLOT_STRIDE * super::MAX_BATCH;
     /// At most so much text.
     pub const TEXT_BYTES: usize = 256 << 10;
     /// Contacts: u64 each, triangle of A in the low half, of B in the high half.
@@ -56,8 +64,10 @@ pub mod answer {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u64)]
 pub enum Command {
-    /// Nothing: measures the round trip.
+    /// The null plugin's answer, which is none: measures the round trip.
     Null = 0,
+    /// A fixed chain of dependent multiplications: measures the speed of the runner's CPU.
+    Calibrate = 7,
     /// Give up the listener's descriptor, which the supervisor has by now.
     CloseListener = 1,
     /// Load the plugin file, unless the gate refuses it, and describe it in the text.
@@ -86,8 +96,9 @@ pub enum Command {
 
 impl Command {
     /// All of them.
-    pub const ALL: [Command; 13] = [
+    pub const ALL: [Command; 14] = [
         Command::Null,
+        Command::Calibrate,
         Command::CloseListener,
         Command::Inspect,
         Command::Open,
@@ -120,7 +131,13 @@ impl Command {
     }
 }
 
-/// Number of 64-bit words in the answer's slot.
+/// Most questions that one command asks.
+pub const MAX_BATCH: usize = 64;
+
+/// Multiplications in [`Command::Calibrate`], each waiting for the one before: some 10 us on today's processors.
+pub const CALIBRATION_STEPS: u32 = 10_000;
+
+/// Number of 64-bit words in an answer's slot.
 pub const SLOT_WORDS: usize = 24;
 
 /// Meaning of the slot's words.

@@ -153,9 +153,12 @@ pub struct BenchArgs {
         conflicts_with_all = ["paper_compat", "rotate", "move_by", "count", "seed", "distance", "step", "ladder", "center_distance", "hit_share"]
     )]
     pub configurations: Option<PathBuf>,
-    /// Timed passes per configuration; the median counts.
-    #[arg(long, default_value_t = 3)]
+    /// Fresh processes, with one timed pass over the configurations each; the median counts.
+    #[arg(long, default_value_t = 5)]
     pub passes: u32,
+    /// Seed of the order, the equivalent instances and the blocks of questions, to repeat a run [default: drawn].
+    #[arg(long, value_name = "NUMBER")]
+    pub run_seed: Option<u64>,
     /// Measuring time per algorithm; a slower one is measured on as many configurations as fit.
     #[arg(long, default_value_t = 60.0, allow_negative_numbers = true, value_name = "SECONDS")]
     pub budget: f64,

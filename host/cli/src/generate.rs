@@ -60,6 +60,7 @@ pub async fn generate(store: &Store, args: &GenerateArgs, json: bool) -> Result<
             algorithms: Vec::new(),
             passes: 1,
             budget_seconds: 1.0,
+            seed: None,
         })
     };
     let done = match spec(&engine).await {

@@ -10,10 +10,13 @@ extern crate self as ocb_core;
 
 pub mod bvh;
 pub mod colormap;
+pub mod comparison;
 pub mod configuration;
 pub mod export;
 pub mod heatmap;
+pub mod instance;
 pub mod mesh;
+pub mod numbers;
 pub mod oracle;
 pub mod pose;
 pub mod query;

@@ -5,6 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numbers::Numbers;
+
 /// A statistic of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case")]
@@ -123,26 +125,16 @@ const RESAMPLES: usize = 1_000;
 /// faster; for the maximum the bootstrap is wrong, see [`maximum_interval`]. Panics when there are no values.
 pub fn bootstrap_interval(values: &[f64], stat: impl Fn(&mut [f64]) -> f64, seed: u64) -> (f64, f64) {
     assert!(!values.is_empty(), "an interval needs values");
-    let mut state = seed;
+    let mut numbers = Numbers::new(seed);
     let mut resample = vec![0.0; values.len()];
     let mut stats: Vec<f64> = (0..RESAMPLES)
         .map(|_| {
-            resample.iter_mut().for_each(|x| *x = values[below(&mut state, values.len())]);
+            resample.iter_mut().for_each(|x| *x = values[numbers.below(values.len())]);
             stat(&mut resample)
         })
         .collect();
     stats.sort_unstable_by(f64::total_cmp);
     (quantile(&stats, (1.0 - LEVEL) / 2.0), quantile(&stats, (1.0 + LEVEL) / 2.0))
-}
-
-/// A number from 0 to n-1 by SplitMix64 (Steele, Lea and Flood 2014) and a multiplication; its bias of n / 2^64 is far
-/// below what 1,000 resamples could show.
-fn below(state: &mut u64, n: usize) -> usize {
-    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let mut z = *state;
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((u128::from(z ^ (z >> 31)) * n as u128) >> 64) as usize
 }
 
 /// Interval of a quantile between order statistics of ascending values: assumes nothing about the distribution, and

@@ -8,6 +8,7 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use ocb_core::comparison::{Comparison, compare};
 use ocb_core::configuration::{ConfigurationSet, Method};
 use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
@@ -15,10 +16,11 @@ use tokio::runtime::Handle;
 
 use crate::columns::{RecordsOf, records_parquet};
 use crate::configurations::{self, Gauge};
+use crate::draw;
 use crate::engine::Inner;
 use crate::machine::{MakingWay, MeasuringRight};
 use crate::measure::{self, Asked, Measured, News, Stop, Task};
-use crate::model::{Environment, RunSpec, SetInfo, State};
+use crate::model::{AlgorithmResult, Environment, RunSpec, SetInfo, State};
 use crate::registry::Contestant;
 use crate::runlog::RunLog;
 use crate::store::{RunRow, StoredResult};
@@ -177,6 +179,7 @@ impl Bench<'_> {
             return Ok(End::Done);
         }
         let contestants = self.contestants()?;
+        let reference = crate::spec::reference(&self.row.spec, &self.inner.registry);
         let Some(_right) = self.right_to_measure()? else { return Ok(End::Stopped) };
         let spec = self.row.spec.clone();
         let task = Task {
@@ -190,9 +193,11 @@ impl Bench<'_> {
             semantics: spec.semantics,
             passes: spec.passes,
             budget: Duration::from_secs_f64(spec.budget_seconds),
-            seed: seed_of(&info.sha256),
+            seed: draw::seed(&self.row, &info.sha256, &contestants),
             contestants: &contestants,
+            reference: reference.as_ref(),
         };
+        let seed = task.seed;
         let (sender, news) = mpsc::channel();
         let mut finished: Vec<(usize, Measured)> = Vec::new();
         thread::scope(|scope| -> Result<()> {
@@ -216,7 +221,7 @@ impl Bench<'_> {
         if self.stop.asked() {
             return Ok(End::Stopped);
         }
-        self.keep(pairing, set, info, finished)
+        self.keep(pairing, set, info, finished, seed)
     }
 
     /// Stores what was measured; the run fails only when there is nothing to show at all.
@@ -226,6 +231,7 @@ impl Bench<'_> {
         set: &ConfigurationSet,
         info: &SetInfo,
         finished: Vec<(usize, Measured)>,
+        seed: u64,
     ) -> Result<End> {
         let asked = Asked {
             pair: Pair::new(&pairing.a, &pairing.b),
@@ -233,18 +239,32 @@ impl Bench<'_> {
             query: self.row.spec.query,
             semantics: self.row.spec.semantics,
         };
-        let (lanes, measured): (Vec<usize>, Vec<Measured>) = finished.into_iter().unzip();
-        let environment = measure::environment(&self.inner.machine, self.inner.registry.profile(), &measured);
+        let algorithms = self.row.spec.algorithms.clone();
+        let reference = crate::spec::reference(&self.row.spec, &self.inner.registry).map(|c| c.info.clone());
+        let of_reference =
+            finished.iter().find(|(_, m)| Some(&m.contestant.info.id) == reference.as_ref().map(|r| &r.id));
+        let compared: Vec<Option<Comparison>> = finished
+            .iter()
+            .map(|(_, m)| compare(&m.times, of_reference.map(|(_, r)| &r.times[..]), self.row.spec.passes))
+            .collect();
+        let all: Vec<&Measured> = finished.iter().map(|(_, measured)| measured).collect();
+        let (machine, profile) = (&self.inner.machine, self.inner.registry.profile());
+        let drawn = draw::drawn(&self.row, seed);
+        let environment = measure::environment(machine, profile, &all, reference.as_ref(), drawn);
         if let Some(environment) = &environment {
             self.log.wait(self.inner.store.environment_of_run(&self.row.id, environment))?;
         }
+        let asked_for = || finished.iter().zip(&compared).filter(|((lane, _), _)| *lane < algorithms.len());
+        let mut results: Vec<AlgorithmResult> =
+            asked_for().map(|((_, measured), compared)| measure::summarise(measured, asked, *compared)).collect();
+        measure::rank(&mut results, profile);
         let mut nothing = None;
         let mut any = false;
-        for (lane, measured) in lanes.into_iter().zip(&measured) {
-            let stored = self.keep_one(lane, asked, info, measured, environment.as_ref())?;
+        for (((lane, measured), _), result) in asked_for().zip(results) {
+            let stored = self.keep_one(*lane, asked, info, measured, result, environment.as_ref())?;
             any |= stored.result.n > 0;
             nothing.get_or_insert_with(|| stored.result.outcome.message.clone());
-            self.end_lane(lane, stored)?;
+            self.end_lane(*lane, stored)?;
         }
         match nothing {
             Some(cause) if !any => Err(EngineError::Fault(format!("No algorithm could be measured. {cause}"))),
@@ -258,6 +278,7 @@ impl Bench<'_> {
         asked: Asked,
         info: &SetInfo,
         measured: &Measured,
+        result: AlgorithmResult,
         environment: Option<&Environment>,
     ) -> Result<StoredResult> {
         let algorithm = &measured.contestant.info;
@@ -278,7 +299,7 @@ impl Bench<'_> {
             Some(blob)
         };
         let stored = StoredResult {
-            result: measure::summarise(measured, asked),
+            result,
             records,
             plugin_sha256: algorithm.plugin_sha256.clone(),
             seconds_per_query: measured.seconds_per_query,
@@ -349,9 +370,4 @@ impl Bench<'_> {
         }
         self.log.end(lane, State::Done, None, None)
     }
-}
-
-/// The shared order depends on the set alone, so that the same run can be repeated.
-fn seed_of(set_sha256: &str) -> u64 {
-    u64::from_str_radix(&set_sha256[..16], 16).unwrap_or(0)
 }

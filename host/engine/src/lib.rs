@@ -10,6 +10,7 @@ mod columns;
 mod config;
 mod configurations;
 mod dispatcher;
+mod draw;
 mod engine;
 mod error;
 mod estimate;

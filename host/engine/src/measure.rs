@@ -1,29 +1,34 @@
 //! Measuring: plain blocking code on one thread of its own.
 //!
-//! The algorithms take turns, one pass each per round, so that a slow drift of the machine meets all of them alike. Every
-//! turn is a fresh jailed process. All share one shuffled order; an algorithm whose budget ends measures a prefix of it.
-//! A trajectory keeps its own order: that each configuration is near the one before is what it is for.
+//! The algorithms take turns, one pass each per round, so that a slow drift of the machine meets all of them alike; the
+//! reference algorithm takes part in every round, whether it was asked for or not. Every turn is a fresh jailed process
+//! that sees an equivalent instance of the objects and of every question ([`Presentation`]). All share one shuffled
+//! order; an algorithm whose budget ends measures a prefix of it. A trajectory keeps its own order: that each
+//! configuration is near the one before is what it is for.
 
 mod lane;
 mod order;
 mod summary;
 
+use std::ops::ControlFlow;
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use ocb_core::configuration::{ConfigurationSet, Method};
+use ocb_core::instance::{Instance, Presentation};
 use ocb_core::mesh::Mesh;
+use ocb_core::numbers::Numbers;
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::query::{Query, Semantics};
-use ocb_sandbox::{Killer, Outcome, Policy, Session, Trial};
+use ocb_sandbox::{Killer, Observation, Outcome, PassPlan, Policy, Session, Trial};
 
 use crate::machine::Machine;
 use crate::model::OutcomeInfo;
 use crate::registry::{Contestant, Registry, plugin_hash};
 
 pub use lane::{Lane, Measured, precision};
-pub use summary::{Asked, environment, summarise};
+pub use summary::{Asked, environment, rank, summarise};
 
 /// How often a lane may report, so that pages live and nothing else suffers.
 const REPORT_EVERY: Duration = Duration::from_millis(200);
@@ -81,10 +86,12 @@ pub struct Task<'a> {
     pub passes: u32,
     /// Measuring time allowed per algorithm.
     pub budget: Duration,
-    /// Seed of the shared order.
+    /// Seed of everything that is drawn: orders, instances, blocks.
     pub seed: u64,
     /// The algorithms.
     pub contestants: &'a [Arc<Contestant>],
+    /// What all of them are compared with; it may be one of them.
+    pub reference: Option<&'a Arc<Contestant>>,
 }
 
 /// News for whoever reports the progress.
@@ -100,12 +107,15 @@ pub enum News {
     },
     /// A lane will not change any more.
     Finished {
-        /// Which contestant.
+        /// Which contestant; their number stands for a reference that is none of them.
         lane: usize,
         /// All that was measured.
         measured: Box<Measured>,
     },
 }
+
+/// A pass that lost more than this share of its time to the machine below is measured again, once.
+const STEAL: f64 = 0.001;
 
 impl Task<'_> {
     /// The order is part of what is measured: each configuration is near the one before.
@@ -117,18 +127,25 @@ impl Task<'_> {
 /// Measures all contestants and sends what happens; returns early when stopped.
 pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop, news: &Sender<News>) {
     let _quiet = machine.keep_off();
-    let mut lanes: Vec<Lane> = task.contestants.iter().map(|c| Lane::new(c.clone(), task.set.placed.len())).collect();
+    let apart = task.reference.filter(|r| task.contestants.iter().all(|c| c.info.id != r.info.id));
+    let all = task.contestants.iter().chain(apart);
+    let mut lanes: Vec<Lane> = all.map(|c| Lane::new(c.clone(), task.set.placed.len())).collect();
     let n = task.set.placed.len() as u32;
     let base = if task.coherent() { (0..n).collect() } else { order::shuffled(n, task.seed) };
     // Round `passes` is the untimed one, in which the counters are asked for.
     for round in 0..=task.passes {
+        let counting = round == task.passes;
+        let shown = if counting { task.as_it_is() } else { task.instance(round) };
         for (index, lane) in lanes.iter_mut().enumerate() {
-            let counting = round == task.passes;
-            if lane.ended() || (counting && !lane.contestant.info.counters) {
+            let mine = index < task.contestants.len();
+            if lane.ended() || (counting && !(mine && lane.contestant.info.counters)) {
                 continue;
             }
-            let turn = Turn { task, registry, machine, stop, news, index, round };
-            turn.play(lane, &base);
+            let turn = Turn { task, registry, machine, stop, news, index, round, shown: &shown };
+            if turn.play(lane, &base) > STEAL && !stop.asked() {
+                lane.forget(round);
+                turn.play(lane, &base);
+            }
             if stop.asked() {
                 return;
             }
@@ -137,6 +154,27 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
     for (lane, index) in lanes.into_iter().zip(0..) {
         // The receiver is gone only when nobody wants the run any more.
         let _ = news.send(News::Finished { lane: index, measured: Box::new(lane.into_measured()) });
+    }
+}
+
+impl Task<'_> {
+    fn second(&self) -> Option<&Mesh> {
+        (!self.same).then_some(self.mesh_b)
+    }
+
+    fn as_it_is(&self) -> Presentation {
+        Presentation::original(self.mesh_a, self.second())
+    }
+
+    /// The same for all algorithms of a round.
+    fn instance(&self, round: u32) -> Presentation {
+        let configurations = self.set.placed.iter().map(|placed| &placed.configuration);
+        let seed = self.round_seed(round);
+        Presentation::drawn(self.mesh_a, self.second(), configurations, self.coherent(), seed)
+    }
+
+    fn round_seed(&self, round: u32) -> u64 {
+        Numbers::new(self.seed ^ (u64::from(round) << 40)).bits()
     }
 }
 
@@ -149,11 +187,12 @@ struct Turn<'a> {
     news: &'a Sender<News>,
     index: usize,
     round: u32,
+    shown: &'a Presentation,
 }
 
 impl Turn<'_> {
-    fn play(&self, lane: &mut Lane, base: &[u32]) {
-        let placed = &self.task.set.placed;
+    /// The share of the time that was taken from the runner's CPU.
+    fn play(&self, lane: &mut Lane, base: &[u32]) -> f64 {
         let prefix = &base[..lane.reach.unwrap_or(base.len())];
         let order = if self.round == 0 || self.task.coherent() {
             prefix.to_vec()
@@ -166,36 +205,18 @@ impl Turn<'_> {
         self.stop.watch(Some(killer.clone()));
         let mut session = match self.start(lane, &killer) {
             Ok(session) => session,
-            Err(outcome) => return lane.end(outcome),
+            Err(outcome) => {
+                lane.end(outcome);
+                return 0.0;
+            }
         };
         lane.begin_turn(&session);
-        let allowed = self.allowance(lane);
-        let (started, mut reported) = (Instant::now(), Instant::now());
-        let mut reached = 0;
-        for &i in &order {
-            let configuration = &placed[i as usize].configuration;
-            let answered = if self.counting() {
-                session.count(self.task.query, configuration).map(|(answer, counters)| lane.count(i, answer, counters))
-            } else {
-                session.query(self.task.query, configuration).map(|sample| lane.time(i, sample))
-            };
-            // What it died of is in the session's ending.
-            if answered.is_err() {
-                break;
-            }
-            reached += 1;
-            let now = Instant::now();
-            if now - reported >= REPORT_EVERY {
-                reported = now;
-                self.report(lane);
-                if self.stop.asked() {
-                    break;
-                }
-            }
-            if now - started >= allowed {
-                break;
-            }
-        }
+        let started = Instant::now();
+        let (reached, steal) = if self.counting() {
+            (self.count(&mut session, lane, &order), 0.0)
+        } else {
+            self.time(&mut session, lane, &order)
+        };
         lane.spent += started.elapsed();
         self.stop.watch(None);
         let ending = session.finish();
@@ -206,8 +227,64 @@ impl Turn<'_> {
         if ending.outcome != Outcome::Completed {
             lane.end(outcome_info(&ending.outcome));
         }
+        let placed = &self.task.set.placed;
         lane.judge(&Pair::new(self.task.a, self.task.b), placed, self.task.query, self.task.semantics);
         self.report(lane);
+        steal
+    }
+
+    /// A timed pass: how far it came, and the share of stolen time.
+    fn time(&self, session: &mut Session, lane: &mut Lane, order: &[u32]) -> (usize, f64) {
+        let placed = &self.task.set.placed;
+        let plan = PassPlan {
+            query: self.task.query,
+            order,
+            coherent: self.task.coherent(),
+            seed: self.task.round_seed(self.round).rotate_left(1),
+            allowance: self.allowance(lane),
+        };
+        let present = |configuration: u32, instance: Instance| {
+            self.shown.present(&placed[configuration as usize].configuration, configuration, instance)
+        };
+        let mut reported = Instant::now();
+        let mut each = |seen: Observation| {
+            let answer = self.shown.translate(seen.answer, seen.configuration, seen.instance);
+            lane.observe(self.round, Observation { answer, ..seen });
+            self.go_on(lane, &mut reported)
+        };
+        // What it died of is in the session's ending.
+        let (facts, _) = session.pass(&plan, &present, &mut each);
+        let found = (facts.reached, facts.steal.unwrap_or(0.0));
+        lane.end_pass(facts);
+        found
+    }
+
+    /// The untimed pass with counters: how far it came.
+    fn count(&self, session: &mut Session, lane: &mut Lane, order: &[u32]) -> usize {
+        let (begun, mut reported, allowed) = (Instant::now(), Instant::now(), self.allowance(lane));
+        for (reached, &i) in order.iter().enumerate() {
+            let configuration = &self.task.set.placed[i as usize].configuration;
+            match session.count(self.task.query, configuration) {
+                Ok((answer, counters)) => lane.count(i, answer, counters),
+                Err(_) => return reached,
+            }
+            if self.go_on(lane, &mut reported).is_break() || begun.elapsed() >= allowed {
+                return reached + 1;
+            }
+        }
+        order.len()
+    }
+
+    /// Reports now and then, and looks whether it shall stop.
+    fn go_on(&self, lane: &Lane, reported: &mut Instant) -> ControlFlow<()> {
+        if reported.elapsed() >= REPORT_EVERY {
+            *reported = Instant::now();
+            self.report(lane);
+            if self.stop.asked() {
+                return ControlFlow::Break(());
+            }
+        }
+        ControlFlow::Continue(())
     }
 
     fn start(&self, lane: &Lane, killer: &Killer) -> Result<Session, OutcomeInfo> {
@@ -232,8 +309,8 @@ impl Turn<'_> {
         let trial = Trial {
             plugin: &contestant.file,
             algorithm: &contestant.info.id,
-            mesh_a: self.task.mesh_a,
-            mesh_b: (!self.task.same).then_some(self.task.mesh_b),
+            mesh_a: self.shown.first(),
+            mesh_b: self.shown.second(),
             parameters: &[],
             semantics: self.task.semantics,
         };
@@ -257,6 +334,10 @@ impl Turn<'_> {
     }
 
     fn report(&self, lane: &Lane) {
+        // Nobody asked for the reference; it has no lane of its own on any page.
+        if self.index >= self.task.contestants.len() {
+            return;
+        }
         let rounds = u64::from(self.task.passes) + u64::from(lane.contestant.info.counters);
         let reach = lane.reach.unwrap_or(self.task.set.placed.len()) as u64;
         let total = (reach * rounds).max(lane.done);

@@ -6,6 +6,7 @@ mod heatmap;
 mod plugin;
 mod truth;
 
+use ocb_core::comparison::Interval;
 use ocb_core::configuration::{Class, Method, Separation};
 use ocb_core::query::{Query, Semantics};
 use ocb_core::resolution::Resolution;
@@ -71,13 +72,17 @@ pub struct RunSpec {
     /// Algorithm ids; all that answer the question when empty.
     #[serde(default)]
     pub algorithms: Vec<String>,
-    /// Timed passes per configuration (1 to 99).
+    /// Fresh processes, with one timed pass over the configurations each (1 to 99).
     #[serde(default = "default_passes")]
     pub passes: u32,
     /// Measuring time allowed per algorithm; a slower one is measured on as many configurations (taken in a shuffled
     /// order that all algorithms share) as fit.
     #[serde(default = "default_budget")]
     pub budget_seconds: f64,
+    /// Seed of everything that is drawn while measuring (order, equivalent instances, blocks), below 2^53; to repeat a
+    /// run. Drawn for every run when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seed: Option<u64>,
 }
 
 impl RunSpec {
@@ -95,7 +100,7 @@ impl RunSpec {
 }
 
 fn default_passes() -> u32 {
-    3
+    5
 }
 
 fn default_budget() -> f64 {
@@ -173,6 +178,10 @@ pub struct RunInfo {
     pub set: Option<SetInfo>,
     /// The machine, once measured.
     pub environment: Option<Environment>,
+    /// SHA-256 of the secret that the seed is drawn from, published before anything is measured; absent when the seed was
+    /// given.
+    #[serde(default)]
+    pub commitment: Option<String>,
     /// Times this run was started (more than 1 after a restart of the service).
     pub attempts: u32,
     /// Made by the caller (may cancel).
@@ -292,6 +301,17 @@ pub struct AlgorithmResult {
     pub budget_limited: bool,
     /// Time per query; absent when nothing was measured.
     pub time: Option<TimeSummary>,
+    /// Against the reference algorithm: geometric mean of the ratios of the times of the same configuration, with its 95 %
+    /// interval over the processes; below 1 is faster.
+    #[serde(default)]
+    pub ratio: Option<Estimated>,
+    /// Rank by `ratio`, from 1; algorithms whose intervals overlap are tied. Absent for what failed, gave a wrong answer or
+    /// was measured in the development profile.
+    #[serde(default)]
+    pub rank: Option<u32>,
+    /// How the passes went, and what the integrity checks found; absent in runs of older versions.
+    #[serde(default)]
+    pub timing: Option<Timing>,
     /// All answers by verdict (`correct`, `false_negative`, `gave_up`, ...); those that do not occur are left out.
     pub verdicts: Vec<VerdictCount>,
     /// Wrong answers in all. Giving up and not supporting the question are none.
@@ -358,12 +378,18 @@ pub struct Estimated {
     pub hi: f64,
 }
 
+impl From<Interval> for Estimated {
+    fn from(Interval { value, lo, hi }: Interval) -> Self {
+        Estimated { value, lo, hi }
+    }
+}
+
 /// Distribution of the time per query over configurations, nanoseconds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct TimeSummary {
-    /// Arithmetic mean.
+    /// Arithmetic mean; its interval is over the processes.
     pub mean_ns: Estimated,
-    /// Median.
+    /// Median; its interval and the following ones are over the configurations.
     pub median_ns: Estimated,
     /// 95th percentile.
     pub p95_ns: Estimated,
@@ -390,8 +416,17 @@ pub struct Environment {
     pub clock: String,
     /// Null round trip that is subtracted: median, with p05 and p95 as its interval, nanoseconds.
     pub null_ns: Estimated,
-    /// Samples repeated because the clock saw a disturbance.
+    /// Times that stand although something disturbed the runner at every attempt.
     pub disturbed: u64,
+    /// Time of a fixed loop on the measuring CPU: median, p05 and p95 over all passes, nanoseconds.
+    #[serde(default)]
+    pub calibration_ns: Option<Estimated>,
+    /// What `ratio` compares with.
+    #[serde(default)]
+    pub reference: Option<Reference>,
+    /// The seed that was used, and how it came about.
+    #[serde(default)]
+    pub draw: Option<Draw>,
     /// Layers of the jail in force.
     pub jail: Vec<String>,
     /// `production`, or `dev`: foreign plugins then ran with what layers the machine had, and nothing of it is ranked.
@@ -399,6 +434,56 @@ pub struct Environment {
     pub profile: String,
     /// Version of this program.
     pub version: String,
+}
+
+/// The algorithm that takes part in every round of every run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Reference {
+    /// Algorithm id.
+    pub algorithm: String,
+    /// SHA-256 (hex) of its plugin file.
+    pub plugin_sha256: String,
+}
+
+/// Where the seed of a run comes from. A drawn one is the first 53 bits of SHA-256 over the text `secret`, followed by the
+/// SHA-256 of the configuration set and of every plugin file in the run's order; `commitment` is the SHA-256 of `secret`
+/// and was published when the run was asked for, before anything was measured.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Draw {
+    /// The seed.
+    pub seed: u64,
+    /// Revealed with the result; absent when whoever asked for the run chose the seed.
+    pub secret: Option<String>,
+    /// What was published before.
+    pub commitment: Option<String>,
+}
+
+/// How the timed passes of one algorithm went.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Timing {
+    /// Fresh processes.
+    pub processes: u32,
+    /// Blocks of questions that were disturbed and asked again, of all.
+    pub disturbed_blocks: u32,
+    /// All blocks.
+    pub blocks: u32,
+    /// Mean time per question in batches, nanoseconds; absent without batches.
+    pub warm_ns: Option<f64>,
+    /// Questions in batches.
+    pub warm_n: u32,
+    /// The integrity checks for which there was enough to go by.
+    pub checks: Vec<TimingCheck>,
+}
+
+/// One integrity check.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct TimingCheck {
+    /// Name of the check.
+    pub check: String,
+    /// What was measured.
+    pub found: f64,
+    /// What honest plugins stay within.
+    pub allowed: [f64; 2],
 }
 
 /// What results from before there were profiles were measured in.

@@ -33,6 +33,9 @@ pub struct Checked {
     pub configurations: u64,
 }
 
+/// Seeds are below this, so that a reader with 64-bit floating-point numbers keeps them.
+const MAX_SEED: u64 = 1 << 53;
+
 /// Checks everything that can be known before any work.
 pub async fn check(
     spec: &RunSpec,
@@ -50,6 +53,11 @@ pub async fn check(
             "The measuring time per algorithm must be more than 0 and at most {MAX_BUDGET_SECONDS} seconds, not {}.",
             spec.budget_seconds
         ));
+    }
+    if spec.seed.is_some_and(|seed| seed >= MAX_SEED) {
+        return invalid(
+            "The seed must be a whole number below 2^53 (9007199254740992); leave it out to have one drawn.".into(),
+        );
     }
     let configurations = set_size(spec, store, blobs).await?;
     let contestants = contestants(spec, registry)?;
@@ -143,6 +151,15 @@ fn contestants(spec: &RunSpec, registry: &Registry) -> Result<Vec<Arc<Contestant
         }
     }
     Ok(chosen)
+}
+
+/// Our own algorithms that others are compared with, in the order of preference.
+const REFERENCES: [&str; 2] = ["box-tree", "brute-force"];
+
+/// The reference of a run: the first that answers its question and was built from our own sources.
+pub fn reference(spec: &RunSpec, registry: &Registry) -> Option<Arc<Contestant>> {
+    let known = REFERENCES.iter().filter_map(|id| registry.contestant(id));
+    known.into_iter().find(|c| c.trusted && answers(&c.info, spec))
 }
 
 fn answers(algorithm: &AlgorithmInfo, spec: &RunSpec) -> bool {

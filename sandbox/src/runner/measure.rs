@@ -1,12 +1,12 @@
 //! The timed region: what happens between the supervisor's question and the committed answer.
 //!
 //! The official clock starts when the question is released and stops when the answer's number is seen, both in the
-//! supervisor. So this file keeps what lies around the plugin's call short and the same for all of them, and
-//! [`Measured::null`] does exactly that without the call; its median is subtracted.
+//! supervisor. So this file keeps what lies around the plugin's call short and the same for all of them. The null plugin
+//! is called the same way and does nothing; its median is subtracted.
 
 use ocb_core::query::Semantics;
 use ocb_sandbox::gate::{self, Inspection};
-use ocb_sandbox::protocol::{Command, answer, slot};
+use ocb_sandbox::protocol::{CALIBRATION_STEPS, Command, answer, slot};
 use opencollbench_plugin::raw::contacts::{Contact, ContactsRequest, ContactsResult};
 use opencollbench_plugin::raw::counters::Counts;
 use opencollbench_plugin::raw::distance::{DistanceRequest, DistanceResult};
@@ -48,17 +48,18 @@ impl Measured {
         }
     }
 
-    /// The round trip without a plugin's call.
-    #[inline(never)]
-    pub fn null(&self, shared: &Shared) {
-        let poses = shared.poses();
-        self.guarded(|| std::hint::black_box(&poses).len());
-    }
-
     /// Does what is asked and fills the slot.
-    pub fn obey(&mut self, command: Command, shared: &Shared, slot: &mut Slot) -> Result<(), Failure> {
+    pub fn obey(&mut self, command: Command, shared: &Shared, question: usize, slot: &mut Slot) -> Result<(), Failure> {
         match command {
-            Command::Null | Command::CloseListener => Ok(()),
+            Command::CloseListener => Ok(()),
+            Command::Null => {
+                self.call_collide(null_plugin, shared, question, slot);
+                Ok(())
+            }
+            Command::Calibrate => {
+                multiply(CALIBRATION_STEPS);
+                Ok(())
+            }
             Command::Inspect => {
                 let json = serde_json::to_vec(&self.inspect()?).map_err(|e| Failure::not_loaded(e.to_string()))?;
                 shared.say(slot, &json);
@@ -72,12 +73,12 @@ impl Measured {
                 slot[slot::STATUS] = raw::UNSUPPORTED as u64;
                 Ok(())
             }
-            Command::CollisionFirst => self.collide(shared, slot, false),
-            Command::CountCollisionFirst => self.collide(shared, slot, true),
-            Command::CollisionAll => self.contacts(shared, slot, false),
-            Command::CountCollisionAll => self.contacts(shared, slot, true),
-            Command::Proximity => self.distance(shared, slot, false),
-            Command::CountProximity => self.distance(shared, slot, true),
+            Command::CollisionFirst => self.collide(shared, question, slot, false),
+            Command::CountCollisionFirst => self.collide(shared, question, slot, true),
+            Command::CollisionAll => self.contacts(shared, question, slot, false),
+            Command::CountCollisionAll => self.contacts(shared, question, slot, true),
+            Command::Proximity => self.distance(shared, question, slot, false),
+            Command::CountProximity => self.distance(shared, question, slot, true),
         }
     }
 
@@ -160,35 +161,50 @@ impl Measured {
         }
     }
 
-    fn collide(&self, shared: &Shared, slot: &mut Slot, counted: bool) -> Result<(), Failure> {
+    fn collide(&self, shared: &Shared, question: usize, slot: &mut Slot, counted: bool) -> Result<(), Failure> {
         let algorithm = self.algorithm()?;
-        let poses = shared.poses();
-        let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
-        let ([a, b], request) = (self.objects, CollideRequest { flags: self.flags, ..CollideRequest::new() });
-        let mut result = CollideResult::new();
-        let counting = algorithm.counters.and_then(|c| c.count_collide).filter(|_| counted);
-        let mut counts = Counts::new(std::ptr::null_mut(), std::ptr::null_mut());
-        let status = match (counting, algorithm.raw.collide) {
-            // SAFETY: by plugin.h: objects of this instance, 16 numbers per pose, live request, result and counts.
-            (Some(call), _) => self.guarded(|| unsafe {
-                call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result, &raw mut counts)
-            }),
-            // SAFETY: as above.
-            (None, Some(call)) => self
-                .guarded(|| unsafe { call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result) }),
-            (None, None) => raw::UNSUPPORTED,
+        let Some(call) = algorithm.counters.and_then(|c| c.count_collide).filter(|_| counted) else {
+            let Some(call) = algorithm.raw.collide else {
+                slot[slot::STATUS] = raw::UNSUPPORTED as u64;
+                return Ok(());
+            };
+            let status = self.call_collide(call, shared, question, slot);
+            return self.said_error(status, "collide");
         };
-        slot[slot::HIT_OR_FLAGS] = result.hit.into();
-        slot[slot::TRIANGLES] = result.triangle_a.into();
-        slot[slot::TRIANGLES + 1] = result.triangle_b.into();
+        let poses = shared.poses(question);
+        let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
+        let ([a, b], request) =
+            (self.ordered(shared, question), CollideRequest { flags: self.flags, ..CollideRequest::new() });
+        let mut result = CollideResult::new();
+        let mut counts = Counts::new(std::ptr::null_mut(), std::ptr::null_mut());
+        // SAFETY: by plugin.h: objects of this instance, 16 numbers per pose, live request, result and counts.
+        let status = self.guarded(|| unsafe {
+            call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result, &raw mut counts)
+        });
+        fill_collision(slot, status, &result);
         self.conclude(slot, status, &counts, "collide")
     }
 
-    fn contacts(&self, shared: &Shared, slot: &mut Slot, counted: bool) -> Result<(), Failure> {
-        let algorithm = self.algorithm()?;
-        let poses = shared.poses();
+    /// The call that null plugin and plugins have in common.
+    #[inline(never)]
+    fn call_collide(&self, call: Collide, shared: &Shared, question: usize, slot: &mut Slot) -> raw::Status {
+        let poses = shared.poses(question);
         let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
-        let [a, b] = self.objects;
+        let ([a, b], request) =
+            (self.ordered(shared, question), CollideRequest { flags: self.flags, ..CollideRequest::new() });
+        let mut result = CollideResult::new();
+        // SAFETY: by plugin.h: objects of this instance, 16 numbers per pose, live request and result.
+        let status =
+            self.guarded(|| unsafe { call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result) });
+        fill_collision(slot, status, &result);
+        status
+    }
+
+    fn contacts(&self, shared: &Shared, question: usize, slot: &mut Slot, counted: bool) -> Result<(), Failure> {
+        let algorithm = self.algorithm()?;
+        let poses = shared.poses(question);
+        let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
+        let [a, b] = self.ordered(shared, question);
         let buffer = shared.answer.address(answer::CONTACTS).cast::<Contact>();
         let request = ContactsRequest::new(buffer, answer::CONTACT_CAPACITY as u64);
         let mut result = ContactsResult::new();
@@ -208,11 +224,12 @@ impl Measured {
         self.conclude(slot, status, &counts, "contacts")
     }
 
-    fn distance(&self, shared: &Shared, slot: &mut Slot, counted: bool) -> Result<(), Failure> {
+    fn distance(&self, shared: &Shared, question: usize, slot: &mut Slot, counted: bool) -> Result<(), Failure> {
         let algorithm = self.algorithm()?;
-        let poses = shared.poses();
+        let poses = shared.poses(question);
         let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
-        let ([a, b], request) = (self.objects, DistanceRequest { flags: self.flags, ..DistanceRequest::new() });
+        let ([a, b], request) =
+            (self.ordered(shared, question), DistanceRequest { flags: self.flags, ..DistanceRequest::new() });
         let mut result = DistanceResult::new();
         let counting = algorithm.counters.and_then(|c| c.count_distance).filter(|_| counted);
         let mut counts = Counts::new(std::ptr::null_mut(), std::ptr::null_mut());
@@ -236,11 +253,22 @@ impl Measured {
         self.conclude(slot, status, &counts, "distance")
     }
 
+    /// The object that stands first in a question, and the one that stands second.
+    #[inline]
+    fn ordered(&self, shared: &Shared, question: usize) -> [*mut Object; 2] {
+        let [a, b] = self.objects;
+        if shared.swapped(question) { [b, a] } else { [a, b] }
+    }
+
     fn conclude(&self, slot: &mut Slot, status: raw::Status, counts: &Counts, what: &str) -> Result<(), Failure> {
         slot[slot::STATUS] = u64::from(status as u32);
         slot[slot::COUNTS] = counts.flags.into();
         slot[slot::COUNTS + 1] = counts.bv_tests;
         slot[slot::COUNTS + 2] = counts.primitive_tests;
+        self.said_error(status, what)
+    }
+
+    fn said_error(&self, status: raw::Status, what: &str) -> Result<(), Failure> {
         if status == raw::ERROR {
             return Err(self.algorithm()?.said(self.instance, &format!("{what} returned OCB_ERROR")));
         }
@@ -270,6 +298,50 @@ impl Measured {
             );
         }
         result
+    }
+}
+
+/// `collide` of plugin.h.
+type Collide = unsafe extern "C" fn(
+    *mut Instance,
+    *mut Object,
+    *const f64,
+    *mut Object,
+    *const f64,
+    *const CollideRequest,
+    *mut CollideResult,
+) -> raw::Status;
+
+/// The plugin that does nothing.
+unsafe extern "C" fn null_plugin(
+    _: *mut Instance,
+    _: *mut Object,
+    _: *const f64,
+    _: *mut Object,
+    _: *const f64,
+    _: *const CollideRequest,
+    _: *mut CollideResult,
+) -> raw::Status {
+    raw::OK
+}
+
+fn fill_collision(slot: &mut Slot, status: raw::Status, result: &CollideResult) {
+    slot[slot::STATUS] = u64::from(status as u32);
+    slot[slot::HIT_OR_FLAGS] = result.hit.into();
+    slot[slot::TRIANGLES] = result.triangle_a.into();
+    slot[slot::TRIANGLES + 1] = result.triangle_b.into();
+}
+
+/// Each product waits for the one before, so that it takes so many cycles, whatever else the processor can do.
+#[inline(never)]
+fn multiply(steps: u32) {
+    // SAFETY: two registers of its own.
+    unsafe {
+        core::arch::asm!(
+            "2:", "imul {x}, {x}, 3", "dec {n:e}", "jnz 2b",
+            x = inout(reg) 3u64 => _, n = inout(reg) steps => _,
+            options(nomem, nostack)
+        );
     }
 }
 

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use ocb_sandbox::confine::{ConfineError, close_from, harden};
 use ocb_sandbox::control::{Control, Report};
 use ocb_sandbox::doorbell::{futex_wait, futex_wake};
-use ocb_sandbox::protocol::{Command, SLOT_WORDS, answer, request, slot};
+use ocb_sandbox::protocol::{Command, MAX_BATCH, SLOT_WORDS, answer, request, slot};
 use ocb_sandbox::seccomp;
 use ocb_sandbox::shared::Segment;
 use ocb_sandbox::trial::TrialHead;
@@ -112,21 +112,29 @@ fn serve(shared: &Shared, mut state: Measured, listener: i32) -> ! {
     let mut number = 0;
     loop {
         number = shared.next(number);
-        let mut slot = [0; SLOT_WORDS];
-        match Command::from_word(shared.request.u64(request::COMMAND).load(Ordering::Relaxed)) {
-            Some(Command::Null) => state.null(shared),
-            Some(Command::CloseListener) => {
-                // SAFETY: our own descriptor, closed once.
-                unsafe { libc::close(listener) };
-            }
-            Some(command) => {
-                if let Err(failure) = state.obey(command, shared, &mut slot) {
-                    shared.fail(&mut slot, failure);
-                }
-            }
-            None => shared.fail(&mut slot, Failure::error("the runner does not know this command")),
+        let command = Command::from_word(shared.request.u64(request::COMMAND).load(Ordering::Relaxed));
+        if command == Some(Command::CloseListener) {
+            // SAFETY: our own descriptor, closed once.
+            unsafe { libc::close(listener) };
         }
-        shared.commit(number, &slot);
+        let questions = shared.request.u64(request::QUESTIONS).load(Ordering::Relaxed) as usize;
+        for question in 0..questions.clamp(1, MAX_BATCH) {
+            let mut slot = [0; SLOT_WORDS];
+            let done = match command {
+                Some(command) => state.obey(command, shared, question, &mut slot),
+                None => Err(Failure::error("the runner does not know this command")),
+            };
+            let failed = done.is_err();
+            if let Err(failure) = done {
+                shared.fail(&mut slot, failure);
+            }
+            shared.answer.store(answer::SLOT + answer::SLOT_STRIDE * question, &slot);
+            // There is one text, so the first failure ends a batch.
+            if failed {
+                break;
+            }
+        }
+        shared.commit(number);
     }
 }
 
@@ -158,10 +166,9 @@ impl Shared {
         }
     }
 
-    /// Publishes the answer to command `number`.
+    /// Publishes the answers to command `number`.
     #[inline]
-    fn commit(&self, number: u32, slot: &Slot) {
-        self.answer.store(answer::SLOT, slot);
+    fn commit(&self, number: u32) {
         let word = self.answer.u32(answer::NUMBER);
         word.swap(number, Ordering::SeqCst);
         if self.request.u32(request::SUPERVISOR_SLEEPS).load(Ordering::SeqCst) != 0 {
@@ -182,12 +189,18 @@ impl Shared {
         slot[slot::TEXT_LEN] = text.len() as u64;
     }
 
-    /// The poses of the current command.
+    /// The poses of one question of the current command.
     #[inline]
-    pub fn poses(&self) -> [f64; 32] {
+    pub fn poses(&self, question: usize) -> [f64; 32] {
         let mut words = [0; 32];
-        self.request.load(request::POSES, &mut words);
+        self.request.load(request::POSES + request::POSES_STRIDE * question, &mut words);
         words.map(f64::from_bits)
+    }
+
+    /// Does this question put object B first?
+    #[inline]
+    pub fn swapped(&self, question: usize) -> bool {
+        self.request.u64(request::SWAPPED).load(Ordering::Relaxed) >> question & 1 == 1
     }
 
     /// The head of the trial.

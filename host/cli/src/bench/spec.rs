@@ -87,6 +87,7 @@ fn spec(args: &BenchArgs, query: Query, method: Method, object_a: String, object
         algorithms: args.algorithm.clone(),
         passes: args.passes,
         budget_seconds: args.budget,
+        seed: args.run_seed,
     }
 }
 

@@ -4,13 +4,15 @@ use ocb_core::configuration::{Class, Method, Separation};
 use ocb_core::record::Verdict;
 use ocb_core::resolution::{Resolution, Threshold};
 use ocb_engine::Profile;
-use ocb_engine::model::{Agreement, AlgorithmResult, ContactQuality, Estimated, RunInfo, RunSpec, SetInfo};
+use ocb_engine::model::{Agreement, AlgorithmResult, ContactQuality, Estimated, RunInfo, RunSpec, SetInfo, Timing};
 
 use crate::{output, plugin, run, units};
 
-const HEADINGS: [&str; 12] = [
+const HEADINGS: [&str; 14] = [
+    "rank",
     "algorithm",
     "n of N",
+    "to reference",
     "median",
     "p95",
     "max",
@@ -29,10 +31,17 @@ pub fn summary(run: &RunInfo) -> String {
     text.extend(run.set.as_ref().map(set));
     let rows: Vec<Vec<String>> = run.results.iter().map(row).collect();
     if !rows.is_empty() {
-        text.push(output::table(&HEADINGS, rows, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10]));
+        text.push(output::table(&HEADINGS, rows, &[0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]));
         text.push(
             "Times per query with 95 % interval, tests are means per query, build is of both structures.".to_owned(),
         );
+        text.extend(run.environment.as_ref().and_then(|machine| machine.reference.as_ref()).map(|reference| {
+            format!(
+                "Ranks go by the mean ratio to {} on the same configurations in the same rounds; overlapping intervals (95 %, \
+                 over the processes) are ties. What failed or was wrong has no rank.",
+                reference.algorithm
+            )
+        }));
         text.push(
             "eps* is the largest distance or margin, as a share of the scene's size, at which an answer is wrong; with <, \
              none is, down to this."
@@ -44,6 +53,7 @@ pub fn summary(run: &RunInfo) -> String {
         let null = units::time(machine.null_ns.value);
         let (cpu, class, clock) = (&machine.cpu, &machine.hardware_class, &machine.clock);
         text.push(format!("Measured on {cpu} (class {class}), clock {clock}, null round trip {null} subtracted."));
+        text.extend(machine.draw.as_ref().map(|draw| format!("Repeat it with --run-seed {}.", draw.seed)));
         if machine.profile != Profile::Production.as_str() {
             text.push(format!("UNRANKED: measured in the profile '{}'.", machine.profile));
         }
@@ -105,8 +115,10 @@ fn row(result: &AlgorithmResult) -> Vec<String> {
         result.time.as_ref().map_or_else(dash, |summary| interval(&of(summary)))
     };
     vec![
+        result.rank.map_or_else(dash, |rank| rank.to_string()),
         result.algorithm.clone(),
         format!("{} of {}", result.n, result.of),
+        result.ratio.map_or_else(dash, |Estimated { value, lo, hi }| format!("{value:.3} [{lo:.3}, {hi:.3}]")),
         time(|t| t.median_ns),
         time(|t| t.p95_ns),
         time(|t| t.max_ns),
@@ -183,6 +195,10 @@ fn note(result: &AlgorithmResult) -> Option<String> {
     parts.extend(result.contacts.iter().map(contacts));
     if let Some(below) = result.time.map(|time| time.below_resolution).filter(|below| *below > 0) {
         parts.push(format!("{below} times below the clock's resolution"));
+    }
+    if let Some(timing) = result.timing.as_ref().filter(|timing| 2 * timing.disturbed_blocks > timing.blocks) {
+        let Timing { disturbed_blocks, blocks, .. } = timing;
+        parts.push(format!("{disturbed_blocks} of {blocks} blocks of questions were disturbed: this machine is busy"));
     }
     (!parts.is_empty()).then(|| format!("{}: {}.", result.algorithm, parts.join("; ").trim_end_matches('.')))
 }

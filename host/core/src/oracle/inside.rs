@@ -13,6 +13,7 @@ use super::triangle::Triangle;
 use super::{Shape, U64};
 use crate::bvh::power_of_two_above;
 use crate::configuration::Containment;
+use crate::numbers::Numbers;
 use crate::pose::Pose;
 
 /// Poses further than this from a rotation (largest entry of `M^T M - 1`) are not taken back to the object's frame.
@@ -181,16 +182,12 @@ fn direction_vector(direction: [i32; 3]) -> Vector3<f64> {
     Vector3::from(direction.map(f64::from))
 }
 
-/// Directions without end, none of them special (SplitMix64).
+/// Directions without end, none of them special.
 fn directions() -> impl Iterator<Item = [i32; 3]> {
-    let mut state = 0x0cb_5eed_u64;
+    let mut numbers = Numbers::new(0x0cb_5eed);
     std::iter::repeat_with(move || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
+        let bits = numbers.bits();
         // Odd numbers of 16 bits: never 0.
-        [0, 16, 32].map(|shift| (((z >> shift) as i32 & 0xffff) - 0x8000) | 1)
+        [0, 16, 32].map(|shift| (((bits >> shift) as i32 & 0xffff) - 0x8000) | 1)
     })
 }

@@ -90,11 +90,10 @@ fn quantile_intervals_do_not_underflow() {
 #[test]
 fn quantile_intervals_cover_as_promised() {
     // 2,000 samples of 61 uniform numbers: the true median 0.5 must be inside about 95 % of the time.
-    let mut state = 1;
+    let mut numbers = Numbers::new(1);
     let covered = (0..2_000)
         .filter(|_| {
-            let mut sample: Vec<f64> =
-                (0..61).map(|_| below(&mut state, 1 << 40) as f64 / (1u64 << 40) as f64).collect();
+            let mut sample: Vec<f64> = (0..61).map(|_| numbers.below(1 << 40) as f64 / (1u64 << 40) as f64).collect();
             sample.sort_unstable_by(f64::total_cmp);
             let (lo, hi) = quantile_interval(&sample, 0.5);
             lo <= 0.5 && 0.5 <= hi

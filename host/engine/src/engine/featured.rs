@@ -39,6 +39,7 @@ impl Engine {
             algorithms: Vec::new(),
             passes: 3,
             budget_seconds: BUDGET_SECONDS,
+            seed: None,
         };
         self.queue(spec, None, BACKGROUND, true).await?;
         Ok(())

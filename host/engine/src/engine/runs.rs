@@ -6,7 +6,7 @@ use super::{Engine, INTERACTIVE};
 use crate::model::{RunInfo, RunSpec, State};
 use crate::runlog::{fresh_stages, plain_event};
 use crate::store::{RunRow, now_us};
-use crate::{EngineError, Result, dispatcher, estimate};
+use crate::{EngineError, Result, dispatcher, draw, estimate};
 
 /// Longest list of runs.
 const MAX_LIST: i64 = 200;
@@ -41,6 +41,7 @@ impl Engine {
             set: None,
             set_blob: None,
             environment: None,
+            secret: Some(draw::secret()),
             expected_seconds: expected.total_seconds,
             created_us: now_us(),
             finished_us: None,
@@ -114,16 +115,17 @@ impl Engine {
             mine: viewer.is_some() && row.owner.as_deref() == viewer,
             runs_ahead,
             id: row.id,
-            spec: row.spec,
             object_a_name: row.object_a_name,
             object_b_name: row.object_b_name,
             state: row.state,
             message: row.message,
             set: row.set,
             environment: row.environment,
+            commitment: row.secret.as_deref().filter(|_| row.spec.seed.is_none()).map(draw::commitment),
             attempts: row.attempts,
             created_us: row.created_us,
             finished_us: row.finished_us,
+            spec: row.spec,
         })
     }
 }

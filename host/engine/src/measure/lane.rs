@@ -9,9 +9,10 @@ use ocb_core::query::{Answer, Counters, Query, Semantics};
 use ocb_core::record::Record;
 use ocb_core::statistics::Statistic;
 use ocb_core::validation::{Judged, Precision, Terms, judge};
-use ocb_sandbox::{ClockFacts, Ending, Sample, Session};
+use ocb_sandbox::{ClockFacts, Ending, Observation, Outcome, PassFacts, Session, integrity};
 use rayon::prelude::*;
 
+use super::outcome_info;
 use crate::model::{AlgorithmInfo, OutcomeInfo};
 use crate::registry::Contestant;
 
@@ -27,18 +28,19 @@ pub struct Lane {
     pub spent: Duration,
     cells: Vec<Cell>,
     unjudged: Vec<(u32, Answer)>,
+    passes: Vec<PassFacts>,
     build_ns: Vec<f64>,
     memory_bytes: Option<u64>,
     clocks: Vec<ClockFacts>,
     layers: Vec<String>,
-    disturbed: u64,
     outcome: Option<OutcomeInfo>,
 }
 
 /// One configuration.
 #[derive(Default)]
 struct Cell {
-    times: Vec<f64>,
+    /// Round and official time, nanoseconds.
+    times: Vec<(u32, f64)>,
     below: u32,
     /// The first answer, or the first with a graver verdict.
     judged: Option<(Answer, Judged)>,
@@ -77,10 +79,12 @@ pub struct Measured {
     pub memory_bytes: Option<u64>,
     /// The clock of each process.
     pub clocks: Vec<ClockFacts>,
+    /// What each timed pass showed.
+    pub passes: Vec<PassFacts>,
     /// Layers of the jail.
     pub layers: Vec<String>,
-    /// Questions repeated because of a disturbance.
-    pub disturbed: u64,
+    /// Round and time of every official time, by configuration.
+    pub times: Vec<Vec<(u32, f64)>>,
     /// Wall seconds per question with everything around it.
     pub seconds_per_query: Option<f64>,
 }
@@ -98,8 +102,8 @@ impl Lane {
             build_ns: Vec::new(),
             memory_bytes: None,
             clocks: Vec::new(),
+            passes: Vec::new(),
             layers: Vec::new(),
-            disturbed: 0,
             outcome: None,
         }
     }
@@ -126,24 +130,43 @@ impl Lane {
         self.memory_bytes = self.memory_bytes.max(ending.memory_peak_bytes);
     }
 
-    /// A timed answer.
-    pub fn time(&mut self, configuration: u32, sample: Sample) {
-        let cell = &mut self.cells[configuration as usize];
-        cell.times.push(sample.time_ns);
-        cell.below += u32::from(sample.below_resolution);
-        self.disturbed += u64::from(sample.disturbed);
-        self.answered(configuration, sample.answer);
+    /// An answer of a timed pass, in the original's numbers.
+    pub fn observe(&mut self, round: u32, seen: Observation) {
+        if let Some(time) = seen.time {
+            let cell = &mut self.cells[seen.configuration as usize];
+            cell.times.push((round, time.ns));
+            cell.below += u32::from(time.below_resolution);
+            self.done += 1;
+        }
+        self.answered(seen.configuration, seen.answer);
+    }
+
+    /// A timed pass is over.
+    pub fn end_pass(&mut self, facts: PassFacts) {
+        self.passes.push(facts);
+    }
+
+    /// The times of this round do not count: the machine was taken away from it. Its answers do.
+    pub fn forget(&mut self, round: u32) {
+        self.passes.pop();
+        for cell in &mut self.cells {
+            let before = cell.times.len();
+            cell.times.retain(|(of, _)| *of != round);
+            // At most one time of a round is in a cell.
+            cell.below = cell.below.min(cell.times.len() as u32);
+            self.done -= (before - cell.times.len()) as u64;
+        }
     }
 
     /// An answer of the untimed pass.
     pub fn count(&mut self, configuration: u32, answer: Answer, counters: Option<Counters>) {
         self.cells[configuration as usize].counters = counters;
+        self.done += 1;
         self.answered(configuration, answer);
     }
 
     /// The answer that was judged in an earlier pass needs no second look; every other one does.
     fn answered(&mut self, configuration: u32, answer: Answer) {
-        self.done += 1;
         let known = self.cells[configuration as usize].judged.as_ref();
         if known.is_none_or(|(known, _)| *known != answer) {
             self.unjudged.push((configuration, answer));
@@ -161,14 +184,18 @@ impl Lane {
         }
     }
 
-    /// The medians over the passes.
-    pub fn into_measured(self) -> Measured {
+    /// The medians over the passes. Times that do not fit together are not believed, and that is its outcome.
+    pub fn into_measured(mut self) -> Measured {
+        if let (None, Some(finding)) = (&self.outcome, integrity::violated(&self.passes)) {
+            self.end(outcome_info(&Outcome::TimingIntegrity { finding }));
+        }
         let of = self.cells.len();
         let queries: usize = self.cells.iter().map(|c| c.times.len()).sum();
-        let mut records = Vec::new();
-        for (configuration, mut cell) in (0..).zip(self.cells) {
+        let (mut records, mut times) = (Vec::new(), Vec::with_capacity(of));
+        for (configuration, cell) in (0..).zip(self.cells) {
             let passes = cell.times.len() as u32;
-            let median = Statistic::Median.of(&mut cell.times);
+            let median = Statistic::Median.of(&mut cell.times.iter().map(|(_, ns)| *ns).collect::<Vec<_>>());
+            times.push(cell.times);
             if let (Some(time_ns), Some((answer, Judged { verdict, contacts }))) = (median, cell.judged) {
                 let below_resolution = 2 * cell.below >= passes;
                 let counters = cell.counters;
@@ -193,8 +220,9 @@ impl Lane {
             build_ns: self.build_ns,
             memory_bytes: self.memory_bytes,
             clocks: self.clocks,
+            passes: self.passes,
             layers: self.layers,
-            disturbed: self.disturbed,
+            times,
             seconds_per_query: (queries > 0).then(|| self.spent.as_secs_f64() / queries as f64),
         }
     }

@@ -1,30 +1,19 @@
 //! The order in which configurations are measured.
 
+use ocb_core::numbers::Numbers;
+
 /// The numbers 0 to n-1 in an order that depends on nothing but the seed: all algorithms share it.
 pub fn shuffled(n: u32, seed: u64) -> Vec<u32> {
     let mut order: Vec<u32> = (0..n).collect();
-    shuffle(&mut order, seed);
+    Numbers::new(seed).shuffle(&mut order);
     order
 }
 
 /// Another order of the same prefix for a later round, so that no configuration always follows the same one.
 pub fn reshuffled(prefix: &[u32], seed: u64, round: u32) -> Vec<u32> {
     let mut order = prefix.to_vec();
-    shuffle(&mut order, seed ^ (u64::from(round) << 32));
+    Numbers::new(seed ^ (u64::from(round) << 32)).shuffle(&mut order);
     order
-}
-
-/// Fisher and Yates with SplitMix64 (Steele, Lea and Flood 2014).
-fn shuffle(order: &mut [u32], seed: u64) {
-    let mut state = seed;
-    for i in (1..order.len()).rev() {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        order.swap(i, ((u128::from(z) * (i as u128 + 1)) >> 64) as usize);
-    }
 }
 
 #[cfg(test)]

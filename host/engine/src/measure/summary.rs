@@ -1,24 +1,23 @@
 //! From what was measured to the numbers of tables and pages.
 
+use ocb_core::comparison::{Comparison, Interval, ranks};
 use ocb_core::configuration::Placed;
 use ocb_core::oracle::Pair;
 use ocb_core::query::{Answer, Query, Semantics};
 use ocb_core::record::{ContactScore, Record, Verdict};
 use ocb_core::resolution::Resolution;
-use ocb_core::statistics::{Statistic, bootstrap_interval, maximum_interval, quantile, quantile_interval};
+use ocb_core::statistics::{Statistic, maximum_interval, quantile, quantile_interval};
 use ocb_core::validation::Terms;
 
-use ocb_sandbox::Profile;
+use ocb_sandbox::{PassFacts, Profile, integrity};
 
 use super::Measured;
 use super::lane::precision;
 use crate::machine::Machine;
 use crate::model::{
-    Agreement, AlgorithmResult, ContactQuality, Environment, Estimated, OutcomeInfo, TimeSummary, VerdictCount,
+    Agreement, AlgorithmInfo, AlgorithmResult, ContactQuality, Draw, Environment, Estimated, OutcomeInfo, Reference,
+    TimeSummary, Timing, TimingCheck, VerdictCount,
 };
-
-/// Seed of the bootstrap: the same times always give the same interval.
-const SEED: u64 = 1;
 
 /// What the answers were given to.
 #[derive(Clone, Copy)]
@@ -34,7 +33,7 @@ pub struct Asked<'a> {
 }
 
 /// The numbers of one algorithm.
-pub fn summarise(measured: &Measured, asked: Asked) -> AlgorithmResult {
+pub fn summarise(measured: &Measured, asked: Asked, compared: Option<Comparison>) -> AlgorithmResult {
     let records = &measured.records;
     let Asked { pair, placed, query, semantics } = asked;
     let terms = Terms { query, semantics, precision: precision(&measured.contestant.info) };
@@ -54,7 +53,10 @@ pub fn summarise(measured: &Measured, asked: Asked) -> AlgorithmResult {
         n: records.len() as u32,
         of: measured.of as u32,
         budget_limited: measured.budget_limited,
-        time: time_summary(measured),
+        time: compared.map(|compared| time_summary(measured, compared.mean_ns.into())),
+        ratio: compared.and_then(|compared| compared.ratio).map(Estimated::from),
+        rank: None,
+        timing: Some(timing(&measured.passes)),
         verdicts: verdicts(measured),
         wrong: records.iter().filter(|r| r.verdict.is_wrong()).count() as u32,
         grazing: agreement(records, asked),
@@ -104,22 +106,51 @@ fn contact_quality(records: &[Record]) -> Option<ContactQuality> {
     })
 }
 
-fn time_summary(measured: &Measured) -> Option<TimeSummary> {
+fn time_summary(measured: &Measured, mean_ns: Estimated) -> TimeSummary {
     let mut times: Vec<f64> = measured.records.iter().map(|r| r.time_ns).collect();
-    if times.is_empty() {
-        return None;
-    }
     times.sort_unstable_by(f64::total_cmp);
-    let mean = |values: &mut [f64]| values.iter().sum::<f64>() / values.len() as f64;
     let of = |value: f64, (lo, hi): (f64, f64)| Estimated { value, lo, hi };
     let at = |q: f64| of(quantile(&times, q), quantile_interval(&times, q));
-    Some(TimeSummary {
-        mean_ns: of(mean(&mut times.clone()), bootstrap_interval(&times, mean, SEED)),
+    TimeSummary {
+        mean_ns,
         median_ns: at(0.5),
         p95_ns: at(0.95),
         max_ns: of(times[times.len() - 1], maximum_interval(&times)),
         below_resolution: measured.records.iter().filter(|r| r.below_resolution).count() as u32,
-    })
+    }
+}
+
+fn timing(passes: &[PassFacts]) -> Timing {
+    let sum = |of: fn(&PassFacts) -> u32| passes.iter().map(of).sum::<u32>();
+    let warm_n = sum(|pass| pass.batched);
+    let warm_ns: f64 = passes.iter().map(|pass| pass.batched_ns).sum();
+    let check = |finding: integrity::Finding| TimingCheck {
+        check: finding.check.name().into(),
+        found: finding.found,
+        allowed: finding.check.allowed(),
+    };
+    Timing {
+        processes: passes.len() as u32,
+        disturbed_blocks: sum(|pass| pass.blocks[1]),
+        blocks: sum(|pass| pass.blocks[0]),
+        warm_ns: (warm_n > 0).then(|| warm_ns / f64::from(warm_n)),
+        warm_n,
+        checks: integrity::measured(passes).into_iter().map(check).collect(),
+    }
+}
+
+/// Ranks what may be ranked: every question answered, nothing wrong, under all layers of the jail.
+pub fn rank(results: &mut [AlgorithmResult], profile: Profile) {
+    let fair = |r: &AlgorithmResult| {
+        let silent = r.verdicts.iter().any(|v| v.verdict.is_silent());
+        profile == Profile::Production && r.outcome.name == "Completed" && r.n > 0 && r.wrong == 0 && !silent
+    };
+    let ratio =
+        |r: &AlgorithmResult| r.ratio.filter(|_| fair(r)).map(|r| Interval { value: r.value, lo: r.lo, hi: r.hi });
+    let ratios: Vec<Option<Interval>> = results.iter().map(ratio).collect();
+    for (result, rank) in results.iter_mut().zip(ranks(&ratios)) {
+        result.rank = rank;
+    }
 }
 
 fn verdicts(measured: &Measured) -> Vec<VerdictCount> {
@@ -129,7 +160,13 @@ fn verdicts(measured: &Measured) -> Vec<VerdictCount> {
 }
 
 /// The machine and its clock while all this was measured; absent when no runner came as far as its clock.
-pub fn environment(machine: &Machine, profile: Profile, all: &[Measured]) -> Option<Environment> {
+pub fn environment(
+    machine: &Machine,
+    profile: Profile,
+    all: &[&Measured],
+    reference: Option<&AlgorithmInfo>,
+    draw: Draw,
+) -> Option<Environment> {
     let clocks: Vec<_> = all.iter().flat_map(|m| &m.clocks).collect();
     let median = |of: fn(&ocb_sandbox::ClockFacts) -> f64| {
         Statistic::Median.of(&mut clocks.iter().map(|c| of(c)).collect::<Vec<_>>())
@@ -146,9 +183,22 @@ pub fn environment(machine: &Machine, profile: Profile, all: &[Measured]) -> Opt
             lo: median(|c| c.null_p05_ns)?,
             hi: median(|c| c.null_p95_ns)?,
         },
-        disturbed: all.iter().map(|m| m.disturbed).sum(),
+        disturbed: all.iter().flat_map(|m| &m.passes).map(|pass| u64::from(pass.disturbed)).sum(),
+        calibration_ns: calibration(all),
+        reference: reference
+            .map(|info| Reference { algorithm: info.id.clone(), plugin_sha256: info.plugin_sha256.clone() }),
+        draw: Some(draw),
         jail: all.iter().find(|m| !m.layers.is_empty()).map(|m| m.layers.clone()).unwrap_or_default(),
         profile: profile.as_str().into(),
         version: env!("CARGO_PKG_VERSION").into(),
     })
+}
+
+/// The speed of the measuring CPU over all passes; nothing when there was none.
+fn calibration(all: &[&Measured]) -> Option<Estimated> {
+    let passes = || all.iter().flat_map(|m| &m.passes);
+    let at = |i: usize| passes().map(move |pass| pass.calibration_ns[i]);
+    let value = Statistic::Median.of(&mut at(1).collect::<Vec<_>>())?;
+    let (lo, hi) = (at(0).fold(f64::INFINITY, f64::min), at(2).fold(0.0, f64::max));
+    Some(Estimated { value, lo, hi })
 }

@@ -36,6 +36,8 @@ pub struct RunRow {
     pub set_blob: Option<String>,
     /// The machine, once measured.
     pub environment: Option<Environment>,
+    /// What its seed is drawn from; absent in runs of older versions.
+    pub secret: Option<String>,
     /// What it was expected to take when it was asked for.
     pub expected_seconds: f64,
     /// When it was asked for.
@@ -49,7 +51,7 @@ macro_rules! select_runs {
     ($rest:literal) => {
         concat!(
             "SELECT id, owner, featured, priority, state, attempts, message, spec, object_a_name, object_b_name, ",
-            "set_info, set_blob, environment, expected_seconds, created_us, finished_us FROM runs ",
+            "set_info, set_blob, environment, secret, expected_seconds, created_us, finished_us FROM runs ",
             $rest
         )
     };
@@ -61,7 +63,7 @@ impl Store {
         let mut transaction = self.pool.begin().await?;
         sqlx::query(
             "INSERT INTO runs (id, owner, featured, priority, state, attempts, spec, object_a_name, object_b_name, \
-             expected_seconds, created_us) VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10)",
+             secret, expected_seconds, created_us) VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11)",
         )
         .bind(&run.id)
         .bind(run.owner.as_deref())
@@ -71,6 +73,7 @@ impl Store {
         .bind(to_json(&run.spec)?)
         .bind(&run.object_a_name)
         .bind(&run.object_b_name)
+        .bind(run.secret.as_deref())
         .bind(run.expected_seconds)
         .bind(run.created_us)
         .execute(&mut *transaction)
@@ -220,6 +223,7 @@ fn read_run(row: &AnyRow) -> Result<RunRow> {
         set: set.map(|text| from_json(&text)).transpose()?,
         set_blob: row.try_get("set_blob")?,
         environment: environment.map(|text| from_json(&text)).transpose()?,
+        secret: row.try_get("secret")?,
         expected_seconds: row.try_get("expected_seconds")?,
         created_us: row.try_get("created_us")?,
         finished_us: row.try_get("finished_us")?,

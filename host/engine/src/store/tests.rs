@@ -6,8 +6,8 @@ use ocb_core::query::Query;
 use super::*;
 use crate::blobs::tests::from_harness;
 use crate::model::{
-    Agreement, AlgorithmInfo, AlgorithmResult, ClassCount, Environment, Estimated, ObjectInfo, OutcomeInfo, RunSpec,
-    SetInfo, State,
+    Agreement, AlgorithmInfo, AlgorithmResult, ClassCount, Draw, Environment, Estimated, ObjectInfo, OutcomeInfo,
+    Reference, RunSpec, SetInfo, State,
 };
 use crate::runlog::{fresh_stages, plain_event};
 
@@ -116,6 +116,7 @@ fn run(id: &str, owner: Option<&str>, priority: i64, created_us: i64) -> RunRow 
         set: None,
         set_blob: None,
         environment: None,
+        secret: Some("s".into()),
         expected_seconds: 1.5,
         created_us,
         finished_us: None,
@@ -150,6 +151,9 @@ fn result(algorithm: &str, n: u32) -> StoredResult {
             of: 5,
             budget_limited: n < 5,
             time: None,
+            ratio: Some(Estimated { value: 1.0, lo: 0.5, hi: 2.0 }),
+            rank: Some(1),
+            timing: None,
             verdicts: Vec::new(),
             wrong: 0,
             grazing: Agreement::default(),
@@ -245,6 +249,9 @@ mod contract {
             clock: "spin".into(),
             null_ns: Estimated { value: 1.0, lo: 0.5, hi: 2.0 },
             disturbed: 3,
+            calibration_ns: None,
+            reference: Some(Reference { algorithm: "a".into(), plugin_sha256: "p".into() }),
+            draw: Some(Draw { seed: (1 << 53) - 1, secret: Some("s".into()), commitment: Some("c".into()) }),
             jail: vec!["seccomp".into()],
             profile: "dev".into(),
             version: "1".into(),

@@ -444,8 +444,16 @@ export interface components {
              * @description Mean primitive tests per query.
              */
             primitive_tests_mean?: number | null;
+            /**
+             * Format: int32
+             * @description Rank by `ratio`, from 1; algorithms whose intervals overlap are tied. Absent for what failed, gave a wrong answer or
+             *     was measured in the development profile.
+             */
+            rank?: number | null;
+            ratio?: components["schemas"]["Estimated"] | null;
             resolution?: components["schemas"]["Resolution"] | null;
             time?: components["schemas"]["TimeSummary"] | null;
+            timing?: components["schemas"]["Timing"] | null;
             /** @description All answers by verdict (`correct`, `false_negative`, `gave_up`, ...); those that do not occur are left out. */
             verdicts: components["schemas"]["VerdictCount"][];
             /**
@@ -523,6 +531,22 @@ export interface components {
              */
             under?: number | null;
         };
+        /**
+         * @description Where the seed of a run comes from. A drawn one is the first 53 bits of SHA-256 over the text `secret`, followed by the
+         *     SHA-256 of the configuration set and of every plugin file in the run's order; `commitment` is the SHA-256 of `secret`
+         *     and was published when the run was asked for, before anything was measured.
+         */
+        Draw: {
+            /** @description What was published before. */
+            commitment?: string | null;
+            /** @description Revealed with the result; absent when whoever asked for the run chose the seed. */
+            secret?: string | null;
+            /**
+             * Format: int64
+             * @description The seed.
+             */
+            seed: number;
+        };
         /** @description Empirical distribution of the time per query. */
         Ecdf: {
             /** @description Algorithm id. */
@@ -539,6 +563,7 @@ export interface components {
         };
         /** @description The facts of the machine and of the clock, attached to each run. */
         Environment: {
+            calibration_ns?: components["schemas"]["Estimated"] | null;
             /** @description `spin` or `futex`. */
             clock: string;
             /** @description CPU model. */
@@ -550,9 +575,10 @@ export interface components {
             cpus: number;
             /**
              * Format: int64
-             * @description Samples repeated because the clock saw a disturbance.
+             * @description Times that stand although something disturbed the runner at every attempt.
              */
             disturbed: number;
+            draw?: components["schemas"]["Draw"] | null;
             /** @description Hash over what makes times comparable. */
             hardware_class: string;
             /** @description Layers of the jail in force. */
@@ -568,6 +594,7 @@ export interface components {
             null_ns: components["schemas"]["Estimated"];
             /** @description `production`, or `dev`: foreign plugins then ran with what layers the machine had, and nothing of it is ranked. */
             profile?: string;
+            reference?: components["schemas"]["Reference"] | null;
             /** @description Version of this program. */
             version: string;
         };
@@ -808,6 +835,13 @@ export interface components {
          * @enum {string}
          */
         Query: "collision_first" | "collision_all" | "proximity";
+        /** @description The algorithm that takes part in every round of every run. */
+        Reference: {
+            /** @description Algorithm id. */
+            algorithm: string;
+            /** @description SHA-256 (hex) of its plugin file. */
+            plugin_sha256: string;
+        };
         /** @description eps* of one algorithm on one set. */
         Resolution: {
             distance?: components["schemas"]["DistanceError"] | null;
@@ -853,6 +887,11 @@ export interface components {
              * @description Times this run was started (more than 1 after a restart of the service).
              */
             attempts: number;
+            /**
+             * @description SHA-256 of the secret that the seed is drawn from, published before anything is measured; absent when the seed was
+             *     given.
+             */
+            commitment?: string | null;
             /**
              * Format: int64
              * @description When it was asked for.
@@ -909,7 +948,7 @@ export interface components {
             object_b?: string | null;
             /**
              * Format: int32
-             * @description Timed passes per configuration (1 to 99).
+             * @description Fresh processes, with one timed pass over the configurations each (1 to 99).
              */
             passes?: number;
             /** @description The question. */
@@ -919,6 +958,12 @@ export interface components {
              * @description Surface distance divided by L, the longest side of A's bounding box; at least 0.
              */
             relative_distance?: number;
+            /**
+             * Format: int64
+             * @description Seed of everything that is drawn while measuring (order, equivalent instances, blocks), below 2^53; to repeat a
+             *     run. Drawn for every run when absent.
+             */
+            seed?: number | null;
             /** @description What counts as an object: surfaces, or solid bodies, which need closed objects and an algorithm that knows them. */
             semantics?: components["schemas"]["Semantics"];
             /**
@@ -1133,12 +1178,54 @@ export interface components {
             below_resolution: number;
             /** @description Maximum. */
             max_ns: components["schemas"]["Estimated"];
-            /** @description Arithmetic mean. */
+            /** @description Arithmetic mean; its interval is over the processes. */
             mean_ns: components["schemas"]["Estimated"];
-            /** @description Median. */
+            /** @description Median; its interval and the following ones are over the configurations. */
             median_ns: components["schemas"]["Estimated"];
             /** @description 95th percentile. */
             p95_ns: components["schemas"]["Estimated"];
+        };
+        /** @description How the timed passes of one algorithm went. */
+        Timing: {
+            /**
+             * Format: int32
+             * @description All blocks.
+             */
+            blocks: number;
+            /** @description The integrity checks for which there was enough to go by. */
+            checks: components["schemas"]["TimingCheck"][];
+            /**
+             * Format: int32
+             * @description Blocks of questions that were disturbed and asked again, of all.
+             */
+            disturbed_blocks: number;
+            /**
+             * Format: int32
+             * @description Fresh processes.
+             */
+            processes: number;
+            /**
+             * Format: int32
+             * @description Questions in batches.
+             */
+            warm_n: number;
+            /**
+             * Format: double
+             * @description Mean time per question in batches, nanoseconds; absent without batches.
+             */
+            warm_ns?: number | null;
+        };
+        /** @description One integrity check. */
+        TimingCheck: {
+            /** @description What honest plugins stay within. */
+            allowed: number[];
+            /** @description Name of the check. */
+            check: string;
+            /**
+             * Format: double
+             * @description What was measured.
+             */
+            found: number;
         };
         /**
          * @description The comparison of one answer with the oracle.

@@ -16,7 +16,7 @@ describe('toSpec', () => {
     expect(toSpec(form(), ALL)).toEqual({
       spec: {
         object_a: 'stock:bunny', query: 'collision_first', method: { kind: 'sphere', sampling: { kind: 'steps', rotate: 20, move: 20 }, seed: 0 },
-        relative_distance: 0, algorithms: ['both', 'collider'], passes: 3, budget_seconds: 60,
+        relative_distance: 0, algorithms: ['both', 'collider'], passes: 5, budget_seconds: 60,
       },
     })
   })
@@ -120,7 +120,7 @@ it('writes the same run for the command line', () => {
       String.raw`  --query cd --contacts all \ `,
       String.raw`  --method sphere --rotate 20 --move 20 --paper-compat --distance 0 \ `,
       String.raw`  --algorithm both \ `,
-      String.raw`  --passes 3 \ `,
+      String.raw`  --passes 5 \ `,
       '  --budget 60',
     ].map((line) => line.trimEnd()).join('\n'),
   )

@@ -40,7 +40,7 @@ export const PUBLISHED_FRAMES = 5000
 export function initialForm(): BuilderForm {
   return {
     objectA: '', objectB: '', question: 'cd', contacts: 'first', solid: false, method: 'sphere', thoroughness: 'steps', rotate: 20, move: 20,
-    paper: false, count: 2000, seed: 0, poses: '', centerDistance: 1, hitShare: 0.5, separation: 'relative', distance: 0, step: 0.01, passes: 3, budget: 60, off: [],
+    paper: false, count: 2000, seed: 0, poses: '', centerDistance: 1, hitShare: 0.5, separation: 'relative', distance: 0, step: 0.01, passes: 5, budget: 60, off: [],
   }
 }
 

@@ -5,7 +5,7 @@ import { count } from '../ui/format'
 export interface Ranked {
   result: AlgorithmResult
   rank: number
-  /** Shares its place: the intervals of the medians overlap. */
+  /** Shares its place: the intervals of the ratios to the reference overlap. */
   tied: boolean
 }
 
@@ -16,34 +16,19 @@ export interface Ranking {
 }
 
 /**
- * Places by median time. Only an algorithm that ended well, answered everything, nothing of it wrong, and has a time gets a
- * place; those whose interval overlaps that of the best of their group share it.
+ * The places that the service gave. Only an algorithm that ended well, answered everything, nothing of it wrong, and was
+ * compared with the reference gets one.
  */
 export function rank(results: readonly AlgorithmResult[]): Ranking {
   const unranked = results.flatMap((result) => {
     const reason = whyNot(result)
     return reason ? [{ result, reason }] : []
   })
-  const sound = results.filter((result) => !whyNot(result)).toSorted((a, b) => median(a).value - median(b).value)
-  const groups: AlgorithmResult[][] = []
-  for (const result of sound) {
-    const group = groups.at(-1)
-    const best = group?.[0]
-    if (group && best && median(result).lo <= median(best).hi) group.push(result)
-    else groups.push([result])
-  }
-  let place = 1
-  const ranked = groups.flatMap((group) => {
-    const at = place
-    place += group.length
-    return group.map((result) => ({ result, rank: at, tied: group.length > 1 }))
-  })
+  const placed = results.flatMap((result) => (result.rank == null || whyNot(result) ? [] : [{ result, rank: result.rank }]))
+  const ranked = placed
+    .toSorted((a, b) => a.rank - b.rank || (a.result.ratio?.value ?? 0) - (b.result.ratio?.value ?? 0))
+    .map((one) => ({ ...one, tied: placed.filter((other) => other.rank === one.rank).length > 1 }))
   return { ranked, unranked }
-}
-
-function median(result: AlgorithmResult): { value: number; lo: number; hi: number } {
-  const nothing = { value: Number.POSITIVE_INFINITY, lo: Number.POSITIVE_INFINITY, hi: Number.POSITIVE_INFINITY }
-  return result.time?.median_ns ?? nothing
 }
 
 /** Questions to which it gave up or said that it does not answer them. */
@@ -57,5 +42,6 @@ function whyNot(result: AlgorithmResult): string | null {
   if (!result.time) return 'Nothing was measured.'
   const silent = unanswered(result)
   if (silent > 0) return `It gave no answer to ${count(silent)} of ${count(result.n)}: giving up is not wrong, but it is not as fast as it looks.`
+  if (result.rank == null) return 'It was not compared: measured in the development profile, or before there was a reference.'
   return null
 }
