@@ -58,6 +58,9 @@ pub struct Batch {
     pub answers: Vec<Answer>,
 }
 
+/// An answer, with counters where they were asked for and the plugin has them.
+type Counted = (Answer, Option<Counters>);
+
 impl Session {
     pub(crate) fn new(policy: Policy, exchange: Exchange, build_ns: f64, clock: ClockFacts, pinned: Pinned) -> Self {
         let meter = Meter::of(exchange.jail.pid, false);
@@ -149,7 +152,7 @@ impl Session {
         query: Query,
         questions: &[Presented],
         counted: bool,
-    ) -> Result<(Timed, Vec<(Answer, Option<Counters>)>), Outcome> {
+    ) -> Result<(Timed, Vec<Counted>), Outcome> {
         self.guarded(|session| {
             let (exchange, limit) = (&mut session.exchange, session.policy.query_seconds);
             exchange.wake(limit)?;
