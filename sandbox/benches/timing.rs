@@ -3,6 +3,7 @@
 //!
 //! `cargo bench --bench timing -- [REPETITIONS of A/A, default 200]`
 
+use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -56,8 +57,8 @@ fn configurations(n: usize, distance: f64) -> Vec<Configuration> {
     let mut numbers = Numbers::new(1);
     let mut unit = move || numbers.bits() as f64 / 2f64.powi(64);
     let one = |_| {
-        let turn = Rotation3::from_euler_angles(6.28 * unit(), 6.28 * unit(), 6.28 * unit());
-        let way = Rotation3::from_euler_angles(0.0, 3.14 * unit(), 6.28 * unit()) * Vector3::new(distance, 0.0, 0.0);
+        let turn = Rotation3::from_euler_angles(TAU * unit(), TAU * unit(), TAU * unit());
+        let way = Rotation3::from_euler_angles(0.0, PI * unit(), TAU * unit()) * Vector3::new(distance, 0.0, 0.0);
         Configuration { pose_a: Pose::identity(), pose_b: Pose { linear: *turn.matrix(), translation: way } }
     };
     (0..n).map(one).collect()

@@ -106,7 +106,7 @@ pub struct PassFacts {
     /// Time in which nothing was asked, and what the runner computed in it, nanoseconds.
     pub pauses_ns: [f64; 2],
     /// The rest of the pass, and what the runner computed or waited for its CPU in it, nanoseconds; absent where the
-    /// kernel does not count.
+    /// kernel does not count, and with several threads.
     pub busy_ns: Option<[f64; 2]>,
     /// Share of the time that the machine below took from the runner's CPU.
     pub steal: Option<f64>,
@@ -282,7 +282,9 @@ impl Pass<'_, '_> {
         if self.below(REPEAT_EVERY) == 0 && self.repeat()?.is_break() {
             return Ok(ControlFlow::Break(()));
         }
-        if self.pauses < PAUSES && self.below(REPEAT_EVERY) == 0 {
+        // Threads of a library may go on looking for work for a while, which is nobody's answer.
+        let alone = self.session.policy.threads == 1;
+        if alone && self.pauses < PAUSES && self.below(REPEAT_EVERY) == 0 {
             self.pauses += 1;
             let begun = Instant::now();
             if let Some(usage) = self.session.idle(PAUSE) {
@@ -380,6 +382,7 @@ impl Pass<'_, '_> {
         self.facts.calibration_ns = three(self.speeds, [0.05, 0.5, 0.95]);
         self.facts.times_ns = three(self.singles.iter().map(|(_, ns)| *ns).collect(), [0.1, 0.5, 0.9]);
         let used = self.session.usage().zip(before).map(|(now, before)| now.since(before));
+        let used = used.filter(|_| self.session.policy.threads == 1);
         let [paused, computed] = self.facts.pauses_ns;
         let busy_ns = passed.as_nanos() as f64 - paused;
         self.facts.busy_ns = used.map(|used| [busy_ns, used.run_ns + used.delay_ns - computed]);

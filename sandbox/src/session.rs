@@ -63,7 +63,7 @@ type Counted = (Answer, Option<Counters>);
 
 impl Session {
     pub(crate) fn new(policy: Policy, exchange: Exchange, build_ns: f64, clock: ClockFacts, pinned: Pinned) -> Self {
-        let meter = Meter::of(exchange.jail.pid, false);
+        let meter = Meter::of(exchange.jail.pid, policy.threads > 1);
         Self { policy, exchange, build_ns, clock, meter, ended: None, pinned, _thread: PhantomData }
     }
 
@@ -147,12 +147,7 @@ impl Session {
         self.meter.read()
     }
 
-    fn ask(
-        &mut self,
-        query: Query,
-        questions: &[Presented],
-        counted: bool,
-    ) -> Result<(Timed, Vec<Counted>), Outcome> {
+    fn ask(&mut self, query: Query, questions: &[Presented], counted: bool) -> Result<(Timed, Vec<Counted>), Outcome> {
         self.guarded(|session| {
             let (exchange, limit) = (&mut session.exchange, session.policy.query_seconds);
             exchange.wake(limit)?;

@@ -88,9 +88,9 @@ fn a_pass_ends_when_it_shall() {
 fn remembering_is_seen_where_questions_come_again() {
     let order: Vec<u32> = (0..QUESTIONS).collect();
     let facts = pass(&["WORK=20000", "MEMOISES"], &plan(&order), usize::MAX).1;
-    let finding = integrity::violated(&[facts.clone()]);
+    let finding = integrity::violated(std::slice::from_ref(&facts));
     // A machine too busy to measure has nothing to show.
-    let measured = integrity::measured(&[facts.clone()]);
+    let measured = integrity::measured(std::slice::from_ref(&facts));
     let told: Vec<Check> = measured.iter().map(|finding| finding.check).collect();
     if told.contains(&Check::Batches) || told.contains(&Check::Repeats) {
         let check = finding.expect("questions that come again cost it nothing").check;
@@ -99,5 +99,5 @@ fn remembering_is_seen_where_questions_come_again() {
         assert!(2 * facts.blocks[1] > facts.blocks[0], "a quiet machine has batches and repeats: {facts:?}");
     }
     let honest = pass(&["WORK=20000"], &plan(&order), usize::MAX).1;
-    assert_eq!(integrity::violated(&[honest.clone()]), None, "{honest:?}");
+    assert_eq!(integrity::violated(std::slice::from_ref(&honest)), None, "{honest:?}");
 }
