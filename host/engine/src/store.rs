@@ -74,13 +74,13 @@ impl Store {
 
 /// The SQL files, compiled in.
 fn migrations() -> Migrator {
-    Migrator::with_migrations(vec![Migration::new(
-        1,
-        "first".into(),
-        MigrationType::Simple,
-        include_str!("../migrations/0001_first.sql").into_sql_str(),
-        false,
-    )])
+    let one = |version, name: &'static str, text: &'static str| {
+        Migration::new(version, name.into(), MigrationType::Simple, text.into_sql_str(), false)
+    };
+    Migrator::with_migrations(vec![
+        one(1, "first", include_str!("../migrations/0001_first.sql")),
+        one(2, "secret", include_str!("../migrations/0002_secret.sql")),
+    ])
 }
 
 /// Any path works as SQLite URL when its bytes are percent-encoded.
