@@ -40,7 +40,8 @@ impl Check {
             Check::Batches => [0.5, 2.0],
             Check::Repeats => [0.4, 2.5],
             Check::BetweenQueries => [0.0, 0.1],
-            Check::ProcessorTime => [0.5, 1.1],
+            // A runner that is not asked in time goes to sleep, so less says nothing.
+            Check::ProcessorTime => [0.0, 1.1],
             Check::TailShape => [1.0, 2.0],
         }
     }
@@ -160,7 +161,7 @@ mod tests {
         let fast = PassFacts { singles_ns: 5e4, batched_ns: 1e3, repeats: vec![[500.0, 1.0]; 20], ..honest() };
         assert_eq!(violated(&[fast]), None);
         // On a machine that is taken away now and then, processor time says nothing.
-        assert_eq!(violated(&[PassFacts { steal: Some(0.05), busy_ns: Some([100e6, 10e6]), ..honest() }]), None);
+        assert_eq!(violated(&[PassFacts { steal: Some(0.05), busy_ns: Some([100e6, 150e6]), ..honest() }]), None);
     }
 
     #[test]
@@ -171,7 +172,6 @@ mod tests {
             (Check::Repeats, PassFacts { repeats: vec![[1e4, 1e2]; 20], ..honest() }),
             (Check::BetweenQueries, PassFacts { pauses_ns: [16e6, 8e6], ..honest() }),
             (Check::ProcessorTime, PassFacts { busy_ns: Some([100e6, 180e6]), ..honest() }),
-            (Check::ProcessorTime, PassFacts { busy_ns: Some([100e6, 20e6]), ..honest() }),
             (Check::TailShape, PassFacts { times_ns: [1.9e4, 2e4, 2.1e4], ..honest() }),
         ];
         for (check, lie) in lies {
