@@ -95,18 +95,23 @@ impl<A: Distance> Loaded<A> {
     }
 }
 
+/// Takes what a contact list has written into the spare room of a vector.
+pub fn fill(room: &mut Vec<raw::contacts::Contact>, total: usize) {
+    assert!(room.is_empty() && total <= room.capacity(), "{total} contacts");
+    // SAFETY: the list has written its first `total` places.
+    unsafe { room.set_len(total) };
+}
+
 impl<A: Contacts> Loaded<A> {
     /// All contacts in ascending order.
     pub fn contacts(&mut self, pose_a: &Pose, pose_b: &Pose) -> Vec<(u32, u32)> {
         let object = &self.object;
         let (a, b) = (Placed { object, pose: pose_a }, Placed { object, pose: pose_b });
         let mut room: Vec<_> = Vec::with_capacity(1 << 20);
-        let mut found = ContactList::new(&mut room.spare_capacity_mut()[..1 << 20]);
+        let mut found = ContactList::new(room.spare_capacity_mut());
         self.algorithm.contacts(a, b, &mut found, &mut Uncounted).expect("an answer");
         let total = found.total() as usize;
-        assert!(total <= 1 << 20, "{total} contacts");
-        // SAFETY: the list has written its first `total` places.
-        unsafe { room.set_len(total) };
+        fill(&mut room, total);
         let mut pairs: Vec<(u32, u32)> = room.iter().map(|c: &raw::contacts::Contact| (c.a, c.b)).collect();
         pairs.sort_unstable();
         pairs
