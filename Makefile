@@ -51,6 +51,7 @@ check-oracle: ## the oracle against CGAL, integers and planted faults (some 20 m
 
 bench: build ## the algorithms on the torus knot; finding positions against peers (OBJECT=file.obj)
 	$(TARGET)/release/ocb bench stock:torus-knot --query cd --count 2000 --data $(DATA)
+	cargo bench --package ocb-sandbox --bench timing
 	cargo bench --package ocb-tests --bench positions -- $(abspath $(or $(OBJECT),target/stock/dragon.obj))
 
 soak: build ## fuzz the jail's readers, try ten million pairs, then kill and restart the service for MINUTES (10)
