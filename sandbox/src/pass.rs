@@ -7,7 +7,7 @@
 //!
 //! A block is disturbed when the runner had to wait for its CPU, when the CPU was not as fast as in the rest of the pass,
 //! or when the supervisor missed an answer. Its times are not mended: its questions are asked again later, as other
-//! instances, at most [`ATTEMPTS`] times in all; what then stands is marked.
+//! instances, at most three times in all; what then stands is marked.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};

@@ -86,8 +86,8 @@ fn a_pass_ends_when_it_shall() {
 
 #[test]
 fn remembering_is_seen_where_questions_come_again() {
-    let order: Vec<u32> = (0..4 * QUESTIONS).collect();
-    let facts = pass(&["WORK=20000", "MEMOISES"], &plan(&order), usize::MAX).1;
+    let order: Vec<u32> = (0..2 * QUESTIONS).collect();
+    let facts = pass(&["WORK=100000", "MEMOISES"], &plan(&order), usize::MAX).1;
     let finding = integrity::violated(std::slice::from_ref(&facts));
     // A machine too busy to measure has nothing to show.
     let measured = integrity::measured(std::slice::from_ref(&facts));
@@ -98,6 +98,6 @@ fn remembering_is_seen_where_questions_come_again() {
     } else {
         assert!(2 * facts.blocks[1] > facts.blocks[0], "a quiet machine has batches and repeats: {facts:?}");
     }
-    let honest = pass(&["WORK=20000"], &plan(&order), usize::MAX).1;
+    let honest = pass(&["WORK=100000"], &plan(&order), usize::MAX).1;
     assert_eq!(integrity::violated(std::slice::from_ref(&honest)), None, "{honest:?}");
 }

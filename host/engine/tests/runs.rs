@@ -173,6 +173,6 @@ fn a_spec_needs_little() {
         r#"{"object_a": "x", "query": "proximity", "method": {"kind": "sphere", "sampling": {"kind": "count", "count": 3}}}"#,
     )
     .unwrap();
-    assert_eq!((spec.passes, spec.relative_distance), (3, 0.0));
+    assert_eq!((spec.passes, spec.relative_distance), (5, 0.0));
     assert!(matches!(spec.method, Method::Sphere { seed: 0, .. }));
 }
