@@ -114,7 +114,8 @@ pub enum News {
     },
 }
 
-/// A pass that lost more than this share of its time to the machine below is measured again, once.
+/// A pass that lost more than this share of its time to the machine below is measured again, once; when the second loses
+/// as much, that is how this machine is, and no pass of the run is measured again.
 const STEAL: f64 = 0.001;
 
 impl Task<'_> {
@@ -132,6 +133,7 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
     let mut lanes: Vec<Lane> = all.map(|c| Lane::new(c.clone(), task.set.placed.len())).collect();
     let n = task.set.placed.len() as u32;
     let base = if task.coherent() { (0..n).collect() } else { order::shuffled(n, task.seed) };
+    let mut steady = true;
     // Round `passes` is the untimed one, in which the counters are asked for.
     for round in 0..=task.passes {
         let counting = round == task.passes;
@@ -142,9 +144,9 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
                 continue;
             }
             let turn = Turn { task, registry, machine, stop, news, index, round, shown: &shown };
-            if turn.play(lane, &base) > STEAL && !stop.asked() {
+            if turn.play(lane, &base) > STEAL && steady && !stop.asked() {
                 lane.forget(round);
-                turn.play(lane, &base);
+                steady = turn.play(lane, &base) <= STEAL;
             }
             if stop.asked() {
                 return;
