@@ -1,9 +1,10 @@
 //! How robustly two triangles cross.
 //!
 //! A segment `pq` crosses a triangle `abc` because five orientations have the right signs: `p` and `q` lie on opposite
-//! sides of the plane, and `pq` passes `ab`, `bc` and `ca` on the same side. Four points become coplanar when each moves
-//! by `m` only if the width of their tetrahedron is at most `2 m`. So while no vertex moves further than half the smallest
-//! of the five widths, the crossing holds.
+//! sides of the plane, and `pq` passes `ab`, `bc` and `ca` on the same side. While the vertices move continuously, the
+//! crossing can end only where an end of `pq` meets the triangle, or `pq` meets one of its edges. Two things meet when each
+//! vertex moves by `m` only if they were at most `2 m` apart. So while no vertex moves further than half the smallest of
+//! five distances, the crossing holds: from `p` and from `q` to the plane, and between the lines of `pq` and each edge.
 
 use nalgebra::Vector3;
 
@@ -48,16 +49,17 @@ fn edge_through_face(p: &Vector3<f64>, q: &Vector3<f64>, [a, b, c]: &[Vector3<f6
     if (side_p > 0.0) == (side_q > 0.0) || !same {
         return None;
     }
-    let widths = [
-        side_p.abs() / largest_product([a, b, c, p]),
-        side_q.abs() / largest_product([a, b, c, q]),
-        across[0].abs() / largest_product([p, q, a, b]),
-        across[1].abs() / largest_product([p, q, b, c]),
-        across[2].abs() / largest_product([p, q, c, a]),
+    let normal = longest(a, b, a, c);
+    let distances = [
+        side_p.abs() / normal,
+        side_q.abs() / normal,
+        across[0].abs() / longest(p, q, a, b),
+        across[1].abs() / longest(p, q, b, c),
+        across[2].abs() / longest(p, q, c, a),
     ];
-    let width = widths.into_iter().fold(f64::INFINITY, f64::min);
+    let nearest = distances.into_iter().fold(f64::INFINITY, f64::min);
     let along = side_p.abs() / (side_p.abs() + side_q.abs());
-    Some(Crossing { margin: width / 2.0 * (1.0 - 1e-14), point: p + (q - p) * along })
+    Some(Crossing { margin: nearest / 2.0 * (1.0 - 1e-14), point: p + (q - p) * along })
 }
 
 /// Six times the signed volume, reduced toward 0 by its error bound; `None` when the sign is not certain.
@@ -67,20 +69,8 @@ fn signed_volume(p: &Vector3<f64>, q: &Vector3<f64>, r: &Vector3<f64>, s: &Vecto
     if value.abs() > bound { Some(value - bound.copysign(value)) } else { None }
 }
 
-/// The tetrahedron's width is its volume (times six) over the largest of these: four faces give the heights, three pairs
-/// of opposite edges the distances of their lines.
-fn largest_product([a, b, c, d]: [&Vector3<f64>; 4]) -> f64 {
-    let products = [
-        (b - a, c - a),
-        (b - a, d - a),
-        (c - a, d - a),
-        (c - b, d - b),
-        (b - a, d - c),
-        (c - a, d - b),
-        (d - a, c - b),
-    ];
-    products.iter().fold(0.0f64, |most, (x, y)| {
-        let rounding = 16.0 * U * x.norm() * y.norm();
-        most.max(x.cross(y).norm() + rounding)
-    })
+/// The length of `pq` x `rs`, not less than it is.
+fn longest(p: &Vector3<f64>, q: &Vector3<f64>, r: &Vector3<f64>, s: &Vector3<f64>) -> f64 {
+    let (x, y) = (q - p, s - r);
+    x.cross(&y).norm() + 16.0 * U * x.norm() * y.norm()
 }

@@ -63,7 +63,7 @@ use scene::Scene;
 use topology::Topology;
 
 /// Changes whenever an answer does: another truth, another witness, a narrower interval.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 /// Unit roundoff of f64.
 pub const U64: f64 = 1.0 / (1u64 << 53) as f64;
