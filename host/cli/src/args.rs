@@ -131,7 +131,8 @@ pub struct BenchArgs {
     pub a: String,
     /// Object B (moving) [default: the same as A].
     pub b: Option<String>,
-    /// Algorithms, by id; may be repeated or separated by commas [default: all that answer the question].
+    /// Algorithms, by id, with settings behind it (box-tree:leaf_size=4, x:threads=2), repeated or separated by commas; or
+    /// `all` [default: the usual ones that answer the question].
     #[arg(long, value_delimiter = ',', value_name = "ID")]
     pub algorithm: Vec<String>,
     /// The question: do they collide (cd), or how far apart are they (pq).

@@ -238,6 +238,7 @@ impl Bench<'_> {
             placed: &set.placed,
             query: self.row.spec.query,
             semantics: self.row.spec.semantics,
+            coherent: matches!(set.method, Method::Trajectory { .. }),
         };
         let algorithms = self.row.spec.algorithms.clone();
         let reference = crate::spec::reference(&self.row.spec, &self.inner.registry).map(|c| c.info.clone());
@@ -326,7 +327,7 @@ impl Bench<'_> {
     /// The algorithms may have changed since the run was asked for, by a restart with other plugins.
     fn contestants(&self) -> Result<Vec<Arc<Contestant>>> {
         let find = |id: &String| {
-            self.inner.registry.contestant(id).ok_or_else(|| {
+            self.inner.registry.choose(id)?.ok_or_else(|| {
                 EngineError::Invalid(format!(
                     "The algorithm {id:?} is no longer installed; start the run again without it."
                 ))

@@ -6,6 +6,7 @@
 //! order; an algorithm whose budget ends measures a prefix of it. A trajectory keeps its own order: that each
 //! configuration is near the one before is what it is for.
 
+mod contract;
 mod lane;
 mod order;
 mod summary;
@@ -302,6 +303,7 @@ impl Turn<'_> {
         let policy = Policy {
             runner_cpu: Some(self.machine.measuring_cpu()),
             supervisor_cpu: Some(self.machine.supervisor_cpu()),
+            threads: contestant.threads,
             // A single question may take a whole turn (brute force on large objects), and no more.
             query_seconds: self.task.budget.as_secs_f64().max(Policy::default().query_seconds),
             // The turn ends by its allowance; this only catches a runner that never comes back.
@@ -310,10 +312,10 @@ impl Turn<'_> {
         };
         let trial = Trial {
             plugin: &contestant.file,
-            algorithm: &contestant.info.id,
+            algorithm: &contestant.algorithm,
             mesh_a: self.shown.first(),
             mesh_b: self.shown.second(),
-            parameters: &[],
+            parameters: &contestant.settings,
             semantics: self.task.semantics,
         };
         let launcher = self.registry.launcher(contestant, policy);

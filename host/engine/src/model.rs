@@ -2,6 +2,7 @@
 //!
 //! Ids are UUIDv7 text, times are microseconds since the Unix epoch (UTC), durations say their unit in their name.
 
+mod contract;
 mod heatmap;
 mod plugin;
 mod timing;
@@ -14,6 +15,7 @@ use ocb_core::resolution::Resolution;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+pub use contract::{ContractClass, Delivered, Order};
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
 pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport};
 pub use timing::{Draw, Reference, Timing, TimingCheck};
@@ -71,7 +73,8 @@ pub struct RunSpec {
     /// Instead of a relative distance: the ten steps of the ladder in turn, on which eps* is measured.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub ladder: bool,
-    /// Algorithm ids; all that answer the question when empty.
+    /// Algorithm ids, each with its settings behind it (`box-tree:leaf_size=4`); the usual ones that answer the question when
+    /// empty, every one that does for `["all"]`.
     #[serde(default)]
     pub algorithms: Vec<String>,
     /// Fresh processes, with one timed pass over the configurations each (1 to 99).
@@ -307,7 +310,10 @@ pub struct AlgorithmResult {
     /// interval over the processes; below 1 is faster.
     #[serde(default)]
     pub ratio: Option<Estimated>,
-    /// Rank by `ratio`, from 1; algorithms whose intervals overlap are tied. Absent for what failed, gave a wrong answer or
+    /// What it had to deliver for its time; absent in runs of older versions.
+    #[serde(default)]
+    pub class: Option<ContractClass>,
+    /// Rank by `ratio` within its class, from 1; algorithms whose intervals overlap are tied. Absent for what failed, gave a wrong answer or
     /// was measured in the development profile.
     #[serde(default)]
     pub rank: Option<u32>,

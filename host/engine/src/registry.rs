@@ -1,6 +1,7 @@
 //! Which algorithms there are. A plugin is only ever loaded by the jailed runner, also to read its name.
 
 mod check;
+mod choice;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,13 +23,29 @@ const MAX_PLUGIN_BYTES: u64 = 64 << 20;
 /// One algorithm and the file that holds it.
 #[derive(Clone, Debug)]
 pub struct Contestant {
-    /// What it says of itself.
+    /// What it says of itself; the id with the settings that were chosen.
     pub info: AlgorithmInfo,
+    /// The id that the plugin knows.
+    pub algorithm: String,
+    /// Values of parameters that are not the default ones.
+    pub settings: Vec<(String, f64)>,
+    /// CPUs that it may use; 1 is the single-threaded track.
+    pub threads: usize,
     /// The plugin file.
     pub file: PathBuf,
     /// Built from our own sources, beside the runner.
     pub trusted: bool,
 }
+
+impl Contestant {
+    /// As it is when nothing is set.
+    fn plain(info: AlgorithmInfo, file: PathBuf, trusted: bool) -> Self {
+        Self { algorithm: info.id.clone(), info, settings: Vec::new(), threads: 1, file, trusted }
+    }
+}
+
+/// Ours that are measured when nobody names any: each kind of method once. A foreign plugin was brought to be measured.
+const USUAL: [&str; 4] = ["box-tree", "brute-force", "ocb-fast", "parry"];
 
 /// The known plugins.
 pub struct Registry {
@@ -101,6 +118,15 @@ impl Registry {
         self.contestants.iter().find(|c| c.info.id == id).cloned()
     }
 
+    /// The algorithm of this name, which may carry settings (`box-tree:leaf_size=4`); `None` when there is no such id.
+    pub fn choose(&self, name: &str) -> Result<Option<Arc<Contestant>>> {
+        let (id, settings) = name.split_once(':').map_or((name, None), |(id, settings)| (id, Some(settings)));
+        match (self.contestant(id), settings) {
+            (Some(plain), Some(settings)) => Ok(Some(Arc::new(choice::with_settings(&plain, settings)?))),
+            (found, _) => Ok(found),
+        }
+    }
+
     /// A launcher for this plugin under the given policy; only our own plugins may run under a weaker jail.
     pub fn launcher(&self, contestant: &Contestant, policy: Policy) -> Launcher {
         Launcher::new(self.runner.clone(), Policy { trusted: contestant.trusted, profile: self.profile, ..policy })
@@ -126,7 +152,10 @@ impl Registry {
                 described
             }
         };
-        let contestant = |info| Contestant { info, file: file.to_owned(), trusted };
+        let contestant = |mut info: AlgorithmInfo| {
+            info.usual = !trusted || USUAL.contains(&info.id.as_str());
+            Contestant::plain(info, file.to_owned(), trusted)
+        };
         Ok(algorithms.into_iter().map(contestant).collect())
     }
 }
@@ -196,6 +225,9 @@ fn info(d: Descriptor, plugin_sha256: &str) -> AlgorithmInfo {
         witness_points: d.witness_points,
         single_precision: d.single_precision,
         solid: d.solid,
+        coherent: d.coherent,
+        threads: d.threads,
+        usual: false,
         parameters: d.parameters.into_iter().map(parameter).collect(),
         plugin_sha256: plugin_sha256.to_owned(),
     }

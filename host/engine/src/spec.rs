@@ -115,7 +115,10 @@ pub async fn set_size(spec: &RunSpec, store: &Store, blobs: &Blobs) -> Result<u6
         .map_err(|e| EngineError::Invalid(format!("These configurations are not possible: {e}.")))
 }
 
-/// The named algorithms, each once, or all that answer the question.
+/// Instead of names: every algorithm that answers the question.
+const ALL: &str = "all";
+
+/// The named algorithms, each once; without names the usual ones that answer the question.
 fn contestants(spec: &RunSpec, registry: &Registry) -> Result<Vec<Arc<Contestant>>> {
     if spec.semantics == Semantics::Solid && spec.query == Query::CollisionAll {
         return Err(EngineError::Invalid(
@@ -128,8 +131,10 @@ fn contestants(spec: &RunSpec, registry: &Registry) -> Result<Vec<Arc<Contestant
     let known = registry.algorithms();
     let fitting: Vec<&str> = known.iter().filter(|a| answers(a, spec)).map(|a| a.id.as_str()).collect();
     let mut names: Vec<&str> = spec.algorithms.iter().map(String::as_str).collect();
-    if names.is_empty() {
+    if names == [ALL] {
         names.clone_from(&fitting);
+    } else if names.is_empty() {
+        names.extend(known.iter().filter(|a| a.usual && answers(a, spec)).map(|a| a.id.as_str()));
     }
     if names.is_empty() {
         return Err(EngineError::Invalid(format!("No installed algorithm answers {question}.")));
@@ -137,7 +142,7 @@ fn contestants(spec: &RunSpec, registry: &Registry) -> Result<Vec<Arc<Contestant
     let mut chosen: Vec<Arc<Contestant>> = Vec::new();
     for name in names {
         let there_are = || fitting.join(", ");
-        let contestant = registry.contestant(name).ok_or_else(|| {
+        let contestant = registry.choose(name)?.ok_or_else(|| {
             EngineError::Invalid(format!("There is no algorithm {name:?}; for {question} there are: {}.", there_are()))
         })?;
         if !answers(&contestant.info, spec) {

@@ -4,7 +4,9 @@ use ocb_core::configuration::{Class, Method, Separation};
 use ocb_core::record::Verdict;
 use ocb_core::resolution::{Resolution, Threshold};
 use ocb_engine::Profile;
-use ocb_engine::model::{Agreement, AlgorithmResult, ContactQuality, Estimated, RunInfo, RunSpec, SetInfo, Timing};
+use ocb_engine::model::{
+    Agreement, AlgorithmResult, ContactQuality, ContractClass, Estimated, RunInfo, RunSpec, SetInfo, Timing,
+};
 
 use crate::{output, plugin, run, units};
 
@@ -37,11 +39,12 @@ pub fn summary(run: &RunInfo) -> String {
         );
         text.extend(run.environment.as_ref().and_then(|machine| machine.reference.as_ref()).map(|reference| {
             format!(
-                "Ranks go by the mean ratio to {} on the same configurations in the same rounds; overlapping intervals (95 %, \
-                 over the processes) are ties. What failed or was wrong has no rank.",
+                "Ranks go by the mean ratio to {} on the same configurations in the same rounds, within one class; overlapping \
+                 intervals (95 %, over the processes) are ties. What failed or was wrong has no rank.",
                 reference.algorithm
             )
         }));
+        text.extend(classes(&run.results));
         text.push(
             "eps* is the largest distance or margin, as a share of the scene's size, at which an answer is wrong; with <, \
              none is, down to this."
@@ -59,6 +62,18 @@ pub fn summary(run: &RunInfo) -> String {
         }
     }
     text.join("\n")
+}
+
+/// Who is compared with whom.
+fn classes(results: &[AlgorithmResult]) -> Vec<String> {
+    let mut classes: Vec<(ContractClass, Vec<&str>)> = Vec::new();
+    for (result, class) in results.iter().filter_map(|r| Some((r, r.class?))) {
+        match classes.iter_mut().find(|(known, _)| *known == class) {
+            Some((_, members)) => members.push(&result.algorithm),
+            None => classes.push((class, vec![&result.algorithm])),
+        }
+    }
+    classes.iter().map(|(class, members)| format!("Class {}: {}.", class.words(), members.join(", "))).collect()
 }
 
 fn title(run: &RunInfo) -> String {

@@ -12,11 +12,12 @@ use ocb_core::validation::Terms;
 use ocb_sandbox::{PassFacts, Profile, integrity};
 
 use super::Measured;
+use super::contract::contract;
 use super::lane::precision;
 use crate::machine::Machine;
 use crate::model::{
-    Agreement, AlgorithmInfo, AlgorithmResult, ContactQuality, Draw, Environment, Estimated, OutcomeInfo, Reference,
-    TimeSummary, Timing, TimingCheck, VerdictCount,
+    Agreement, AlgorithmInfo, AlgorithmResult, ContactQuality, ContractClass, Draw, Environment, Estimated,
+    OutcomeInfo, Reference, TimeSummary, Timing, TimingCheck, VerdictCount,
 };
 
 /// What the answers were given to.
@@ -30,12 +31,14 @@ pub struct Asked<'a> {
     pub query: Query,
     /// What counts as an object.
     pub semantics: Semantics,
+    /// Asked in the order of a trajectory.
+    pub coherent: bool,
 }
 
 /// The numbers of one algorithm.
 pub fn summarise(measured: &Measured, asked: Asked, compared: Option<Comparison>) -> AlgorithmResult {
     let records = &measured.records;
-    let Asked { pair, placed, query, semantics } = asked;
+    let Asked { pair, placed, query, semantics, coherent } = asked;
     let terms = Terms { query, semantics, precision: precision(&measured.contestant.info) };
     let completed = || OutcomeInfo {
         name: "Completed".into(),
@@ -55,6 +58,7 @@ pub fn summarise(measured: &Measured, asked: Asked, compared: Option<Comparison>
         budget_limited: measured.budget_limited,
         time: compared.map(|compared| time_summary(measured, compared.mean_ns.into())),
         ratio: compared.and_then(|compared| compared.ratio).map(Estimated::from),
+        class: Some(contract(measured, query, coherent)),
         rank: None,
         timing: Some(timing(&measured.passes)),
         verdicts: verdicts(measured),
@@ -139,7 +143,8 @@ fn timing(passes: &[PassFacts]) -> Timing {
     }
 }
 
-/// Ranks what may be ranked: every question answered, nothing wrong, under all layers of the jail.
+/// Ranks what may be ranked, each contract class for itself: every question answered, nothing wrong, under all layers of the
+/// jail.
 pub fn rank(results: &mut [AlgorithmResult], profile: Profile) {
     let fair = |r: &AlgorithmResult| {
         let silent = r.verdicts.iter().any(|v| v.verdict.is_silent());
@@ -147,9 +152,18 @@ pub fn rank(results: &mut [AlgorithmResult], profile: Profile) {
     };
     let ratio =
         |r: &AlgorithmResult| r.ratio.filter(|_| fair(r)).map(|r| Interval { value: r.value, lo: r.lo, hi: r.hi });
-    let ratios: Vec<Option<Interval>> = results.iter().map(ratio).collect();
-    for (result, rank) in results.iter_mut().zip(ranks(&ratios)) {
-        result.rank = rank;
+    let mut classes: Vec<Option<ContractClass>> = Vec::new();
+    for result in results.iter() {
+        if !classes.contains(&result.class) {
+            classes.push(result.class);
+        }
+    }
+    for class in classes {
+        let alike = |r: &AlgorithmResult| ratio(r).filter(|_| r.class == class);
+        let ratios: Vec<Option<Interval>> = results.iter().map(alike).collect();
+        for (result, rank) in results.iter_mut().zip(ranks(&ratios)) {
+            result.rank = rank.or(result.rank);
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use utoipa::ToSchema;
 /// One algorithm of one plugin.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct AlgorithmInfo {
-    /// Unique id, e.g. `box-tree`.
+    /// Unique id, e.g. `box-tree`; in a result with the settings that were chosen, `box-tree:leaf_size=4`.
     pub id: String,
     /// Display name.
     pub name: String,
@@ -31,7 +31,13 @@ pub struct AlgorithmInfo {
     pub single_precision: bool,
     /// It also answers for solid bodies, where an object inside another one collides.
     pub solid: bool,
-    /// Its parameters.
+    /// It uses earlier answers: the order of the configurations matters to it.
+    pub coherent: bool,
+    /// It can use several CPUs: `threads=2` behind its id enters the multi-threaded track.
+    pub threads: bool,
+    /// It is measured when no algorithm is named.
+    pub usual: bool,
+    /// Its parameters; a value is chosen behind the id, as in `box-tree:leaf_size=4`.
     pub parameters: Vec<ParameterInfo>,
     /// SHA-256 (hex) of the plugin file.
     pub plugin_sha256: String,

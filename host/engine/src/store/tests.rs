@@ -152,6 +152,7 @@ fn result(algorithm: &str, n: u32) -> StoredResult {
             budget_limited: n < 5,
             time: None,
             ratio: Some(Estimated { value: 1.0, lo: 0.5, hi: 2.0 }),
+            class: None,
             rank: Some(1),
             timing: None,
             verdicts: Vec::new(),
@@ -215,6 +216,9 @@ mod contract {
             witness_points: false,
             single_precision: false,
             solid: false,
+            coherent: false,
+            threads: false,
+            usual: false,
             parameters: Vec::new(),
             plugin_sha256: "h".into(),
         };

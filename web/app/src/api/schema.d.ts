@@ -374,9 +374,11 @@ export interface components {
         AlgorithmInfo: {
             /** @description Authors. */
             authors: string;
+            /** @description It uses earlier answers: the order of the configurations matters to it. */
+            coherent: boolean;
             /** @description It reports BV and primitive tests. */
             counters: boolean;
-            /** @description Unique id, e.g. `box-tree`. */
+            /** @description Unique id, e.g. `box-tree`; in a result with the settings that were chosen, `box-tree:leaf_size=4`. */
             id: string;
             /** @description SPDX licence expression. */
             license: string;
@@ -384,7 +386,7 @@ export interface components {
             name: string;
             /** @description The paper the method comes from. */
             paper: string;
-            /** @description Its parameters. */
+            /** @description Its parameters; a value is chosen behind the id, as in `box-tree:leaf_size=4`. */
             parameters: components["schemas"]["ParameterInfo"][];
             /** @description SHA-256 (hex) of the plugin file. */
             plugin_sha256: string;
@@ -394,8 +396,12 @@ export interface components {
             single_precision: boolean;
             /** @description It also answers for solid bodies, where an object inside another one collides. */
             solid: boolean;
+            /** @description It can use several CPUs: `threads=2` behind its id enters the multi-threaded track. */
+            threads: boolean;
             /** @description Home page or source. */
             url: string;
+            /** @description It is measured when no algorithm is named. */
+            usual: boolean;
             /** @description Version as the plugin says it. */
             version: string;
             /** @description It reports witness points. */
@@ -417,6 +423,7 @@ export interface components {
              * @description Mean BV tests per query.
              */
             bv_tests_mean?: number | null;
+            class?: components["schemas"]["ContractClass"] | null;
             contacts?: components["schemas"]["ContactQuality"] | null;
             /** @description The answers that are not scored, because the configuration is narrower than the precision of the algorithm. */
             grazing?: components["schemas"]["Agreement"];
@@ -446,7 +453,7 @@ export interface components {
             primitive_tests_mean?: number | null;
             /**
              * Format: int32
-             * @description Rank by `ratio`, from 1; algorithms whose intervals overlap are tied. Absent for what failed, gave a wrong answer or
+             * @description Rank by `ratio` within its class, from 1; algorithms whose intervals overlap are tied. Absent for what failed, gave a wrong answer or
              *     was measured in the development profile.
              */
             rank?: number | null;
@@ -513,6 +520,28 @@ export interface components {
              */
             robust: number;
         };
+        /** @description The contract class of a result. Places are given within one class, never across. */
+        ContractClass: {
+            /**
+             * Format: int32
+             * @description Bits of the arithmetic that it declares, 32 or 64; its answers are judged accordingly.
+             */
+            bits: number;
+            /**
+             * Format: int32
+             * @description CPUs that it might use; 1 is the single-threaded track, which the jail enforces.
+             */
+            cpus: number;
+            /** @description What was delivered. */
+            delivered: components["schemas"]["Delivered"];
+            /** @description In which order it was asked. */
+            order: components["schemas"]["Order"];
+        };
+        /**
+         * @description What an algorithm delivered, as its answers show.
+         * @enum {string}
+         */
+        Delivered: "first_contact" | "all_contacts" | "distance" | "distance_with_witness";
         /** @description The worst errors of distances. */
         DistanceError: {
             /**
@@ -778,6 +807,11 @@ export interface components {
             /** @description What was noticed and mended while reading (one sentence each). */
             warnings: string[];
         };
+        /**
+         * @description In which order configurations come.
+         * @enum {string}
+         */
+        Order: "shuffled" | "trajectory";
         /** @description How a runner ended. */
         OutcomeInfo: {
             /** @description One sentence. */
@@ -930,7 +964,10 @@ export interface components {
         };
         /** @description What to measure. */
         RunSpec: {
-            /** @description Algorithm ids; all that answer the question when empty. */
+            /**
+             * @description Algorithm ids, each with its settings behind it (`box-tree:leaf_size=4`); the usual ones that answer the question when
+             *     empty, every one that does for `["all"]`.
+             */
             algorithms?: string[];
             /**
              * Format: double

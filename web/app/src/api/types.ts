@@ -4,6 +4,8 @@ import type { components } from './schema'
 type Schemas = components['schemas']
 
 export type AlgorithmInfo = Schemas['AlgorithmInfo']
+export type ContractClass = Schemas['ContractClass']
+export type ParameterInfo = Schemas['ParameterInfo']
 export type AlgorithmResult = Schemas['AlgorithmResult']
 export type Class = Schemas['Class']
 export type Ecdf = Schemas['Ecdf']

@@ -1,11 +1,11 @@
 import { describe, expect, it } from 'vitest'
 import type { AlgorithmInfo, Method, Query } from '../api/types'
 import { commandLine } from './command-line'
-import { type BuilderForm, chosenAlgorithms, fromSpec, initialForm, toSpec, whyUnfit } from './form'
+import { type BuilderForm, chosenAlgorithms, fromSpec, initialForm, nameWith, settingsOf, toSpec, whyUnfit } from './form'
 import { find, objectKey, sliderToTriangles, trianglesToSlider, withTriangles } from './objects'
 
 const algorithm = (id: string, queries: Query[]): AlgorithmInfo => ({
-  id, name: id, version: '1', authors: '', license: '', url: '', paper: '', queries, counters: true, witness_points: true, single_precision: false, solid: id === 'both', parameters: [],
+  id, name: id, version: '1', authors: '', license: '', url: '', paper: '', queries, counters: true, witness_points: true, single_precision: false, solid: id === 'both', coherent: false, threads: false, usual: true, parameters: [],
   plugin_sha256: '',
 })
 const ALL = [algorithm('both', ['collision_first', 'collision_all', 'proximity']), algorithm('collider', ['collision_first'])]
@@ -26,12 +26,12 @@ describe('toSpec', () => {
     expect(toSpec({ ...form(), thoroughness: 'count', count: 0 }, ALL)).toHaveProperty('spec.method.sampling.count', 0)
     expect(toSpec({ ...form(), distance: '' }, ALL)).toHaveProperty('missing')
     expect(toSpec({ ...form(), thoroughness: 'count', count: 1.5 }, ALL)).toHaveProperty('missing')
-    expect(toSpec({ ...form(), off: ['both', 'collider'] }, ALL)).toHaveProperty('missing')
+    expect(toSpec({ ...form(), algorithms: [] }, ALL)).toHaveProperty('missing')
     expect(toSpec(initialForm(), ALL)).toEqual({ missing: 'Choose an object.' })
   })
 
   it('comes back through fromSpec', () => {
-    const asked = { ...form(), objectB: 'stock:dragon', question: 'pq' as const, thoroughness: 'count' as const, count: 500, distance: 0.1, solid: true, off: ['collider'] }
+    const asked = { ...form(), objectB: 'stock:dragon', question: 'pq' as const, thoroughness: 'count' as const, count: 500, distance: 0.1, solid: true, algorithms: ['both'] }
     const grid = { ...form(), method: 'grid' as const, paper: true, rotate: 15, separation: 'step' as const, step: -1e-6 }
     const ladder = { ...form(), method: 'grid' as const, separation: 'ladder' as const }
     const trajectory = { ...form(), method: 'trajectory' as const, count: 700, centerDistance: 0.8 }
@@ -40,7 +40,7 @@ describe('toSpec', () => {
     const given = { ...form(), method: 'file' as const, poses: '5eed'.repeat(16) }
     for (const wish of [asked, grid, ladder, trajectory, random, ...seeded, given]) {
       const made = toSpec(wish, ALL)
-      expect('spec' in made && fromSpec(made.spec, ALL)).toEqual(wish)
+      expect('spec' in made && fromSpec(made.spec, ALL)).toEqual({ ...wish, algorithms: chosenAlgorithms(wish, ALL) })
     }
   })
 })
@@ -108,6 +108,22 @@ it('filters algorithms by the question and says why', () => {
   expect(whyUnfit(collider, 'collision_first', true)).toBe('knows surfaces only, no solid bodies')
   expect(chosenAlgorithms({ ...form(), question: 'pq' }, ALL)).toEqual(['both'])
   expect(chosenAlgorithms({ ...form(), solid: true }, ALL)).toEqual(['both'])
+})
+
+it('measures several settings of an algorithm, each under its whole name', () => {
+  const knobs = ['size', 'slack'].map((name) => ({ name, description: '', minimum: 0, maximum: 9, default: 1, integer: false }))
+  expect(nameWith('both', knobs, { slack: 0.5, size: '' })).toBe('both:slack=0.5')
+  expect(nameWith('both', knobs, { slack: 1 })).toBe('both')
+  expect(settingsOf('both:size=2:slack=0.5')).toBe('size 2, slack 0.5')
+  const wish = { ...form(), algorithms: ['gone', 'collider', 'both:size=2', 'both'] }
+  const made = toSpec(wish, ALL)
+  expect(made).toHaveProperty('spec.algorithms', ['both:size=2', 'both', 'collider'])
+  expect('spec' in made && fromSpec({ ...made.spec, algorithms: wish.algorithms }, ALL).algorithms).toEqual(['collider', 'both:size=2', 'both'])
+})
+
+it('measures the usual algorithms when nothing is chosen', () => {
+  const [both = algorithm('', []), collider = algorithm('', [])] = ALL
+  expect(chosenAlgorithms(form(), [both, { ...collider, usual: false }])).toEqual(['both'])
 })
 
 it('writes the same run for the command line', () => {

@@ -1,4 +1,4 @@
-import type { AlgorithmInfo, Method, Query, RunSpec, Sampling } from '../api/types'
+import type { AlgorithmInfo, Method, ParameterInfo, Query, RunSpec, Sampling } from '../api/types'
 
 /** What the reader has chosen; number fields may be empty while they type. */
 export interface BuilderForm {
@@ -30,8 +30,8 @@ export interface BuilderForm {
   step: number | ''
   passes: number | ''
   budget: number | ''
-  /** Algorithms that the reader has switched off. */
-  off: string[]
+  /** Names of the algorithms, with settings behind the id where the reader wants others; null: the usual ones. */
+  algorithms: string[] | null
 }
 
 /** Of a trajectory that says no number: Zachmann's run. */
@@ -40,7 +40,7 @@ export const PUBLISHED_FRAMES = 5000
 export function initialForm(): BuilderForm {
   return {
     objectA: '', objectB: '', question: 'cd', contacts: 'first', solid: false, method: 'sphere', thoroughness: 'steps', rotate: 20, move: 20,
-    paper: false, count: 2000, seed: 0, poses: '', centerDistance: 1, hitShare: 0.5, separation: 'relative', distance: 0, step: 0.01, passes: 5, budget: 60, off: [],
+    paper: false, count: 2000, seed: 0, poses: '', centerDistance: 1, hitShare: 0.5, separation: 'relative', distance: 0, step: 0.01, passes: 5, budget: 60, algorithms: null,
   }
 }
 
@@ -56,9 +56,35 @@ export function whyUnfit(algorithm: AlgorithmInfo, query: Query, solid: boolean)
   return query === 'collision_all' ? 'stops at the first contact' : 'answers no collision queries'
 }
 
+/** The id in a name. */
+export function plainId(name: string): string {
+  return name.split(':', 1)[0] ?? ''
+}
+
+/** The settings in a name, in words. */
+export function settingsOf(name: string): string {
+  return name.split(':').slice(1).map((setting) => setting.replace('=', ' ')).join(', ')
+}
+
+/** The name of an algorithm with these values, as the API reads it; what is empty or usual is not said. */
+export function nameWith(id: string, knobs: readonly ParameterInfo[], values: Readonly<Record<string, number | ''>>): string {
+  const said = knobs.flatMap((knob) => {
+    const value = values[knob.name]
+    return value === undefined || value === '' || value === knob.default ? [] : [`${knob.name}=${value}`]
+  })
+  return [id, ...said].join(':')
+}
+
+/** The names that the reader has chosen, or the usual ones. */
+export function wantedAlgorithms({ algorithms: wanted }: BuilderForm, algorithms: readonly AlgorithmInfo[]): string[] {
+  return wanted ?? algorithms.filter(({ usual }) => usual).map(({ id }) => id)
+}
+
+/** Those of them that fit the question, by algorithm. */
 export function chosenAlgorithms(form: BuilderForm, algorithms: readonly AlgorithmInfo[]): string[] {
   const query = queryOf(form)
-  return algorithms.filter((a) => !whyUnfit(a, query, form.solid) && !form.off.includes(a.id)).map(({ id }) => id)
+  const wanted = wantedAlgorithms(form, algorithms)
+  return algorithms.filter((a) => !whyUnfit(a, query, form.solid)).flatMap(({ id }) => wanted.filter((name) => plainId(name) === id))
 }
 
 /** Does the method look for a wanted separation? The poses of the others are given. */
@@ -173,7 +199,8 @@ export function fromSpec(spec: RunSpec, algorithms: readonly AlgorithmInfo[]): B
   form.distance = spec.relative_distance ?? 0
   form.passes = spec.passes ?? form.passes
   form.budget = spec.budget_seconds ?? form.budget
-  const wanted = spec.algorithms ?? []
-  if (wanted.length > 0) form.off = algorithms.map(({ id }) => id).filter((id) => !wanted.includes(id))
+  // What is not installed any more cannot be asked for again.
+  const wanted = (spec.algorithms ?? []).filter((name) => algorithms.some(({ id }) => id === plainId(name)))
+  if (wanted.length > 0) form.algorithms = wanted
   return form
 }

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest'
 import type { AlgorithmResult } from '../api/types'
-import { rank } from './ranking'
+import { rank, rankings } from './ranking'
 
 function result(algorithm: string, place: number | null, ratio: number, more: Partial<AlgorithmResult> = {}): AlgorithmResult {
   const estimated = { value: ratio, lo: 0.9 * ratio, hi: 1.1 * ratio }
@@ -31,4 +31,14 @@ describe('rank', () => {
       ['old', 'It was not compared: measured in the development profile, or before there was a reference.'],
     ])
   })
+})
+
+it('compares only what had to deliver the same', () => {
+  const alone = { delivered: 'distance', order: 'shuffled', cpus: 1, bits: 64 } as const
+  const pair = { ...alone, delivered: 'distance_with_witness', cpus: 2, bits: 32 } as const
+  const found = rankings([result('a', 2, 2, { class: alone }), result('b', 1, 9, { class: pair }), result('c', 1, 1, { class: alone })])
+  expect(found.map(({ words, ranked }) => [words, ranked.map((r) => r.result.algorithm)])).toEqual([
+    ['distance, shuffled, 1 CPU, f64', ['c', 'a']],
+    ['distance with witness, shuffled, 2 CPUs, f32', ['b']],
+  ])
 })

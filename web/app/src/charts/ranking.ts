@@ -1,4 +1,4 @@
-import type { AlgorithmResult } from '../api/types'
+import type { AlgorithmResult, ContractClass } from '../api/types'
 import { count } from '../ui/format'
 
 /** A result that may be compared, and its place. */
@@ -9,17 +9,36 @@ export interface Ranked {
   tied: boolean
 }
 
+/** Results that are compared with one another, and with no others. */
 export interface Ranking {
+  /** What they had to deliver, in words; empty in runs of older versions. */
+  words: string
   ranked: Ranked[]
   /** Listed with the reason, never with a place. */
   unranked: { result: AlgorithmResult; reason: string }[]
+}
+
+/** A contract class in words. */
+export function classWords({ delivered, order, cpus, bits }: ContractClass): string {
+  return [DELIVERED[delivered], order, `${cpus} CPU${cpus === 1 ? '' : 's'}`, `f${bits}`].join(', ')
+}
+
+const DELIVERED: Record<ContractClass['delivered'], string> = {
+  first_contact: 'first contact', all_contacts: 'all contacts', distance: 'distance', distance_with_witness: 'distance with witness',
+}
+
+/** One ranking per contract class, in the order in which the classes first occur. */
+export function rankings(results: readonly AlgorithmResult[]): Ranking[] {
+  const words = (result: AlgorithmResult) => (result.class ? classWords(result.class) : '')
+  const classes = [...new Set(results.map(words))]
+  return classes.map((of) => ({ words: of, ...rank(results.filter((result) => words(result) === of)) }))
 }
 
 /**
  * The places that the service gave. Only an algorithm that ended well, answered everything, nothing of it wrong, and was
  * compared with the reference gets one.
  */
-export function rank(results: readonly AlgorithmResult[]): Ranking {
+export function rank(results: readonly AlgorithmResult[]): Omit<Ranking, 'words'> {
   const unranked = results.flatMap((result) => {
     const reason = whyNot(result)
     return reason ? [{ result, reason }] : []
