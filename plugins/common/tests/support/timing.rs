@@ -1,4 +1,4 @@
-//! Times of a plugin on the known sets, for the benches of the plugins. Included by path.
+//! Times of a plugin on the known sets, for the benches of the plugins.
 //!
 //! Passes over a whole set, not repeats of one query: the caches are as cold as in use. Per query the minimum of three
 //! passes after one to warm up, then the median (and the 95th percentile) over the queries of a set.
@@ -8,20 +8,32 @@ use std::time::Instant;
 
 use opencollbench_plugin::{Collision, Distance, Pose};
 
-use super::support::{Dice, Loaded, Soup, known_mesh, known_poses};
+use super::{Dice, Loaded, Soup, known_mesh, known_poses};
 
 const SETS: [&str; 3] = ["W1", "W2", "W3"];
 /// Objects of about the same shape and growing size; the last one is made of the one before.
-pub const LADDER: [&str; 5] = ["bunny1k", "bunny4k", "bunny16k", "bunny65k", "bunny65k*4"];
-pub const MESHES: [&str; 3] = ["bunny65k", "dragon65k", "knot65k"];
+const LADDER: [&str; 5] = ["bunny1k", "bunny4k", "bunny16k", "bunny65k", "bunny65k*4"];
+const MESHES: [&str; 3] = ["bunny65k", "dragon65k", "knot65k"];
+
+/// A name, and how to make the algorithm.
+pub type Variant<'a, A> = (&'a str, fn() -> A);
+
+/// The bench of a plugin: each variant on the meshes that the arguments name; `ladder` stands for objects of growing size.
+pub fn bench<A: Distance>(variants: &[Variant<'_, A>], bytes: impl Fn(&A::Object) -> Option<usize>) {
+    let asked: Vec<String> = std::env::args().skip(1).filter(|arg| !arg.starts_with('-')).collect();
+    let asked: Vec<&str> = asked.iter().map(String::as_str).collect();
+    let meshes: &[&str] = match asked[..] {
+        [] => &MESHES,
+        ["ladder"] => &LADDER,
+        _ => &asked,
+    };
+    for (name, make) in variants {
+        table(name, meshes, make, &bytes);
+    }
+}
 
 /// Prints one line per mesh: build and memory, then collision and distance on each set, in microseconds.
-pub fn table<A: Distance>(
-    name: &str,
-    meshes: &[&str],
-    make: impl Fn() -> A,
-    bytes: impl Fn(&A::Object) -> Option<usize>,
-) {
+fn table<A: Distance>(name: &str, meshes: &[&str], make: impl Fn() -> A, bytes: impl Fn(&A::Object) -> Option<usize>) {
     for mesh in meshes {
         let soup = mesh.strip_suffix("*4").map_or_else(|| known_mesh(mesh), |coarse| quarters(&known_mesh(coarse)));
         let builds = (0..3).map(|_| {
@@ -31,7 +43,7 @@ pub fn table<A: Distance>(
         });
         let build = builds.fold(f64::INFINITY, f64::min);
         let mut loaded = Loaded::with(make(), &soup);
-        let size = bytes(&loaded.object).map_or(String::new(), |bytes| format!("{:.1} MB", bytes as f64 / 1e6));
+        let size = bytes(&loaded.a).map_or(String::new(), |bytes| format!("{:.1} MB", bytes as f64 / 1e6));
         print!("{name:<18} {mesh:<11} build {build:6.1} ms {size:>8} |");
         for set in SETS {
             let poses = known_poses(mesh, set).map_or_else(|| find(&mut loaded, set), |(poses, _)| poses);
