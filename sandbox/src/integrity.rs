@@ -5,7 +5,7 @@ use std::fmt;
 
 use ocb_core::statistics::quantile;
 
-use crate::pass::PassFacts;
+use crate::pass::{Batched, PassFacts};
 
 /// The checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,16 +54,13 @@ impl Check {
     fn found(self, passes: &[PassFacts]) -> Option<f64> {
         match self {
             Check::Batches => {
-                let batched: u32 = passes.iter().map(|pass| pass.batched).sum();
-                let together: f64 = passes.iter().map(|pass| pass.batched_ns).sum();
-                let alone: f64 = passes.iter().map(|pass| pass.singles_ns).sum();
-                (batched >= LEAST_BATCHED && alone >= f64::from(batched) * TELLING_NS).then(|| together / alone)
+                let telling = |batch: &&Batched| batch.alone_ns >= f64::from(batch.questions) * TELLING_NS;
+                let batches = passes.iter().flat_map(|pass| &pass.batches).filter(telling);
+                median(batches.map(|batch| batch.together_ns / batch.alone_ns), LEAST_BATCHES)
             }
             Check::Repeats => {
                 let telling = passes.iter().flat_map(|pass| &pass.repeats).filter(|[first, _]| *first >= TELLING_NS);
-                let mut ratios: Vec<f64> = telling.map(|[first, again]| again / first).collect();
-                ratios.sort_by(f64::total_cmp);
-                (ratios.len() >= LEAST_REPEATS).then(|| quantile(&ratios, 0.5))
+                median(telling.map(|[first, again]| again / first), LEAST_REPEATS)
             }
             Check::BetweenQueries => {
                 let [paused, computed] = [0, 1].map(|i| passes.iter().map(|pass| pass.pauses_ns[i]).sum::<f64>());
@@ -75,7 +72,9 @@ impl Check {
                 (!stolen && busy(0) >= LEAST_BUSY_NS).then(|| busy(1) / busy(0))
             }
             Check::TailShape => {
-                let telling = |pass: &&PassFacts| pass.timed >= LEAST_TIMES && pass.times_ns[0] >= TELLING_NS;
+                // Where most of a pass was disturbed, the rest of it is no fair sample.
+                let whole = |pass: &PassFacts| pass.timed >= LEAST_TIMES && 2 * pass.timed >= pass.reached;
+                let telling = |pass: &&PassFacts| whole(pass) && pass.times_ns[0] >= TELLING_NS;
                 let shapes = passes.iter().filter(telling).map(|pass| pass.times_ns[2] / pass.times_ns[0]);
                 let (least, most, n) = shapes.fold((f64::INFINITY, 0.0f64, 0), |(least, most, n), shape| {
                     (least.min(shape), most.max(shape), n + 1)
@@ -86,9 +85,16 @@ impl Check {
     }
 }
 
+/// The median of at least so many: what happens to a few of them on a busy machine says nothing of a plugin.
+fn median(ratios: impl Iterator<Item = f64>, least: usize) -> Option<f64> {
+    let mut ratios: Vec<f64> = ratios.collect();
+    ratios.sort_by(f64::total_cmp);
+    (ratios.len() >= least).then(|| quantile(&ratios, 0.5))
+}
+
 /// Times shorter than this are too near the clock's own spread to be compared, nanoseconds.
 const TELLING_NS: f64 = 1000.0;
-const LEAST_BATCHED: u32 = 64;
+const LEAST_BATCHES: usize = 5;
 const LEAST_REPEATS: usize = 16;
 const LEAST_TIMES: usize = 200;
 /// Pauses, and the rest of the time, that say something.
@@ -136,13 +142,15 @@ pub fn violated(passes: &[PassFacts]) -> Option<Finding> {
 mod tests {
     use super::*;
 
+    fn batches(questions: u32, alone_ns: f64, together_ns: f64) -> Vec<Batched> {
+        vec![Batched { questions, alone_ns, together_ns }; 6]
+    }
+
     /// A long, honest pass.
     fn honest() -> PassFacts {
         PassFacts {
             timed: 1000,
-            batched: 100,
-            batched_ns: 1e6,
-            singles_ns: 1.1e6,
+            batches: batches(100, 1.1e6, 1e6),
             repeats: vec![[1e4, 0.9e4]; 20],
             pauses_ns: [16e6, 1e3],
             busy_ns: Some([100e6, 99e6]),
@@ -158,8 +166,12 @@ mod tests {
         assert_eq!(measured(&[honest(), honest()]).len(), 5);
         assert_eq!(measured(&[PassFacts::default()]), []);
         // Times near the clock's spread say nothing about a batch or a repeat.
-        let fast = PassFacts { singles_ns: 5e4, batched_ns: 1e3, repeats: vec![[500.0, 1.0]; 20], ..honest() };
+        let fast = PassFacts { batches: batches(100, 5e4, 1e3), repeats: vec![[500.0, 1.0]; 20], ..honest() };
         assert_eq!(violated(&[fast]), None);
+        // One batch that met something says nothing either.
+        let mut odd = honest();
+        odd.batches[0].together_ns = 1e9;
+        assert_eq!(violated(&[odd]), None);
         // On a machine that is taken away now and then, processor time says nothing.
         assert_eq!(violated(&[PassFacts { steal: Some(0.05), busy_ns: Some([100e6, 150e6]), ..honest() }]), None);
     }
@@ -167,8 +179,8 @@ mod tests {
     #[test]
     fn each_lie_meets_its_own_check() {
         let lies = [
-            (Check::Batches, PassFacts { batched_ns: 0.1e6, ..honest() }),
-            (Check::Batches, PassFacts { batched_ns: 5e6, ..honest() }),
+            (Check::Batches, PassFacts { batches: batches(100, 1.1e6, 0.1e6), ..honest() }),
+            (Check::Batches, PassFacts { batches: batches(100, 1.1e6, 5e6), ..honest() }),
             (Check::Repeats, PassFacts { repeats: vec![[1e4, 1e2]; 20], ..honest() }),
             (Check::BetweenQueries, PassFacts { pauses_ns: [16e6, 8e6], ..honest() }),
             (Check::ProcessorTime, PassFacts { busy_ns: Some([100e6, 180e6]), ..honest() }),

@@ -23,9 +23,12 @@ use crate::trial::write_trial;
 const NULL_SAMPLES: usize = 1000;
 const NULL_BATCHES: usize = 50;
 const CALIBRATIONS: usize = 50;
-/// Time for each of the three, and how many there are in any case.
+/// Time for each of the three; so many are waited for on a busy machine, up to the longest time.
 const NULL_TIME: Duration = Duration::from_millis(50);
-const NULL_LEAST: usize = 20;
+const NULL_LEAST: usize = 100;
+const NULL_LONGEST: Duration = Duration::from_millis(500);
+/// A trip that took so many times the shortest one met something else than the clock: nothing foreign is in the runner.
+const NULL_STRAYED: f64 = 3.0;
 
 /// Starts runners under one policy.
 #[derive(Clone, Debug)]
@@ -169,28 +172,30 @@ impl Launcher {
 const NAMESPACE_STEPS: [&str; 9] =
     ["Namespaces", "IdMaps", "Groups", "Ids", "PrivateMounts", "EmptyRoot", "Library", "EnterRoot", "ReadOnlyRoot"];
 
-/// Asks the null plugin so often that the round trip and its spread are known; on a machine too busy for that, as often
-/// as fits into a twentieth of a second. No foreign code is in the runner yet, so nobody can make this slow and have more
-/// subtracted than is right.
+/// Asks the null plugin so often that the round trip and its spread are known. No foreign code is in the runner yet, so
+/// nobody can make this slow and have more subtracted than is right; what a busy machine does to some of the trips is left
+/// out, for it would hide every short time of the session behind the spread.
 fn measure_null(exchange: &mut Exchange, policy: &Policy) -> Result<ClockFacts, Outcome> {
     let mut trips = Trips::default();
     let mut ask = |command, questions, times: usize, kept: &mut Vec<f64>| -> Result<(), Outcome> {
         let begun = Instant::now();
-        let mut disturbed = Vec::new();
         exchange.ask_for(questions);
-        for i in 0..times + times / 10 {
-            let trip = exchange.obeyed(command, Phase::Query, policy.query_seconds)?;
-            let late = begun.elapsed() > NULL_TIME;
-            if i >= times / 10 || late {
-                if exchange.disturbed(&trip) { &mut disturbed } else { &mut *kept }.push(trip.raw_ns);
-            }
-            if late && kept.len() + disturbed.len() >= NULL_LEAST {
+        for _ in 0..times / 10 {
+            exchange.obeyed(command, Phase::Query, policy.query_seconds)?;
+        }
+        let mut shortest = f64::INFINITY;
+        let mut straight = 0;
+        while straight < times {
+            let trip = exchange.obeyed(command, Phase::Query, policy.query_seconds)?.raw_ns;
+            kept.push(trip);
+            shortest = shortest.min(trip);
+            straight += usize::from(trip <= NULL_STRAYED * shortest);
+            let passed = begun.elapsed();
+            if passed > NULL_LONGEST || (passed > NULL_TIME && straight >= NULL_LEAST.min(times)) {
                 break;
             }
         }
-        if kept.is_empty() {
-            *kept = disturbed;
-        }
+        kept.retain(|trip| *trip <= NULL_STRAYED * shortest);
         Ok(())
     };
     ask(Command::Null, 1, NULL_SAMPLES, &mut trips.null)?;

@@ -47,7 +47,7 @@ pub use launch::Killer;
 pub use launcher::{Launcher, Trial};
 pub use layers::Profile;
 pub use outcome::{DeniedCall, Ending, Outcome, Phase};
-pub use pass::{Observation, PassFacts, PassPlan, Time};
+pub use pass::{Batched, Observation, PassFacts, PassPlan, Time};
 pub use policy::{ClockChoice, Policy};
 pub use protocol::MAX_BATCH;
 pub use session::{Batch, Sample, Session};

@@ -84,6 +84,17 @@ pub struct Time {
     pub disturbed: bool,
 }
 
+/// One batch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Batched {
+    /// How many questions.
+    pub questions: u32,
+    /// The time that they took one by one, nanoseconds.
+    pub alone_ns: f64,
+    /// The time that they took together.
+    pub together_ns: f64,
+}
+
 /// What a pass shows beside the answers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PassFacts {
@@ -95,12 +106,8 @@ pub struct PassFacts {
     pub blocks: [u32; 2],
     /// Times that stand although disturbed.
     pub disturbed: u32,
-    /// Questions asked in undisturbed batches.
-    pub batched: u32,
-    /// These together, nanoseconds.
-    pub batched_ns: f64,
-    /// The same questions alone.
-    pub singles_ns: f64,
+    /// Undisturbed batches.
+    pub batches: Vec<Batched>,
     /// Questions asked exactly as before: the first time and the second, nanoseconds.
     pub repeats: Vec<[f64; 2]>,
     /// Time in which nothing was asked, and what the runner computed in it, nanoseconds.
@@ -317,9 +324,11 @@ impl Pass<'_, '_> {
         let (begun, before) = (Instant::now(), self.session.usage());
         let batch = self.session.batch(self.plan.query, &asked)?;
         if !self.gate(begun, before)? && !batch.disturbed {
-            self.facts.batched += members.len() as u32;
-            self.facts.batched_ns += batch.time_ns;
-            self.facts.singles_ns += members.iter().map(|(_, ns)| ns).sum::<f64>();
+            self.facts.batches.push(Batched {
+                questions: members.len() as u32,
+                alone_ns: members.iter().map(|(_, ns)| ns).sum(),
+                together_ns: batch.time_ns,
+            });
         }
         for (&configuration, answer) in configurations.iter().zip(batch.answers) {
             let flow = (self.each)(Observation { configuration, instance, answer, time: None });

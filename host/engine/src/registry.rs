@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use ocb_sandbox::{Descriptor, Launcher, Policy, Profile};
+use ocb_sandbox::{Descriptor, Ending, Launcher, Policy, Profile};
 
 use crate::blobs::sha256_hex;
 use crate::model::{AlgorithmInfo, ParameterInfo};
@@ -140,11 +140,15 @@ impl Registry {
         let algorithms = match store.described(&sha256).await {
             Ok(Some(known)) => known,
             _ => {
-                let launcher =
-                    Launcher::new(self.runner.clone(), Policy { trusted, profile: self.profile, ..Policy::default() });
+                let policy = Policy { trusted, profile: self.profile, ..Policy::default() };
+                let alone = Launcher::new(self.runner.clone(), policy.clone());
+                // What is made for several threads may need a library that is for their track only.
+                let threaded = Launcher::new(self.runner.clone(), Policy { threads: 2, ..policy });
                 let (path, hash) = (file.to_owned(), sha256.clone());
                 let described = blocking(move || {
-                    let descriptors = launcher.describe(&path).map_err(|end| EngineError::Invalid(end.to_string()))?;
+                    let refused =
+                        |first: Ending| threaded.describe(&path).map_err(|_| EngineError::Invalid(first.to_string()));
+                    let descriptors = alone.describe(&path).or_else(refused)?;
                     Ok(descriptors.into_iter().map(|d| info(d, &hash)).collect::<Vec<_>>())
                 })
                 .await?;

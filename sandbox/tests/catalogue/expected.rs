@@ -1,6 +1,7 @@
 //! What must come of an attack.
 
 use ocb_core::record::Verdict;
+use ocb_sandbox::integrity::Check;
 use ocb_sandbox::{Outcome, Phase};
 
 use crate::common::grouped;
@@ -35,6 +36,12 @@ pub enum Expected {
     WorkSeen,
     /// The same as harmless, and no time is below the clock's resolution.
     Bounded,
+    /// Some of its answers are wrong, and every one is judged.
+    Wrong,
+    /// One of these checks of the times is not met: `TimingIntegrity`.
+    Caught(&'static [Check]),
+    /// It says the same in every trial; its words begin like this.
+    SaysAlike(&'static str),
 }
 
 /// Work of the fixtures (`WORK`) takes no less on any machine.
@@ -62,6 +69,12 @@ impl Expected {
             }
             Expected::WorkSeen => "harmless: the clock sees its work".into(),
             Expected::Bounded => "harmless: its time is the clock's resolution, never 0".into(),
+            Expected::Wrong => "judged `FalseNegative`".into(),
+            Expected::Caught(checks) => {
+                let names: Vec<&str> = checks.iter().map(|check| check.name()).collect();
+                format!("`TimingIntegrity` ({})", names.join(" or "))
+            }
+            Expected::SaysAlike(_) => "sees the same in every trial".into(),
         }
     }
 
@@ -82,7 +95,12 @@ impl Expected {
             (Expected::OutputLimit, Outcome::OutputLimit { .. }) => true,
             (Expected::Violation, Outcome::ProtocolViolation { phase: p, .. }) => *p == phase,
             (Expected::Refused(words), Outcome::LoadError { reason }) => reason.contains(words),
-            (Expected::Harmless, Outcome::Completed) => true,
+            (Expected::Harmless, Outcome::Completed) => ran.caught.is_none() && ran.wrong == 0,
+            (Expected::Wrong, Outcome::Completed) => ran.wrong > 0,
+            (Expected::Caught(checks), Outcome::Completed) => {
+                ran.wrong == 0 && ran.caught.is_some_and(|finding| checks.contains(&finding.check))
+            }
+            (Expected::SaysAlike(words), Outcome::Failed { .. }) => Expected::Says(words).met_by(ran, phase),
             (Expected::Judged(verdicts), Outcome::Completed) => ran.verdicts == verdicts,
             (Expected::WorkSeen, Outcome::Completed) => ran.shortest_ns > LEAST_WORK_NS,
             (Expected::Bounded, Outcome::Completed) => ran.bounded,

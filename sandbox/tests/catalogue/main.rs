@@ -14,11 +14,13 @@ macro_rules! attack {
 }
 
 mod answers;
+mod clock;
 #[path = "../common/mod.rs"]
 mod common;
 mod crashes;
 mod expected;
 mod memory;
+mod pass;
 mod resources;
 mod run;
 mod system;
@@ -64,6 +66,8 @@ pub enum Form {
     Distances,
     /// While a collision query is answered, in two trials, one after the other.
     Twice,
+    /// In a thousand questions of a pass, in as many processes as it takes.
+    Pass,
 }
 
 impl Form {
@@ -77,13 +81,14 @@ impl Form {
             Form::ThreadsContacts => "contacts, several threads",
             Form::Distances => "distances",
             Form::Twice => "query, two trials",
+            Form::Pass => "passes",
         }
     }
 }
 
 fn catalogue() -> Vec<&'static Attack> {
     let system = [system::FILES, system::PROCESSES, system::KERNEL];
-    let rest = [threads::ALL, resources::ALL, crashes::ALL, memory::ALL, answers::ALL, traces::ALL];
+    let rest = [threads::ALL, resources::ALL, crashes::ALL, memory::ALL, answers::ALL, clock::ALL, traces::ALL];
     system.into_iter().chain(rest).flatten().collect()
 }
 
@@ -93,7 +98,8 @@ fn every_attack_has_its_outcome() {
         let loading = (attack.form == Form::QueryAndConstructor).then_some((attack, true));
         [(attack, attack.form == Form::Loading)].into_iter().chain(loading)
     };
-    let all: Vec<(&Attack, bool)> = catalogue().into_iter().flat_map(forms).collect();
+    let (timed, others): (Vec<&Attack>, Vec<&Attack>) = catalogue().into_iter().partition(|a| a.form == Form::Pass);
+    let all: Vec<(&Attack, bool)> = others.into_iter().flat_map(forms).collect();
     // What the host knows and no plugin may find; `search_memory` looks for it.
     let reference = std::hint::black_box(vec![memory::CANARY; 4096]);
     let (next, wrong) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
@@ -110,8 +116,11 @@ fn every_attack_has_its_outcome() {
         }
     });
     assert!(reference.iter().all(|word| *word == memory::CANARY));
-    let wrong = wrong.into_inner().unwrap();
-    assert!(wrong.is_empty(), "{} of {} went otherwise:\n{}", wrong.len(), all.len(), wrong.join("\n"));
+    let mut wrong = wrong.into_inner().unwrap();
+    // Alone: who disturbs the clock learns nothing from it.
+    wrong.extend(timed.iter().filter_map(|attack| check(attack, false).err()));
+    let all = all.len() + timed.len();
+    assert!(wrong.is_empty(), "{} of {all} went otherwise:\n{}", wrong.len(), wrong.join("\n"));
 }
 
 /// The part of the README between its two marks.

@@ -2,10 +2,11 @@
 
 use ocb_core::query::{Answer, Query};
 use ocb_core::record::Verdict;
+use ocb_sandbox::integrity::Finding;
 use ocb_sandbox::{Ending, Launcher, Phase, Policy};
 
 use crate::common::{apart, fixture, judged, launcher_with, policy, start};
-use crate::{Attack, Form};
+use crate::{Attack, Expected, Form, pass};
 
 /// What came of it.
 pub struct Ran {
@@ -17,17 +18,27 @@ pub struct Ran {
     pub bounded: bool,
     /// Of the distances.
     pub verdicts: Vec<Verdict>,
+    /// Wrong answers of the passes.
+    pub wrong: usize,
+    /// The check that the passes do not meet.
+    pub caught: Option<Finding>,
 }
 
 /// The difference to what was expected.
 pub fn check(attack: &Attack, constructor: bool) -> Result<(), String> {
+    let mut before: Option<String> = None;
     for _ in 0..if attack.form == Form::Twice { 2 } else { 1 } {
         let ran = run(attack, constructor);
+        let said = ran.ending.to_string();
+        if matches!(attack.expected, Expected::SaysAlike(_)) && before.as_ref().is_some_and(|b| *b != said) {
+            return Err(format!("{}: it sees a difference: {said}, and before: {before:?}", attack.id));
+        }
+        before = Some(said);
         let phase = if constructor { Phase::Load } else { Phase::Query };
         if !attack.expected.met_by(&ran, phase) {
             let form = if constructor { " (constructor)" } else { "" };
             let (ending, expected) = (&ran.ending, attack.expected.text());
-            let (what, more) = (attack.defines.join(" "), (ran.shortest_ns, &ran.verdicts));
+            let (what, more) = (attack.defines.join(" "), (ran.shortest_ns, &ran.verdicts, ran.wrong, &ran.caught));
             return Err(format!("{}{form} {what}: {ending} {more:?}, not {expected}", attack.id));
         }
     }
@@ -40,7 +51,8 @@ fn run(attack: &Attack, constructor: bool) -> Ran {
     defines.extend((constructor && form != Form::Loading).then_some("IN_CONSTRUCTOR"));
     defines.extend(matches!(form, Form::Contacts | Form::ThreadsContacts).then_some("IN_CONTACTS"));
     let threads = if matches!(form, Form::Threads | Form::ThreadsContacts) { 2 } else { 1 };
-    ask(&launcher_with(Policy { threads, ..policy() }), attack, &defines)
+    let launcher = launcher_with(Policy { threads, ..policy() });
+    if form == Form::Pass { pass::ask(&launcher, attack, &defines) } else { ask(&launcher, attack, &defines) }
 }
 
 /// Asks what the form wants, and two collision queries, so that a harmless attack has to go on being honest.
@@ -50,6 +62,8 @@ fn ask(launcher: &Launcher, attack: &Attack, defines: &[&str]) -> Ran {
         shortest_ns: f64::MAX,
         bounded: true,
         verdicts: vec![],
+        wrong: 0,
+        caught: None,
     };
     let mut session = match start(launcher, &fixture(defines)) {
         Ok(session) => session,

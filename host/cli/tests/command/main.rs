@@ -7,5 +7,6 @@ mod errors;
 mod generate;
 mod look;
 mod serve;
+mod settings;
 mod support;
 mod truth;

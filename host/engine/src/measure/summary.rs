@@ -126,8 +126,9 @@ fn time_summary(measured: &Measured, mean_ns: Estimated) -> TimeSummary {
 
 fn timing(passes: &[PassFacts]) -> Timing {
     let sum = |of: fn(&PassFacts) -> u32| passes.iter().map(of).sum::<u32>();
-    let warm_n = sum(|pass| pass.batched);
-    let warm_ns: f64 = passes.iter().map(|pass| pass.batched_ns).sum();
+    let batches = || passes.iter().flat_map(|pass| &pass.batches);
+    let warm_n: u32 = batches().map(|batch| batch.questions).sum();
+    let warm_ns: f64 = batches().map(|batch| batch.together_ns).sum();
     let check = |finding: integrity::Finding| TimingCheck {
         check: finding.check.name().into(),
         found: finding.found,
