@@ -61,54 +61,36 @@ fn a_setting_that_is_not_possible_is_said() {
     }
 }
 
-/// The plugin answers only when it has as many threads as CPUs, and is right about cubes that are moved along x.
+/// The plugin answers only when it has as many threads as CPUs. It knows motions along x alone, so it is wrong about
+/// equivalent instances, and the exit code says so.
 #[test]
 fn several_threads_are_measured_in_their_own_track() {
     let desk = Desk::new();
-    let (cube, plugin) = (desk.file("cube.obj", CUBE), openmp(&desk));
+    let (cube, theirs) = (desk.file("cube.obj", CUBE), openmp(&desk).display().to_string());
     let poses: String = (0..40).map(|i| format!("1,0,0,{},0,1,0,0,0,0,1,0\n", 0.125 + f64::from(i) / 16.0)).collect();
     let poses = desk.file("poses.csv", poses);
-    let plugins = Path::new(env!("CARGO_BIN_EXE_ocb")).with_file_name("libocb_box_tree.so");
-    let (ours, theirs) = (plugins.display().to_string(), plugin.display().to_string());
+    let ours = Path::new(env!("CARGO_BIN_EXE_ocb")).with_file_name("libocb_box_tree.so").display().to_string();
     let bench = |algorithm: &str| {
-        let args = [
-            "bench",
-            &cube,
-            "--configurations",
-            &poses,
-            "--algorithm",
-            algorithm,
-            "--plugins",
-            &ours,
-            "--plugins",
-            &theirs,
-            "--profile",
-            "dev",
-        ];
-        desk.json(&args)
+        let plugins = ["--plugins", &ours, "--plugins", &theirs, "--profile", "dev"];
+        let ended = desk.run(
+            &[&["bench", &cube, "--configurations", &poses, "--algorithm", algorithm, "--json"], &plugins[..]].concat(),
+        );
+        assert_eq!(ended.code, 3, "{ended:?}");
+        let run: serde_json::Value = serde_json::from_str(&ended.stdout).expect("JSON");
+        run["results"].clone()
     };
-    let run = bench("box-tree,fixture:threads=2");
-    let results = run["results"].as_array().expect("results");
-    let seen: Vec<_> =
-        results.iter().map(|r| (r["outcome"]["name"].as_str(), &r["wrong"], &r["class"]["cpus"])).collect();
-    assert_eq!(seen, [(Some("Completed"), &0.into(), &1.into()), (Some("Completed"), &0.into(), &2.into())], "{run:#}");
+    let results = bench("box-tree,fixture:threads=2");
+    let seen =
+        |row: usize| (results[row]["outcome"]["name"].as_str(), &results[row]["n"], &results[row]["class"]["cpus"]);
+    assert_eq!(
+        [seen(0), seen(1)],
+        [(Some("Completed"), &40.into(), &1.into()), (Some("Completed"), &40.into(), &2.into())]
+    );
+    assert_eq!(results[0]["wrong"], 0);
     // On one CPU its library is not there.
-    let alone = desk.run(&[
-        "bench",
-        &cube,
-        "--configurations",
-        &poses,
-        "--algorithm",
-        "fixture",
-        "--plugins",
-        &ours,
-        "--plugins",
-        &theirs,
-        "--profile",
-        "dev",
-    ]);
-    assert_ne!(alone.code, 0);
-    assert!(alone.stdout.contains("LoadError") && alone.stdout.contains("libgomp"), "{alone:?}");
+    let alone = &bench("fixture")[0]["outcome"];
+    assert_eq!(alone["name"], "LoadError");
+    assert!(alone["message"].as_str().is_some_and(|said| said.contains("libgomp")), "{alone}");
 }
 
 #[expect(clippy::disallowed_methods, reason = "the plugin is made here, as an author makes it")]
