@@ -49,10 +49,10 @@ check-oracle: ## the oracle against CGAL, integers and planted faults (some 20 m
 	cargo test $(CARGO_FLAGS) --test oracle -- --nocapture
 	tests/oracle-check/faults.py all
 
-bench: build ## the algorithms on the torus knot; finding positions against peers (OBJECT=file.obj)
-	$(TARGET)/release/ocb bench stock:torus-knot --query cd --count 2000 --data $(DATA)
-	cargo bench --package ocb-sandbox --bench timing
-	cargo bench --package ocb-tests --bench positions -- $(abspath $(or $(OBJECT),target/stock/dragon.obj))
+bench: build ## every contestant side by side (OBJECTS=files), the clock, and finding positions against peers
+	cargo bench --workspace --bench contestants -- $(abspath $(OBJECTS))
+	cargo bench --workspace --bench timing
+	cargo bench --workspace --bench positions -- $(firstword $(abspath $(OBJECTS)) $(abspath target/stock/dragon.obj))
 
 soak: build ## fuzz the jail's readers, try ten million pairs, then kill and restart the service for MINUTES (10)
 	tests/setup/soak.sh $(or $(MINUTES),10)

@@ -1,0 +1,146 @@
+//! All contestants, interleaved in one run per object and workload: the tables that show who is how fast at what.
+//!
+//! `cargo bench --bench contestants -- [--seconds S] [--count N] [--algorithm ID]... OBJECT...`; an object is an OBJ file or
+//! a stock object. Workloads: W1 almost touching (1e-4 of the longest side apart), W2 a tenth apart, W3 crossing by 5e-4 of
+//! the scene's size; poses beside an OBJ file, `NAME.W1.f64`, are taken in their place. Each is a run of the service like
+//! any other: in the jail, judged against certified truth. `target/contestants/` then holds the tables as Markdown and
+//! Parquet and a chart as SVG.
+
+mod chart;
+mod report;
+
+use std::error::Error;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use futures::StreamExt;
+use ocb_core::configuration::{Method, Sampling};
+use ocb_core::query::{Query, Semantics};
+use ocb_engine::model::{RunInfo, RunSpec};
+use ocb_engine::{Engine, EngineConfig};
+use report::Row;
+
+/// What the command line says.
+struct Wish {
+    seconds: f64,
+    count: u32,
+    algorithms: Vec<String>,
+    objects: Vec<String>,
+}
+
+/// What is asked of every object: the workload's name, relative distance, step, question.
+const WORKLOADS: [(&str, f64, Option<f64>, Query); 5] = [
+    ("W1", 1e-4, None, Query::CollisionFirst),
+    ("W2", 0.1, None, Query::CollisionFirst),
+    ("W3", 0.0, Some(-5e-4), Query::CollisionFirst),
+    ("W1", 1e-4, None, Query::Proximity),
+    ("W2", 0.1, None, Query::Proximity),
+];
+
+#[tokio::main]
+async fn main() -> Result<(), Box<dyn Error>> {
+    let wish = wish()?;
+    let folder = built()?.join("../contestants");
+    fs::create_dir_all(&folder)?;
+    let data = tempfile::tempdir()?;
+    let config = EngineConfig {
+        plugins: vec![built()?],
+        runner: built()?.join("ocb-runner"),
+        ..EngineConfig::beside_executable(data.path())
+    };
+    let engine = Engine::open(config).await?;
+    for problem in engine.status().await?.problems {
+        println!("contestants: {problem}");
+    }
+    let mut rows: Vec<Row> = Vec::new();
+    let mut machine = String::new();
+    for object in &wish.objects {
+        for workload in WORKLOADS {
+            let run = measure(&engine, &wish, object, workload).await?;
+            if let Some(facts) = &run.environment {
+                machine = format!(
+                    "{}, {} CPUs, clock {}, null round trip {:.0} ns",
+                    facts.cpu, facts.cpus, facts.clock, facts.null_ns.value
+                );
+            }
+            rows.extend(run.results.iter().map(|result| Row::of(&run, workload.0, result)));
+            // After each run, so that nothing is lost when the next one is ended.
+            fs::write(folder.join("contestants.md"), report::markdown(&rows, &machine))?;
+            fs::write(folder.join("contestants.parquet"), report::parquet(&rows)?)?;
+            fs::write(folder.join("contestants.svg"), chart::svg(&rows, &machine))?;
+        }
+    }
+    println!("{}", report::markdown(&rows, &machine));
+    println!("contestants: written to {}", folder.canonicalize()?.display());
+    engine.shutdown().await;
+    Ok(())
+}
+
+fn wish() -> Result<Wish, Box<dyn Error>> {
+    let mut wish = Wish { seconds: 5.0, count: 1000, algorithms: Vec::new(), objects: Vec::new() };
+    let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
+    while let Some(word) = words.next() {
+        let mut value = || words.next().ok_or_else(|| format!("{word} needs a value"));
+        match word.as_str() {
+            "--seconds" => wish.seconds = value()?.parse()?,
+            "--count" => wish.count = value()?.parse()?,
+            "--algorithm" => wish.algorithms.push(value()?),
+            _ => wish.objects.push(word),
+        }
+    }
+    if wish.objects.is_empty() {
+        wish.objects.push("stock:torus-knot@20000".into());
+    }
+    if wish.algorithms.is_empty() {
+        wish.algorithms.push("all".into());
+    }
+    Ok(wish)
+}
+
+/// Where runner and plugins lie: two folders above this program.
+fn built() -> Result<PathBuf, Box<dyn Error>> {
+    let exe = std::env::current_exe()?;
+    Ok(exe.ancestors().nth(2).ok_or("this program lies in no target folder")?.to_path_buf())
+}
+
+async fn measure(
+    engine: &Engine,
+    wish: &Wish,
+    object: &str,
+    (name, relative_distance, step, query): (&str, f64, Option<f64>, Query),
+) -> Result<RunInfo, Box<dyn Error>> {
+    let (id, given) = if object.starts_with("stock:") {
+        (object.to_owned(), None)
+    } else {
+        let file = Path::new(object);
+        let stem = file.file_stem().and_then(|s| s.to_str()).ok_or("an object has a name")?;
+        let poses = file.with_file_name(format!("{stem}.{name}.f64"));
+        (engine.add_object(stem, fs::read(file)?, None).await?.id, poses.is_file().then_some(poses))
+    };
+    let (method, relative_distance, step) = match given {
+        Some(poses) => (engine.add_configurations(fs::read(poses)?).await?, 0.0, None),
+        None => (Method::Sphere { sampling: Sampling::Count { count: wish.count }, seed: 0 }, relative_distance, step),
+    };
+    let spec = RunSpec {
+        object_a: id,
+        object_b: None,
+        query,
+        semantics: Semantics::Surface,
+        method,
+        relative_distance,
+        step,
+        ladder: false,
+        algorithms: wish.algorithms.clone(),
+        passes: 5,
+        budget_seconds: wish.seconds,
+        seed: None,
+    };
+    let run = engine.submit(spec, None).await?;
+    let mut events = Box::pin(engine.follow(&run.id, 0).await?);
+    while let Some(event) = events.next().await {
+        if let Some(result) = event?.result {
+            eprintln!("{object} {name} {query:?}: {} {}", result.algorithm, result.outcome.name);
+        }
+    }
+    Ok(engine.run(&run.id, None).await?)
+}
