@@ -1,0 +1,10 @@
+//! sphere-tree answers as every contestant must.
+
+#[path = "../../common/tests/support/mod.rs"]
+#[macro_use]
+mod support;
+
+use ocb_sphere_tree::SphereTree;
+use support::contestant::Terms;
+
+contestant!(Terms::exact(|| vec![SphereTree::default()]));
