@@ -16,7 +16,7 @@ use opencollbench_plugin::{
 pub struct DopTree {
     k: u32,
     /// Memory of the traversals, kept from query to query.
-    open: Open,
+    open: Open<u32>,
 }
 
 const K: i32 = 18;

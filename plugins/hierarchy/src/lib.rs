@@ -1,15 +1,19 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+mod boxes;
 pub mod fit;
+mod leaves;
 mod nearest;
 mod query;
 mod relative;
 mod tree;
 mod volume;
 
+pub use boxes::Boxes;
+pub use leaves::Leaves;
 pub use nearest::Search;
 pub use query::{Open, Query};
 pub use relative::{Relative, SHARE};
-pub use tree::{Node, Tree};
-pub use volume::Volume;
+pub use tree::Tree;
+pub use volume::{Hierarchy, Volume};

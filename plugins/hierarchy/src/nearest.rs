@@ -6,7 +6,8 @@ use std::collections::BinaryHeap;
 use ocb_triangles::{Closest, distance_below};
 use opencollbench_plugin::{Count, Separation};
 
-use crate::{Open, Query, Volume};
+use crate::query::Pair;
+use crate::{Hierarchy, Open, Query, Volume};
 
 /// How to look for the closest pair.
 #[derive(Clone, Copy, Debug)]
@@ -35,38 +36,44 @@ impl Search {
 }
 
 /// Pairs of volumes with a lower bound of their distance.
-#[derive(Debug, Default)]
-pub(crate) struct Pending {
-    nearest_first: BinaryHeap<Bounded>,
-    depth_first: Vec<Bounded>,
+#[derive(Debug)]
+pub(crate) struct Pending<At> {
+    nearest_first: BinaryHeap<Bounded<At>>,
+    depth_first: Vec<Bounded<At>>,
+}
+
+impl<At> Default for Pending<At> {
+    fn default() -> Self {
+        Self { nearest_first: BinaryHeap::new(), depth_first: Vec::new() }
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Bounded {
+struct Bounded<At> {
     bound: f64,
-    pair: [u32; 2],
+    pair: Pair<At>,
 }
 
-impl Ord for Bounded {
+impl<At> Ord for Bounded<At> {
     /// The nearest is the greatest.
     fn cmp(&self, other: &Self) -> Ordering {
         other.bound.total_cmp(&self.bound)
     }
 }
 
-impl PartialOrd for Bounded {
+impl<At> PartialOrd for Bounded<At> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Bounded {
+impl<At> PartialEq for Bounded<At> {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
-impl Eq for Bounded {}
+impl<At> Eq for Bounded<At> {}
 
 /// The closest pair of triangles so far.
 struct Best {
@@ -76,25 +83,25 @@ struct Best {
     reach: f64,
 }
 
-impl<V: Volume, C: Count> Query<'_, V, C> {
+impl<H: Hierarchy, C: Count> Query<'_, H, C> {
     /// The closest pair of points.
-    pub fn nearest(&mut self, open: &mut Open, search: &Search) -> Separation {
+    pub fn nearest(&mut self, open: &mut Open<H::At>, search: &Search) -> Separation {
         let closest = Closest { squared: f64::INFINITY, a: [0.0; 3], b: [0.0; 3] };
         let mut best = Best { closest, ids: [0, 0], reach: f64::INFINITY };
         self.dive(search, &mut best);
         let Pending { nearest_first: queue, depth_first } = &mut open.pending;
         queue.clear();
-        queue.push(Bounded { bound: 0.0, pair: [0, 0] });
+        queue.push(Bounded { bound: 0.0, pair: (self.a.root(), self.b.root()) });
         while let Some(next) = queue.pop() {
             if next.bound >= best.reach {
                 break;
             }
             if queue.len() + 2 > search.queue_size {
                 self.search_depth_first(next, depth_first, search, &mut best);
-            } else if let Some(children) = self.bounds(next.pair) {
+            } else if let Some(children) = self.bounds(&next.pair) {
                 queue.extend(children.into_iter().filter(|child| child.bound < best.reach));
             } else {
-                self.measure(next.pair, search, &mut best);
+                self.measure(&next.pair, search, &mut best);
             }
         }
         Separation {
@@ -106,35 +113,41 @@ impl<V: Volume, C: Count> Query<'_, V, C> {
 
     /// A first bound: straight down to one pair of leaves, always to the nearer pair of volumes.
     fn dive(&mut self, search: &Search, best: &mut Best) {
-        let mut pair = [0, 0];
-        while let Some([left, right]) = self.bounds(pair) {
+        let mut pair = (self.a.root(), self.b.root());
+        while let Some([left, right]) = self.bounds(&pair) {
             pair = if right.bound < left.bound { right.pair } else { left.pair };
         }
-        self.measure(pair, search, best);
+        self.measure(&pair, search, best);
     }
 
-    fn search_depth_first(&mut self, start: Bounded, stack: &mut Vec<Bounded>, search: &Search, best: &mut Best) {
+    fn search_depth_first(
+        &mut self,
+        start: Bounded<H::At>,
+        stack: &mut Vec<Bounded<H::At>>,
+        search: &Search,
+        best: &mut Best,
+    ) {
         stack.clear();
         stack.push(start);
         while let Some(next) = stack.pop() {
             if next.bound >= best.reach {
                 continue;
             }
-            if let Some(mut children) = self.bounds(next.pair) {
+            if let Some(mut children) = self.bounds(&next.pair) {
                 // The nearer one is taken first.
                 children.sort_unstable();
                 stack.extend(children.into_iter().filter(|child| child.bound < best.reach));
             } else {
-                self.measure(next.pair, search, best);
+                self.measure(&next.pair, search, best);
             }
         }
     }
 
     /// The two pairs that a pair is opened into; none for leaves.
     #[inline(always)]
-    fn bounds(&mut self, pair: [u32; 2]) -> Option<[Bounded; 2]> {
+    fn bounds(&mut self, pair: &Pair<H::At>) -> Option<[Bounded<H::At>; 2]> {
         let relative = self.relative;
-        let mut children = [Bounded { bound: 0.0, pair }; 2];
+        let mut children = [Bounded { bound: 0.0, pair: *pair }; 2];
         let mut places = children.iter_mut();
         let opened = self.open(pair, |pair, a, b, shared| {
             if let Some(place) = places.next() {
@@ -144,12 +157,10 @@ impl<V: Volume, C: Count> Query<'_, V, C> {
         opened.then_some(children)
     }
 
-    fn measure(&mut self, pair: [u32; 2], search: &Search, best: &mut Best) {
-        let [i, j] = self.triangles(pair);
-        let (a, b) = (self.frame.place_a(&self.a.triangles[i]), self.frame.place_b(&self.b.triangles[j]));
-        let ids = [self.a.ids[i], self.b.ids[j]];
+    fn measure(&mut self, pair: &Pair<H::At>, search: &Search, best: &mut Best) {
+        let (triangles, ids) = self.leaves(pair);
         self.work.primitive_test(ids[0], ids[1]);
-        if let Some(closest) = distance_below(&a, &b, best.closest.squared) {
+        if let Some(closest) = distance_below(&triangles[0], &triangles[1], best.closest.squared) {
             *best = Best { closest, ids, reach: search.reach(closest.squared.sqrt()) };
         }
     }

@@ -1,9 +1,9 @@
-//! What a bounding volume must be able to do.
+//! What a bounding volume, and a hierarchy of them, must be able to do.
 
 use ocb_triangles::Triangle;
 use ocb_triangles::vector::Vector;
 
-use crate::Relative;
+use crate::{Leaves, Relative};
 
 /// A bounding volume in the frame of its object.
 ///
@@ -38,4 +38,30 @@ pub trait Volume: Sized {
     fn apart(&self, b: &Self::Placed, shared: &Self::Shared, slack: f64) -> bool {
         self.gap(b, shared) > slack
     }
+}
+
+/// A binary hierarchy of volumes, as a query goes down it.
+pub trait Hierarchy {
+    /// Its volumes.
+    type Volume: Volume;
+    /// A node, and what is known of it from the way down.
+    type At: Copy;
+
+    /// Where to begin.
+    fn root(&self) -> Self::At;
+
+    /// What bounds all triangles from here on down.
+    fn volume<'s>(&'s self, at: &'s Self::At) -> &'s Self::Volume;
+
+    /// Whether there is a triangle here and no children.
+    fn is_leaf(&self, at: &Self::At) -> bool;
+
+    /// The children of a node that is no leaf.
+    fn children(&self, at: &Self::At) -> [Self::At; 2];
+
+    /// Where the triangle of a leaf stands in the leaves.
+    fn triangle(&self, at: &Self::At) -> usize;
+
+    /// All triangles.
+    fn leaves(&self) -> &Leaves;
 }

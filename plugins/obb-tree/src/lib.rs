@@ -13,7 +13,7 @@ use opencollbench_plugin::{
 #[derive(Debug, Default)]
 pub struct ObbTree {
     /// Memory of the traversals, kept from query to query.
-    open: Open,
+    open: Open<u32>,
 }
 
 opencollbench_plugin::export!(ObbTree: distance contacts counters);
@@ -58,6 +58,6 @@ impl Distance for ObbTree {
     }
 }
 
-fn query<'a, C: Count>(a: Placed<'a, ObbTree>, b: Placed<'a, ObbTree>, work: &'a mut C) -> Query<'a, Obb, C> {
+fn query<'a, C: Count>(a: Placed<'a, ObbTree>, b: Placed<'a, ObbTree>, work: &'a mut C) -> Query<'a, Tree<Obb>, C> {
     Query::new([a.object, b.object], [a.pose, b.pose], work)
 }

@@ -1,6 +1,6 @@
-//! An oriented box, and the separating axis test.
+//! An oriented box.
 
-use ocb_hierarchy::{Relative, Volume, fit};
+use ocb_hierarchy::{Boxes, Relative, Volume, fit};
 use ocb_triangles::Triangle;
 use ocb_triangles::vector::{Vector, add_scaled, dot, rotate, sub};
 
@@ -61,69 +61,24 @@ impl Volume for Obb {
         Obb { center: relative.place(self.center), axes, half: self.half }
     }
 
-    /// In the directions of either box, the gap between it and the box around the other one. RAPID answers no distances;
-    /// the nine edge products are left out, since they would cost more than they save.
+    /// RAPID answers no distances; this is the bound that its test leads to.
     #[inline(always)]
     fn gap(&self, b: &Obb, _: &Relative) -> f64 {
-        let pair = Pair::new(self, b);
-        let (mut in_a, mut in_b) = (0.0, 0.0);
-        for k in 0..3 {
-            let gap = pair.gap_along_a(k).max(0.0);
-            in_a += gap * gap;
-            let gap = pair.gap_along_b(k).max(0.0);
-            in_b += gap * gap;
-        }
-        f64::sqrt(if in_a > in_b { in_a } else { in_b })
+        self.compare(b, |boxes| boxes.gap())
     }
 
-    /// Fifteen axes: those of A, those of B, and the products of one of either. A product is shorter than 1, and its gap
-    /// with it, so that the slack is more than enough.
     #[inline(always)]
     fn apart(&self, b: &Obb, _: &Relative, slack: f64) -> bool {
-        let pair = Pair::new(self, b);
-        (0..3).any(|k| pair.gap_along_a(k) > slack)
-            || (0..3).any(|k| pair.gap_along_b(k) > slack)
-            || (0..9).any(|k| pair.gap_along_product(k / 3, k % 3) > slack)
+        self.compare(b, |boxes| boxes.apart(slack))
     }
 }
 
-/// A box of B as seen from a box of A.
-struct Pair<'a> {
-    a: &'a Vector,
-    b: &'a Vector,
-    /// From the middle of A to that of B.
-    between: Vector,
-    /// Columns are the axes of B.
-    turn: [Vector; 3],
-    /// Magnitudes of `turn`.
-    reach: [Vector; 3],
-}
-
-impl<'a> Pair<'a> {
+impl Obb {
     #[inline(always)]
-    fn new(a: &'a Obb, b: &'a Obb) -> Self {
-        let between = rotate(&a.axes, sub(b.center, a.center));
-        let turn = a.axes.map(|axis| b.axes.map(|other| dot(axis, other)));
-        Self { a: &a.half, b: &b.half, between, turn, reach: turn.map(|row| row.map(f64::abs)) }
-    }
-
-    #[inline(always)]
-    fn gap_along_a(&self, i: usize) -> f64 {
-        self.between[i].abs() - self.a[i] - dot(self.reach[i], *self.b)
-    }
-
-    #[inline(always)]
-    fn gap_along_b(&self, j: usize) -> f64 {
-        let column = |m: &[Vector; 3]| [m[0][j], m[1][j], m[2][j]];
-        dot(self.between, column(&self.turn)).abs() - self.b[j] - dot(column(&self.reach), *self.a)
-    }
-
-    #[inline(always)]
-    fn gap_along_product(&self, i: usize, j: usize) -> f64 {
-        let (i1, i2, j1, j2) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
-        let between = self.between[i2] * self.turn[i1][j] - self.between[i1] * self.turn[i2][j];
-        let reach_a = self.a[i1] * self.reach[i2][j] + self.a[i2] * self.reach[i1][j];
-        let reach_b = self.b[j1] * self.reach[i][j2] + self.b[j2] * self.reach[i][j1];
-        between.abs() - reach_a - reach_b
+    fn compare<T>(&self, b: &Obb, test: impl FnOnce(Boxes<'_>) -> T) -> T {
+        let between = rotate(&self.axes, sub(b.center, self.center));
+        let turn = self.axes.map(|axis| b.axes.map(|other| dot(axis, other)));
+        let reach = turn.map(|row| row.map(f64::abs));
+        test(Boxes { half_a: self.half, half_b: b.half, between, turn: &turn, reach: &reach })
     }
 }

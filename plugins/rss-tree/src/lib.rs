@@ -16,7 +16,7 @@ use rss::Rss;
 pub struct RssTree {
     search: Search,
     /// Memory of the traversals, kept from query to query.
-    open: Open,
+    open: Open<u32>,
 }
 
 /// What PQP's functions take when they are not told otherwise.
@@ -100,6 +100,6 @@ impl Parameters for RssTree {
     }
 }
 
-fn query<'a, C: Count>(a: Placed<'a, RssTree>, b: Placed<'a, RssTree>, work: &'a mut C) -> Query<'a, Rss, C> {
+fn query<'a, C: Count>(a: Placed<'a, RssTree>, b: Placed<'a, RssTree>, work: &'a mut C) -> Query<'a, Tree<Rss>, C> {
     Query::new([a.object, b.object], [a.pose, b.pose], work)
 }

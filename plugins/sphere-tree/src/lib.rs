@@ -13,7 +13,7 @@ use sphere::Sphere;
 #[derive(Debug, Default)]
 pub struct SphereTree {
     /// Memory of the traversals, kept from query to query.
-    open: Open,
+    open: Open<u32>,
 }
 
 opencollbench_plugin::export!(SphereTree: distance contacts counters);
@@ -58,6 +58,10 @@ impl Distance for SphereTree {
     }
 }
 
-fn query<'a, C: Count>(a: Placed<'a, SphereTree>, b: Placed<'a, SphereTree>, work: &'a mut C) -> Query<'a, Sphere, C> {
+fn query<'a, C: Count>(
+    a: Placed<'a, SphereTree>,
+    b: Placed<'a, SphereTree>,
+    work: &'a mut C,
+) -> Query<'a, Tree<Sphere>, C> {
     Query::new([a.object, b.object], [a.pose, b.pose], work)
 }

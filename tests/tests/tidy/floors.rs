@@ -55,13 +55,14 @@ const PLUGIN_API: &str = "opencollbench-plugin";
 const TRIANGLES: &str = "ocb-triangles";
 /// What plugins with binary hierarchies share.
 const HIERARCHY: &str = "ocb-hierarchy";
-const PLUGINS: [&str; 8] = [
+const PLUGINS: [&str; 9] = [
     "ocb-brute-force",
     "ocb-box-tree",
     "ocb-dop-tree",
     "ocb-fast",
     "ocb-obb-tree",
     "ocb-parry",
+    "ocb-restricted-box-tree",
     "ocb-rss-tree",
     "ocb-sphere-tree",
 ];

@@ -1,0 +1,10 @@
+//! restricted-box-tree answers as every contestant must.
+
+#[path = "../../common/tests/support/mod.rs"]
+#[macro_use]
+mod support;
+
+use ocb_restricted_box_tree::RestrictedBoxTree;
+use support::contestant::Terms;
+
+contestant!(Terms::exact(|| vec![RestrictedBoxTree::default()]));
