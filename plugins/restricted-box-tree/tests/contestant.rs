@@ -7,4 +7,4 @@ mod support;
 use ocb_restricted_box_tree::RestrictedBoxTree;
 use support::contestant::Terms;
 
-contestant!(Terms::exact(|| vec![RestrictedBoxTree::default()]));
+contestant!(Terms { stride: 100, ..Terms::exact(|| vec![RestrictedBoxTree::default()]) });
