@@ -1,6 +1,6 @@
 import {
-  BufferAttribute, BufferGeometry, Mesh, PerspectiveCamera, Points, PointsMaterial, Scene, Sphere, CanvasTexture, Vector2, Vector3,
-  WebGLRenderer, Raycaster,
+  BufferAttribute, BufferGeometry, Color, Mesh, PerspectiveCamera, Points, PointsMaterial, Scene, Sphere, CanvasTexture, Vector2, Vector3,
+  WebGLRenderer, Raycaster, SRGBColorSpace,
 } from 'three'
 import type { MeshBVH } from 'three-mesh-bvh'
 import { CameraRig } from './camera'
@@ -54,7 +54,7 @@ export class HeatmapViewer {
     private readonly canvas: HTMLCanvasElement,
     private readonly events: ViewerEvents = {},
   ) {
-    this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: !graphics().software })
+    this.renderer = new WebGLRenderer({ canvas, antialias: !graphics().software })
     this.renderer.setScissorTest(true)
     this.renderer.autoClear = false
     this.marker.renderOrder = 3
@@ -135,6 +135,8 @@ export class HeatmapViewer {
     const colour = (css: string) => cssBytes(css).map((byte) => byte / 255) as [number, number, number]
     this.marker.material.color.setRGB(...colour(style.color))
     this.halo.material.color.setRGB(...colour(resolve('--sheet')))
+    // Opaque: some browsers without a graphics card show what is transparent as black.
+    this.renderer.setClearColor(new Color().setRGB(...colour(resolve('--stage')), SRGBColorSpace), 1)
     this.invalidate()
   }
 
