@@ -30,6 +30,8 @@ pub struct Order {
     pub plugin_path: String,
     /// Size of the plugin file, bytes.
     pub plugin_bytes: u64,
+    /// Files of libraries that the plugin brings beside the system's own.
+    pub libraries: Vec<String>,
     /// CPUs to stay on; the scheduler's choice when empty.
     pub cpus: Vec<usize>,
     /// Threads that the plugin may start.

@@ -216,7 +216,7 @@ fn memory_group() -> Facility {
 }
 
 fn libraries() -> Facility {
-    let found = find_libraries(false).map(|all| all.iter().map(|l| l.name).collect::<Vec<_>>().join(", "));
+    let found = find_libraries(false).map(|all| all.iter().map(|l| l.name.as_str()).collect::<Vec<_>>().join(", "));
     let effect = "what plugins may link";
     let get = "install glibc's and gcc's run-time libraries (Debian: libc6, libgcc-s1, libstdc++6)";
     facility("system libraries", true, found.map_err(|e| e.to_string()), effect, get)

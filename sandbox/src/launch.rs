@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 
 use nix::poll::{PollFd, PollFlags, PollTimeout, poll};
 
+use crate::brought;
 use crate::clock::ClockKind;
 use crate::confine::process_descriptor;
 use crate::control::{Control, Order, Report};
@@ -97,6 +98,7 @@ impl Jail {
                 format!("it has {} bytes, at most {MAX_BYTES} may be; strip its debug symbols", metadata.len());
             return Err(Outcome::LoadError { reason }.into());
         }
+        let libraries = if policy.trusted { brought::beside(&plugin_path)? } else { Vec::new() };
         let sheet = memory_file(c"ocb-trial", trial.len()).map_err(fault("SharedMemory"))?;
         {
             use std::os::unix::fs::FileExt;
@@ -164,6 +166,7 @@ impl Jail {
             namespaces,
             plugin_path: plugin_path.to_string_lossy().into_owned(),
             plugin_bytes: metadata.len(),
+            libraries,
             cpus: places.runner.clone(),
             startable_threads,
             address_space_bytes,

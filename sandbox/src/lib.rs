@@ -7,6 +7,7 @@
 #[cfg(not(all(target_os = "linux", target_arch = "x86_64")))]
 compile_error!("the jail is written for Linux on x86-64: its system call list and floating-point care are per machine");
 
+mod brought;
 pub mod clock;
 #[doc(hidden)]
 pub mod confine;

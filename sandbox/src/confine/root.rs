@@ -38,7 +38,7 @@ pub const OPENMP: &str = "libgomp.so.1";
 #[derive(Clone, Debug)]
 pub struct Library {
     /// Its name as plugins ask for it.
-    pub name: &'static str,
+    pub name: String,
     /// Where it lies on this machine.
     pub path: PathBuf,
 }
@@ -54,7 +54,7 @@ pub fn find_libraries(threads: bool) -> Result<Vec<Library>, ConfineError> {
     let names = NAMES.into_iter().filter(|name| threads || *name != OPENMP);
     for (i, name) in names.enumerate() {
         match places.iter().map(|place| place.join(name)).find(|path| path.exists()) {
-            Some(path) => found.push(Library { name, path }),
+            Some(path) => found.push(Library { name: name.into(), path }),
             None if i < REQUIRED => {
                 return Err(ConfineError::Library(name.into(), io::Error::from(io::ErrorKind::NotFound)));
             }
@@ -64,22 +64,43 @@ pub fn find_libraries(threads: bool) -> Result<Vec<Library>, ConfineError> {
     Ok(found)
 }
 
+impl Library {
+    /// One that a plugin of ours brings (`brought.rs`): its file is named as plugins ask for it.
+    pub fn brought(path: &str) -> Self {
+        Library { name: path.rsplit('/').next().unwrap_or(path).to_owned(), path: path.into() }
+    }
+}
+
+/// Is this a file of the system's own libraries, which every jail holds?
+pub fn is_system(path: &str) -> bool {
+    NAMES.contains(&Library::brought(path).name.as_str())
+}
+
 /// Mounts made here stay here.
 pub fn private_mounts() -> Result<(), ConfineError> {
     mount(None::<&str>, "/", None::<&str>, MsFlags::MS_REC | MsFlags::MS_PRIVATE, None::<&str>)
         .map_err(|e| ConfineError::PrivateMounts(e.into()))
 }
 
+/// A file for the new root: where it will lie, and its mount.
+type Tree = (String, OwnedFd);
+
+/// Takes libraries and loader from this machine, before the new root hides what lies under /tmp, and with ids that may
+/// enter the folder of a library that lies beside a plugin of ours.
+pub fn take(libraries: &[Library]) -> Result<Vec<Tree>, ConfineError> {
+    let inside = libraries.iter().map(|library| (format!("{LIBRARIES}/{}", library.name), library.path.as_path()));
+    inside
+        .chain([(LOADER.to_string(), Path::new(LOADER))])
+        .map(|(inside, path)| match take_tree(path) {
+            Ok(tree) => Ok((inside, tree)),
+            Err(error) => Err(ConfineError::Library(path.display().to_string(), error)),
+        })
+        .collect()
+}
+
 /// Builds the new root on /tmp of this mount namespace: libraries mounted, the plugin copied (so that what runs is what
 /// was opened, whatever happens to the file).
-pub fn build(libraries: &[Library], plugin: BorrowedFd<'_>, plugin_bytes: u64) -> Result<(), ConfineError> {
-    // The trees are taken before the new root hides what lies under /tmp.
-    let loader = Library { name: "ld-linux-x86-64.so.2", path: LOADER.into() };
-    let trees = libraries
-        .iter()
-        .chain([&loader])
-        .map(|library| take_tree(&library.path).map_err(|e| ConfineError::Library(library.name.into(), e)))
-        .collect::<Result<Vec<_>, _>>()?;
+pub fn build(libraries: &[Tree], plugin: BorrowedFd<'_>, plugin_bytes: u64) -> Result<(), ConfineError> {
     let size = format!("size={},nr_inodes=64,mode=0755", plugin_bytes.next_multiple_of(4096) + (64 << 10));
     mount(Some("none"), "/tmp", Some("tmpfs"), MsFlags::MS_NOSUID | MsFlags::MS_NODEV, Some(size.as_str()))
         .map_err(|e| ConfineError::EmptyRoot(e.into()))?;
@@ -87,9 +108,8 @@ pub fn build(libraries: &[Library], plugin: BorrowedFd<'_>, plugin_bytes: u64) -
         std::fs::create_dir(under_tmp(directory)).map_err(ConfineError::EmptyRoot)?;
     }
     copy_plugin(plugin, plugin_bytes).map_err(ConfineError::PluginCopy)?;
-    let inside = libraries.iter().map(|l| format!("{LIBRARIES}/{}", l.name)).chain([LOADER.to_string()]);
-    for (tree, inside) in trees.iter().zip(inside) {
-        let target = under_tmp(&inside);
+    for (inside, tree) in libraries {
+        let target = under_tmp(inside);
         File::create(&target)
             .and_then(|_| put_tree(tree, &target))
             .map_err(|e| ConfineError::Library(inside.clone(), e))?;

@@ -61,7 +61,8 @@ fn launch_with(control: &Control) -> Result<(), Report> {
     let _ = nix::unistd::setsid();
     // SAFETY: an integer; the runner must be able to read what init creates.
     unsafe { libc::umask(0o022) };
-    let libraries = root::find_libraries(order.startable_threads > 0).map_err(fault)?;
+    let mut libraries = root::find_libraries(order.startable_threads > 0).map_err(fault)?;
+    libraries.extend(order.libraries.iter().map(|path| root::Library::brought(path)));
     let (released, release) = io::pipe().map_err(talk)?;
     let init = clone_init(order.namespaces).map_err(|e| fault(namespace_error(e)))?;
     if init == 0 {
@@ -161,12 +162,13 @@ fn inside(
     }
     if order.namespaces {
         root::private_mounts().map_err(fault)?;
+        let trees = root::take(libraries).map_err(fault)?;
         if own_ids {
             // Not before the program is open: its folder may be closed to others.
             confine::take_ids(0).map_err(fault)?;
             confine::die_with_parent().map_err(fault)?;
         }
-        root::build(libraries, files.plugin.as_fd(), order.plugin_bytes).map_err(fault)?;
+        root::build(&trees, files.plugin.as_fd(), order.plugin_bytes).map_err(fault)?;
         root::enter().map_err(fault)?;
         root::make_read_only().map_err(fault)?;
         confine::hide_host_name().map_err(fault)?;
@@ -224,7 +226,7 @@ fn become_runner(
                 }
                 confine::no_new_privileges()?;
                 confine::die_with_parent()?;
-                exec(&arguments(order, libraries, own_ids, trial_bytes), order.namespaces)
+                exec(&arguments(order, libraries, own_ids, trial_bytes), &search_path(order))
             };
             match steps() {
                 Err(error) => error,
@@ -256,19 +258,26 @@ fn arguments(order: &Order, libraries: &[root::Library], own_ids: bool, trial_by
         .collect()
 }
 
+/// Where the loader looks: in the jail's own folder, or, where there is no own root, beside the libraries that are brought.
+fn search_path(order: &Order) -> String {
+    let brought = order.libraries.iter().filter_map(|path| path.rsplit_once('/'));
+    let folders = match order.namespaces {
+        true => vec![root::LIBRARIES],
+        false => brought.map(|(folder, _)| folder).collect(),
+    };
+    format!("LD_LIBRARY_PATH={}", folders.join(":"))
+}
+
 /// Executes the program behind descriptor 7, which closes on the way.
-fn exec(arguments: &[String], own_root: bool) -> Result<std::convert::Infallible, ConfineError> {
+fn exec(arguments: &[String], search_path: &str) -> Result<std::convert::Infallible, ConfineError> {
     use std::ffi::CString;
     const PROGRAM: i32 = 7;
-    let c_strings: Result<Vec<CString>, _> = arguments.iter().map(|a| CString::new(a.as_str())).collect();
-    let c_strings = c_strings.map_err(|e| ConfineError::EnterRoot(e.into()))?;
+    let c_string = |text: &str| CString::new(text).map_err(|e| ConfineError::EnterRoot(e.into()));
+    let c_strings = arguments.iter().map(|a| c_string(a)).collect::<Result<Vec<_>, _>>()?;
     let pointers = |list: &[CString]| {
         list.iter().map(|a| a.as_ptr()).chain([std::ptr::null()]).collect::<Vec<*const libc::c_char>>()
     };
-    let mut environment = vec![c"LC_ALL=C".to_owned()];
-    if own_root {
-        environment.push(c"LD_LIBRARY_PATH=/lib".to_owned());
-    }
+    let environment = [c"LC_ALL=C".to_owned(), c_string(search_path)?];
     let (argv, envp) = (pointers(&c_strings), pointers(&environment));
     // SAFETY: integers only.
     unsafe { libc::fcntl(PROGRAM, libc::F_SETFD, libc::FD_CLOEXEC) };

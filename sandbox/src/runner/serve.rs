@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use ocb_sandbox::confine::{ConfineError, close_from, harden};
+use ocb_sandbox::confine::{ConfineError, close_from, harden, root};
 use ocb_sandbox::control::{Control, Report};
 use ocb_sandbox::doorbell::{futex_wait, futex_wake};
 use ocb_sandbox::protocol::{Command, MAX_BATCH, SLOT_WORDS, answer, request, slot};
@@ -78,8 +78,10 @@ fn close_off(mode: &str, plugin: &str, trial_bytes: &str, libraries: &[&str]) ->
         watch: if has("futex") { Duration::ZERO } else { WATCH },
     };
     close_from(CONTROL as u32 + 1).map_err(ConfineError::Descriptors)?;
+    // What the plugin brings is loaded with it, under the filter.
     let (optional, required): (Vec<&str>, Vec<&str>) = libraries
         .iter()
+        .filter(|path| root::is_system(path))
         .partition(|path| !["libc.so.6", "libm.so.6", "libgcc_s.so.1"].iter().any(|n| path.ends_with(n)));
     harden::preload(&required, &optional)?;
     harden::reset_signals()?;
