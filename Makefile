@@ -2,7 +2,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help serve build pages stock check check-oracle test bench soak clean tools
+.PHONY: help serve build pages stock plugins-cpp check check-oracle test bench soak clean tools
 
 PORT ?= 8080
 DATA ?= data
@@ -20,6 +20,14 @@ serve: build ## build host, runner, plugins and pages, then serve on 127.0.0.1:8
 
 build: tools pages stock ## the same without serving
 	cargo build --release
+	@$(MAKE) --silent --keep-going plugins-cpp || echo "make: going on without the wrappers that were not built"
+
+plugins-cpp: ## build the wrappers of the C++ libraries that are installed, and say how to get the others
+	@$(MAKE) --no-print-directory -C plugins/cpp
+
+# Against your own copy: make plugin-pqp PQP_DIR=/path/to/it, likewise rapid, v-collide, solid (see plugins/cpp/README.md).
+plugin-%:
+	@$(MAKE) --no-print-directory -C plugins/cpp $*
 
 tools:
 	@tests/setup/tools.sh build
@@ -53,6 +61,7 @@ bench: build ## every contestant side by side (OBJECTS=files), the clock, and fi
 	cargo bench --workspace --bench contestants -- $(abspath $(OBJECTS))
 	cargo bench --workspace --bench timing
 	cargo bench --workspace --bench positions -- $(firstword $(abspath $(OBJECTS)) $(abspath target/stock/dragon.obj))
+	cargo bench --workspace --bench overhead -- $(firstword $(abspath $(OBJECTS)) $(abspath target/stock/dragon.obj))
 
 soak: build ## fuzz the jail's readers, try ten million pairs, then kill and restart the service for MINUTES (10)
 	tests/setup/soak.sh $(or $(MINUTES),10)

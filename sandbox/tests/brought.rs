@@ -26,7 +26,6 @@ impl Plugin {
         shared(&["-Wl,-soname,libfar.so.2", "-o", far, &source("far.c", "int far(void) { return 1; }")]);
         let text = "int far(void); int near(void) { return far(); }";
         shared(&["-Wl,-soname,libbrought.so.1", "-o", near, &source("near.c", text), far]);
-        // The library's constructor has run when the plugin is used, so a wrong start shows.
         let fixture = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/fixtures/fixture.c");
         let include = concat!(env!("CARGO_MANIFEST_DIR"), "/../plugin-api/include");
         let user = source("user.c", "int near(void); int uses_it(void) { return near(); }");

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# tools.sh build|test: makes sure that the tools for `make serve` (build) or `make test` (test) are there. It installs
+# tools.sh build|test|coal: makes sure that the tools for `make serve` (build) or `make test` (test) are there, or only the
+# library Coal. It installs
 # what it can (as root or with `sudo -n`) and says what; otherwise it prints the one line to run. Seconds when all is there.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-purpose=${1:?usage: tools.sh build|test}
+purpose=${1:?usage: tools.sh build|test|coal}
 export DEBIAN_FRONTEND=noninteractive PATH="$PWD/.tools/node_modules/.bin:$HOME/.cargo/bin:$PATH"
 
 have() { command -v "$1" >/dev/null 2>&1; }
@@ -32,6 +33,16 @@ if [ "$purpose" = test ]; then
   compgen -G '/usr/lib/postgresql/*/bin/initdb' >/dev/null || packages+=(postgresql)
   # CGAL's exact kernel is the oracle's second opinion; development only, nothing of the product is linked with it.
   echo '#include <CGAL/version.h>' | c++ -E -x c++ - >/dev/null 2>&1 || packages+=(libcgal-dev)
+  # The libraries that plugins/cpp/ wraps.
+  while read -r header package; do
+    printf '#if !__has_include(<%s>)\n#error\n#endif\n' "$header" | c++ -E -x c++ - >/dev/null 2>&1 || packages+=("$package")
+  done <<< "fcl/config.h libfcl-dev
+ode/ode.h libode-dev
+bullet/btBulletCollisionCommon.h libbullet-dev
+embree3/rtcore.h libembree-dev"
+fi
+if [ "$purpose" != build ]; then
+  [ -d /usr/include/eigen3 ] || packages+=(libeigen3-dev)
   python3 -c 'import venv, ensurepip' 2>/dev/null || packages+=(python3 python3-venv)
 fi
 
@@ -68,6 +79,14 @@ if ! node_ok; then
   hash -r
   node_ok || die "Node 20.19 or 24 is needed; .tools/node_modules/.bin/node did not start."
 fi
+
+if [ "$purpose" != build ] && [ ! -e .tools/coal/cmeel.prefix/lib/libcoal.so ]; then
+  say "unpacking the collision library Coal from PyPI into .tools/coal"
+  rm -rf .tools/coal .tools/pip
+  python3 -m venv .tools/pip
+  .tools/pip/bin/pip install --quiet --disable-pip-version-check --no-deps --target .tools/coal -r tests/setup/coal.txt
+fi
+[ "$purpose" != coal ] || exit 0
 
 if [ "$purpose" = test ] && [ ! -x .tools/s3/bin/moto_server ]; then
   say "installing the S3 test server (moto) from PyPI into .tools/s3"

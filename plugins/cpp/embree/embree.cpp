@@ -18,15 +18,17 @@ class Scene {
   public:
     Scene(RTCDevice device, const std::vector<Triangle> &own, RTCBuildQuality again)
         : own(own), placed(own), scene(rtcNewScene(device)) {
+        // Of scenes of low quality, each geometry has a hierarchy of its own, which is what can be fitted anew.
         rtcSetSceneFlags(scene, RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
         geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+        rtcSetGeometryBuildQuality(geometry, again);
         rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(own.size()));
         rtcSetGeometryUserData(geometry, this);
         rtcSetGeometryBoundsFunction(geometry, bound, nullptr);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
         rtcCommitScene(scene);
-        rtcSetGeometryBuildQuality(geometry, again);
     }
     ~Scene() {
         rtcReleaseGeometry(geometry);

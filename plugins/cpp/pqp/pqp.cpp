@@ -64,8 +64,8 @@ class Pqp : public Algorithm {
         found.value = result.Distance();
         // Each point is in its own object's frame.
         found.has_points = found.value > 0;
-        found.a = pose_a({result.P1()[0], result.P1()[1], result.P1()[2]});
-        found.b = pose_b({result.P2()[0], result.P2()[1], result.P2()[2]});
+        found.a = pose_a(Vector{result.P1()[0], result.P1()[1], result.P1()[2]});
+        found.b = pose_b(Vector{result.P2()[0], result.P2()[1], result.P2()[2]});
         return found;
     }
 
