@@ -36,8 +36,7 @@ fn bench(set: &str, query: &str) -> (Value, BTreeMap<String, Vec<BTreeMap<String
     bench
         .arg("bench")
         .arg(shared("meshes/bunny65k.obj"))
-        .args(["--query", query, "--budget", BUDGET, "--passes", "1", "--json"])
-        .args(["--algorithm", "box-tree,brute-force,ocb-fast,parry"]);
+        .args(["--query", query, "--budget", BUDGET, "--passes", "1", "--json"]);
     bench.arg("--configurations").arg(shared(&format!("configurations/bunny65k.{set}.f64")));
     bench.args(ALGORITHMS.into_iter().flat_map(|name| ["--algorithm", name]));
     bench.arg("--out").arg(&out).arg("--data").arg(folder.path().join("data"));
