@@ -75,7 +75,7 @@ class Bullet : public Algorithm {
         btGImpactMeshShapePart &part_a = static_cast<Shape &>(a).part(), &part_b = static_cast<Shape &>(b).part();
         const btTransform placed_a = transform(pose_a), placed_b = transform(pose_b);
         const Locked locked_a(part_a), locked_b(part_b);
-        candidates.resize(0);
+        candidates.resizeNoInitialize(0);
         btGImpactQuantizedBvh::find_collision(part_a.getBoxSet(), placed_a, part_b.getBoxSet(), placed_b, candidates);
         for (int i = 0; i < candidates.size(); i++) {
             const GIM_PAIR &candidate = candidates[i];
