@@ -37,9 +37,17 @@ impl Boxes<'_> {
     /// it, so that the slack is more than enough.
     #[inline(always)]
     pub fn apart(&self, slack: f64) -> bool {
-        (0..3).any(|k| self.gap_along_a(k) > slack)
-            || (0..3).any(|k| self.gap_along_b(k) > slack)
-            || (0..9).any(|k| self.gap_along_product(k / 3, k % 3) > slack)
+        if (0..3).any(|k| self.gap_along_a(k) > slack) || (0..3).any(|k| self.gap_along_b(k) > slack) {
+            return true;
+        }
+        // All nine: fewer mispredicted branches are worth more than fewer products.
+        let mut apart = false;
+        for i in 0..3 {
+            for j in 0..3 {
+                apart |= self.gap_along_product(i, j) > slack;
+            }
+        }
+        apart
     }
 
     #[inline(always)]
