@@ -5,12 +5,12 @@
 
 use std::cell::RefCell;
 
+use crate::parry::bounding_volume::{Aabb, BoundingVolume};
+use crate::parry::math::{Pose, Real};
+use crate::parry::partitioning::BvhNode;
+use crate::parry::query::{self, ShapeDistance};
+use crate::parry::shape::{Shape, TriMesh, Triangle};
 use opencollbench_plugin::Count;
-use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
-use parry3d_f64::math::Pose;
-use parry3d_f64::partitioning::BvhNode;
-use parry3d_f64::query::{self, ShapeDistance};
-use parry3d_f64::shape::{Shape, TriMesh, Triangle};
 
 /// As `query::intersection_test`.
 pub fn first_contact(a: &TriMesh, b: &TriMesh, pose12: &Pose, work: &mut impl Count) -> Option<[u32; 2]> {
@@ -55,16 +55,16 @@ pub fn distance(a: &TriMesh, b: &TriMesh, pose12: &Pose, work: &mut impl Count) 
     let work = RefCell::new(work);
     let gap = |bounds: Aabb| {
         let work = &work;
-        move |node: &BvhNode, _: f64| {
+        move |node: &BvhNode, _: Real| {
             work.borrow_mut().bv_tests(1);
             let (center, half) = (bounds.center(), bounds.half_extents());
             Aabb { mins: node.mins() - center - half, maxs: node.maxs() - center + half }.distance_to_origin()
         }
     };
     let pose21 = pose12.inverse();
-    let nearest = a.bvh().find_best(f64::MAX, gap(b.compute_aabb(pose12)), |id_a, _| {
+    let nearest = a.bvh().find_best(Real::MAX, gap(b.compute_aabb(pose12)), |id_a, _| {
         let triangle_a = a.triangle(id_a);
-        let (id_b, distance) = b.bvh().find_best(f64::MAX, gap(triangle_a.compute_aabb(&pose21)), |id_b, _| {
+        let (id_b, distance) = b.bvh().find_best(Real::MAX, gap(triangle_a.compute_aabb(&pose21)), |id_b, _| {
             work.borrow_mut().primitive_test(id_a, id_b);
             query::distance(&Pose::IDENTITY, &b.triangle(id_b), &pose21, &triangle_a).ok()
         })?;
@@ -72,7 +72,7 @@ pub fn distance(a: &TriMesh, b: &TriMesh, pose12: &Pose, work: &mut impl Count) 
     });
     match nearest {
         Some((id_a, distance)) => ShapeDistance { subshape1: id_a, ..distance },
-        None => ShapeDistance::new(f64::MAX),
+        None => ShapeDistance::new(Real::MAX),
     }
 }
 

@@ -2,98 +2,30 @@
 #![forbid(unsafe_code)]
 
 mod counted;
+mod wrapper;
 
-use opencollbench_plugin::{
-    About, Algorithm, Answer, Collision, ContactList, Contacts, Count, Distance, Mesh, Placed, Refusal, Separation,
+use opencollbench_plugin::About;
+use parry3d_f64 as parry;
+pub use wrapper::Parry;
+
+const ABOUT: About = About {
+    id: c"parry",
+    name: c"parry",
+    version: c"0.31.1",
+    authors: c"S\xc3\xa9bastien Crozet and the parry contributors; wrapped by the OpenCollBench contributors",
+    license: c"Apache-2.0",
+    url: c"https://parry.rs",
+    ..About::new()
 };
-use parry3d_f64::math::{Matrix, Pose, Rotation, Vector};
-use parry3d_f64::query::{self, ClosestPoints, ShapeDistance, Unsupported};
-use parry3d_f64::shape::TriMesh;
-
-/// parry's triangle mesh against parry's triangle mesh.
-#[derive(Debug, Default)]
-pub struct Parry;
 
 opencollbench_plugin::export!(Parry: distance contacts counters);
 
-impl Algorithm for Parry {
-    const ABOUT: About = About {
-        id: c"parry",
-        name: c"parry",
-        version: c"0.31.1",
-        authors: c"S\xc3\xa9bastien Crozet and the parry contributors; wrapped by the OpenCollBench contributors",
-        license: c"Apache-2.0",
-        url: c"https://parry.rs",
-        ..About::new()
-    };
-
-    type Object = TriMesh;
-
-    fn load_mesh(&mut self, mesh: Mesh<'_>) -> Answer<TriMesh> {
-        let vertices = mesh.positions.iter().map(|&p| Vector::from_array(p)).collect();
-        TriMesh::new(vertices, mesh.triangles.to_vec())
-            .map_err(|error| Refusal::Error(format!("parry does not take the mesh: {error}")))
-    }
-
-    fn collide(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<Collision> {
-        let (pose_a, pose_b) = (pose(&a), pose(&b));
-        if work.is_counting() {
-            let pose12 = pose_a.inv_mul(&pose_b);
-            return Ok(match counted::first_contact(a.object, b.object, &pose12, work) {
-                Some([a, b]) => Collision::Pair(a, b),
-                None => Collision::Apart,
-            });
-        }
-        let answer = query::intersection_test(&pose_a, a.object, &pose_b, b.object).map_err(unsupported)?;
-        Ok(if answer.intersecting { Collision::Pair(answer.subshape1, answer.subshape2) } else { Collision::Apart })
-    }
+/// From the interface's precision to parry's.
+fn narrow(x: f64) -> parry::math::Real {
+    x
 }
 
-impl Contacts for Parry {
-    /// parry has no such query; this is its collision query without the early end.
-    fn contacts(
-        &mut self,
-        a: Placed<'_, Self>,
-        b: Placed<'_, Self>,
-        found: &mut ContactList<'_>,
-        work: &mut impl Count,
-    ) -> Answer<()> {
-        let pose12 = pose(&a).inv_mul(&pose(&b));
-        counted::each_contact(a.object, b.object, &pose12, work, |a, b| {
-            found.push(a, b);
-            true
-        });
-        Ok(())
-    }
-}
-
-impl Distance for Parry {
-    fn distance(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<Separation> {
-        let (pose_a, pose_b) = (pose(&a), pose(&b));
-        let answer: ShapeDistance = if work.is_counting() {
-            counted::distance(a.object, b.object, &pose_a.inv_mul(&pose_b), work)
-        } else {
-            query::distance(&pose_a, a.object, &pose_b, b.object).map_err(unsupported)?
-        };
-        // The distance query names the triangles but not the points; for two triangles those cost next to nothing.
-        let (triangle_a, triangle_b) = (a.object.triangle(answer.subshape1), b.object.triangle(answer.subshape2));
-        let points = match query::closest_points(&pose_a, &triangle_a, &pose_b, &triangle_b, f64::MAX) {
-            Ok(ClosestPoints::WithinMargin(on_a, on_b)) => Some([on_a.to_array(), on_b.to_array()]),
-            // When triangles intersect, parry does not say where.
-            _ => None,
-        };
-        let triangles = Some([answer.subshape1, answer.subshape2]);
-        Ok(Separation { distance: answer.distance, points, triangles })
-    }
-}
-
-/// parry keeps rotations as quaternions.
-fn pose(placed: &Placed<'_, Parry>) -> Pose {
-    let [x, y, z] = placed.pose.rotation().map(Vector::from_array);
-    let rotation = Matrix::from_cols(x, y, z).transpose();
-    Pose::from_parts(Vector::from_array(placed.pose.translation()), Rotation::from_mat3(&rotation))
-}
-
-fn unsupported(_: Unsupported) -> Refusal {
-    Refusal::Unsupported
+/// And back.
+fn widen(x: parry::math::Real) -> f64 {
+    x
 }

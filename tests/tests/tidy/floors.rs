@@ -55,16 +55,24 @@ const PLUGIN_API: &str = "opencollbench-plugin";
 const TRIANGLES: &str = "ocb-triangles";
 /// What plugins with binary hierarchies share.
 const HIERARCHY: &str = "ocb-hierarchy";
-const PLUGINS: [&str; 9] = [
-    "ocb-brute-force",
+/// What the plugins that approximate share: distances to a surface, lattices, trees of balls.
+const FIELDS: &str = "ocb-fields";
+const PLUGINS: [&str; 15] = [
     "ocb-box-tree",
+    "ocb-brute-force",
+    "ocb-convex",
+    "ocb-convex-parts",
+    "ocb-distance-field",
     "ocb-dop-tree",
     "ocb-fast",
+    "ocb-inner-spheres",
     "ocb-obb-tree",
     "ocb-parry",
+    "ocb-parry-f32",
     "ocb-restricted-box-tree",
     "ocb-rss-tree",
     "ocb-sphere-tree",
+    "ocb-voxmap-pointshell",
 ];
 
 #[test]
@@ -73,6 +81,7 @@ fn a_floor_knows_only_the_floors_below() {
         (PLUGIN_API, &[] as &[&str]),
         (TRIANGLES, &[]),
         (HIERARCHY, &[PLUGIN_API, TRIANGLES]),
+        (FIELDS, &[PLUGIN_API, TRIANGLES]),
         ("ocb-core", &[]),
         ("ocb-sandbox", &["ocb-core", PLUGIN_API]),
         ("ocb-engine", &["ocb-core", "ocb-sandbox"]),
@@ -80,7 +89,7 @@ fn a_floor_knows_only_the_floors_below() {
         ("ocb-cli", &["ocb-core", "ocb-engine", "ocb-server"]),
         ("ocb-tests", &["ocb-core", "ocb-sandbox", "ocb-engine", "ocb-server", "ocb-cli", PLUGIN_API]),
     ]);
-    may.extend(PLUGINS.map(|p| (p, &[PLUGIN_API, TRIANGLES, HIERARCHY] as &[&str])));
+    may.extend(PLUGINS.map(|p| (p, &[PLUGIN_API, TRIANGLES, HIERARCHY, FIELDS] as &[&str])));
     let members = dependencies(&metadata());
     for (name, needs) in &members {
         let allowed = may
