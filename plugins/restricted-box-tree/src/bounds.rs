@@ -17,6 +17,9 @@ pub struct Bounds {
     pub sides: [Vector; 2],
 }
 
+/// Boxes with more empty space than this on one side, relative to the sum of the three sides, are cut once more.
+const LOOSE: f64 = 0.02;
+
 /// The rotation from B to A, and the magnitudes of its entries.
 #[derive(Clone, Copy, Debug)]
 pub struct Shared {
@@ -38,11 +41,24 @@ impl Bounds {
         x * y + y * z + z * x
     }
 
+    /// Where a side lies: twice the axis, and 1 for the upper one.
+    #[inline(always)]
+    pub fn side(&self, side: u8) -> f64 {
+        self.sides[usize::from(side & 1)][usize::from(side >> 1)]
+    }
+
     /// The box with one side moved.
     #[inline(always)]
-    pub fn cut(mut self, upper: bool, axis: usize, at: f64) -> Self {
-        self.sides[usize::from(upper)][axis] = at;
+    pub fn cut(mut self, side: u8, at: f64) -> Self {
+        self.sides[usize::from(side & 1)][usize::from(side >> 1)] = at;
         self
+    }
+
+    /// The side beyond which the box is emptiest, if that is much of it; `tight` is the box around what it holds.
+    pub fn loosest_side(&self, tight: &Self) -> Option<u8> {
+        let empty = |side: u8| (self.side(side) - tight.side(side)).abs();
+        let loosest = (0..6).max_by(|&i, &j| empty(i).total_cmp(&empty(j)))?;
+        (empty(loosest) > LOOSE * self.size()).then_some(loosest)
     }
 
     #[inline(always)]
@@ -91,7 +107,7 @@ impl Volume for Bounds {
             if left.0 == 0.0 || right.0 == 0.0 {
                 return f64::INFINITY;
             }
-            left.0 * self.cut(true, axis, left.1).area() + right.0 * self.cut(false, axis, right.1).area()
+            left.0 * self.cut(2 * axis as u8 + 1, left.1).area() + right.0 * self.cut(2 * axis as u8, right.1).area()
         };
         let costs = [cost(0), cost(1), cost(2)];
         let least = (0..3).min_by(|&i, &j| costs[i].total_cmp(&costs[j])).unwrap_or(0);

@@ -11,11 +11,22 @@ use crate::bounds::Bounds;
 struct Node {
     /// Where the moved side lies.
     cut: f64,
-    /// Leaf: its triangle. Inner node: its first child; the second one follows it.
+    /// What comes next.
     first: u32,
-    /// Which side has been moved: twice the axis, and 1 for the upper one. And whether this is a leaf.
-    side: u16,
-    leaf: bool,
+    /// Which side has been moved: twice the axis, and 1 for the upper one.
+    side: u8,
+    next: Next,
+}
+
+/// What a node's `first` is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Next {
+    /// The first child; the second one follows it.
+    Children,
+    /// The only child, which cuts off more of the same box.
+    Cut,
+    /// The triangle of a leaf.
+    Triangle,
 }
 
 const _: () = assert!(size_of::<Node>() == 16, "what the tree is for");
@@ -42,9 +53,17 @@ impl Cuts {
         let mut leaves = Leaves::new(mesh);
         let count = leaves.triangles.len();
         let all = Bounds::around(&leaves.triangles, leaves.radius);
-        let mut nodes = vec![Node { cut: 0.0, first: 0, side: 0, leaf: count == 1 }];
-        let mut open = vec![(0, all, 0, count, 0)];
-        while let Some((at, bounds, first, end, depth)) = open.pop() {
+        let next = if count == 1 { Next::Triangle } else { Next::Children };
+        let mut nodes = vec![Node { cut: all.sides[0][0], first: 0, side: 0, next }];
+        let mut open = vec![(0, all, all, 0, count, 0)];
+        while let Some((mut at, mut bounds, tight, first, end, depth)) = open.pop() {
+            while let Some(side) = bounds.loosest_side(&tight) {
+                bounds = bounds.cut(side, tight.side(side));
+                let more = Node { cut: tight.side(side), side, ..nodes[at] };
+                (nodes[at].first, nodes[at].next) = (nodes.len() as u32, Next::Cut);
+                at = nodes.len();
+                nodes.push(more);
+            }
             if end - first <= 1 {
                 continue;
             }
@@ -52,16 +71,38 @@ impl Cuts {
             let axis = (0..3).find(|&k| direction[k] > 0.0).unwrap_or(0);
             let middle = leaves.split(first, end, direction, depth);
             let child = nodes.len();
-            nodes[at] = Node { first: child as u32, ..nodes[at] };
-            for (i, (from, to)) in [(first, middle), (middle, end)].into_iter().enumerate() {
-                let upper = i == 0;
-                let cut = Bounds::around(&leaves.triangles[from..to], leaves.radius).sides[usize::from(upper)][axis];
-                let side = 2 * axis as u16 + u16::from(upper);
-                nodes.push(Node { cut, first: from as u32, side, leaf: to - from == 1 });
-                open.push((child + i, bounds.cut(upper, axis, cut), from, to, depth + 1));
+            nodes[at].first = child as u32;
+            for (from, to, upper) in [(first, middle, true), (middle, end, false)] {
+                let tight = Bounds::around(&leaves.triangles[from..to], leaves.radius);
+                let next = if to - from == 1 { Next::Triangle } else { Next::Children };
+                let side = 2 * axis as u8 + u8::from(upper);
+                nodes.push(Node { cut: tight.side(side), first: from as u32, side, next });
+                open.push((
+                    child + usize::from(!upper),
+                    bounds.cut(side, tight.side(side)),
+                    tight,
+                    from,
+                    to,
+                    depth + 1,
+                ));
             }
         }
         Self { nodes, all, leaves }
+    }
+}
+
+impl Cuts {
+    /// The box of a node from that of its parent.
+    #[inline(always)]
+    fn at(&self, mut node: u32, mut bounds: Bounds) -> At {
+        loop {
+            let Node { cut, first, side, next } = self.nodes[node as usize];
+            bounds = bounds.cut(side, cut);
+            if next != Next::Cut {
+                return At { node, bounds };
+            }
+            node = first;
+        }
     }
 }
 
@@ -71,7 +112,7 @@ impl Hierarchy for Cuts {
 
     #[inline(always)]
     fn root(&self) -> At {
-        At { node: 0, bounds: self.all }
+        self.at(0, self.all)
     }
 
     #[inline(always)]
@@ -81,16 +122,13 @@ impl Hierarchy for Cuts {
 
     #[inline(always)]
     fn is_leaf(&self, at: &At) -> bool {
-        self.nodes[at.node as usize].leaf
+        self.nodes[at.node as usize].next == Next::Triangle
     }
 
     #[inline(always)]
     fn children(&self, at: &At) -> [At; 2] {
         let first = self.nodes[at.node as usize].first;
-        [first, first + 1].map(|child| {
-            let Node { cut, side, .. } = self.nodes[child as usize];
-            At { node: child, bounds: at.bounds.cut(side & 1 == 1, usize::from(side / 2), cut) }
-        })
+        [self.at(first, at.bounds), self.at(first + 1, at.bounds)]
     }
 
     #[inline(always)]
