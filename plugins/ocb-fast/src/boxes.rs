@@ -1,7 +1,9 @@
 //! Sixteen pairs of oriented boxes: do they overlap, how far apart are they?
 
-use crate::lanes::{Bits, Lanes, Points, dot, inverse, sub, three};
-use crate::tree::Node;
+use ocb_lanes::{Bits, Lanes, Points, dot, inverse, sub, three};
+
+use crate::relative::Relative;
+use crate::tree::{Node, row};
 
 /// Sixteen boxes.
 #[derive(Clone, Copy)]
@@ -12,27 +14,28 @@ pub struct Boxes<L> {
 }
 
 impl<L: Lanes> Boxes<L> {
-    /// The children of an inner node, each in four lanes side by side.
+    /// The children of an inner node of A, each in four lanes side by side.
     #[inline(always)]
     pub fn spread(node: &Node) -> Self {
         Self {
-            center: three!(i => L::spread(node.row(i, 0))),
-            axes: three!(k => three!(i => L::spread(node.row(i, k + 1)))),
+            center: three!(i => L::spread(row(&node.vectors, i, 0))),
+            axes: three!(k => three!(i => L::spread(row(&node.vectors, i, k + 1)))),
             half: three!(k => L::spread(&node.half[k])),
         }
     }
 
-    /// The children of an inner node, four times one after the other.
+    /// The children of an inner node of B, seen from A, four times one after the other.
     #[inline(always)]
-    pub fn tile(node: &Node) -> Self {
+    pub fn tile(node: &Node, relative: &Relative) -> Self {
+        let placed = relative.place::<L>(node, false);
         Self {
-            center: three!(i => L::tile(node.row(i, 0))),
-            axes: three!(k => three!(i => L::tile(node.row(i, k + 1)))),
-            half: three!(k => L::tile(&node.half[k])),
+            center: three!(i => L::tile(row(&placed, i, 0))),
+            axes: three!(k => three!(i => L::tile(row(&placed, i, k + 1)))),
+            half: three!(k => relative.enlarge(L::tile(&node.half[k]))),
         }
     }
 
-    /// The box of a leaf, in all lanes.
+    /// The box of a leaf of A, in all lanes.
     #[inline(always)]
     pub fn of_leaf(node: &Node) -> Self {
         Self {
@@ -41,45 +44,56 @@ impl<L: Lanes> Boxes<L> {
             half: three!(k => L::splat(node.half[0][k])),
         }
     }
+
+    /// The box of a leaf of B, seen from A, in all lanes.
+    #[inline(always)]
+    pub fn of_placed_leaf(node: &Node, relative: &Relative) -> Self {
+        let placed = relative.place::<L>(node, true);
+        Self {
+            center: three!(i => L::splat(placed[i][12])),
+            axes: three!(k => three!(i => L::splat(placed[i][13 + k]))),
+            half: three!(k => relative.enlarge(L::splat(node.half[0][k]))),
+        }
+    }
 }
 
-/// Where a box of A and a box of B may have a point in common: the separating axis test (S. Gottschalk, M. C. Lin,
-/// D. Manocha: OBBTree, SIGGRAPH 1996). B's boxes have been enlarged by `slack`. Also the squared distances of the middles.
+/// Calls a kernel with the boxes of two nodes of which one at most is a leaf, such that each pair of them has its lane. Three
+/// calls, so that the boxes stay in registers.
+macro_rules! against {
+    ($kernel:ident, $pair:expr, $node_a:expr, $node_b:expr, $relative:expr $(, $more:expr)*) => {
+        match $pair {
+            [a, _] if a.is_leaf() => {
+                $kernel(&Boxes::of_leaf($node_a), &Boxes::tile($node_b, $relative) $(, $more)*)
+            }
+            [_, b] if b.is_leaf() => {
+                $kernel(&Boxes::spread($node_a), &Boxes::of_placed_leaf($node_b, $relative) $(, $more)*)
+            }
+            _ => $kernel(&Boxes::<L>::spread($node_a), &Boxes::tile($node_b, $relative) $(, $more)*),
+        }
+    };
+}
+pub(crate) use against;
+
+/// Where a box of A and a box of B may have a point in common: no axis of either separates them. Also the squared distances
+/// of the middles. B's boxes have been enlarged by the slack.
+///
+/// The nine products of axes would cost more than the few pairs that they alone tell apart.
 #[inline(always)]
-pub fn overlap<L: Lanes>(a: &Boxes<L>, b: &Boxes<L>, slack: f32, live: Bits) -> (Bits, L) {
+pub fn overlap<L: Lanes>(a: &Boxes<L>, b: &Boxes<L>, live: Bits) -> (Bits, L) {
     let between = sub(&b.center, &a.center);
-    let along_a = three!(k => dot(&a.axes[k], &between));
-    let turn = three!(k => three!(j => dot(&a.axes[k], &b.axes[j])));
-    let reach = three!(k => three!(j => turn[k][j].abs()));
-    let all = L::lanes(live);
-    let square = dot(&between, &between);
+    let reach = three!(k => three!(j => dot(&a.axes[k], &b.axes[j]).abs()));
     // Three short chains of comparisons, since each waits for the one before.
-    let mut keep = three!(k => L::unless_above(all, along_a[k].abs(), dot(&reach[k], &b.half) + a.half[k]));
+    let mut keep = [L::lanes(live); 3];
+    for k in 0..3 {
+        let radius_b = dot(&reach[k], &b.half);
+        keep[k] = L::unless_above(keep[k], dot(&a.axes[k], &between).abs(), radius_b + a.half[k]);
+    }
     for j in 0..3 {
         let radius_a = dot(&[reach[0][j], reach[1][j], reach[2][j]], &a.half);
         keep[j] = L::unless_above(keep[j], dot(&b.axes[j], &between).abs(), radius_a + b.half[j]);
     }
-    let left = L::bits(keep[0]) & L::bits(keep[1]) & L::bits(keep[2]);
-    if left == 0 {
-        return (left, square);
-    }
-    let sides = a.half[0] + a.half[1] + a.half[2] + b.half[0] + b.half[1] + b.half[2];
-    let spare = sides.mul_add(L::splat(SPARE), L::splat(slack));
-    for k in 0..3 {
-        let (k1, k2) = ((k + 1) % 3, (k + 2) % 3);
-        for j in 0..3 {
-            let (j1, j2) = ((j + 1) % 3, (j + 2) % 3);
-            let gap = along_a[k2] * turn[k1][j] - along_a[k1] * turn[k2][j];
-            let radius = a.half[k1].mul_add(reach[k2][j], a.half[k2].mul_add(reach[k1][j], spare));
-            let radius = b.half[j1].mul_add(reach[k][j2], b.half[j2].mul_add(reach[k][j1], radius));
-            keep[j] = L::unless_above(keep[j], gap.abs(), radius);
-        }
-    }
-    (L::bits(keep[0]) & L::bits(keep[1]) & L::bits(keep[2]), square)
+    (L::bits(keep[0]) & L::bits(keep[1]) & L::bits(keep[2]), dot(&between, &between))
 }
-
-/// 256 roundings: what the nine products of edges may be off, relative to the boxes.
-const SPARE: f32 = 1.0 / 65_536.0;
 
 /// Lower bounds of the squared distances of the boxes. B's boxes have been enlarged by the slack.
 #[inline(always)]

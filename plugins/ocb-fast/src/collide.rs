@@ -1,24 +1,41 @@
 //! Which triangles meet? Both trees at once, depth first.
 
+use ocb_lanes::{Bits, Lanes, Work};
 use ocb_triangles::meet;
 use opencollbench_plugin::Count;
 
 use crate::Pair;
-use crate::boxes::{Boxes, overlap};
-use crate::faces::{Faces, touching};
-use crate::lanes::{Bits, Lanes, Work};
-use crate::tree::Link;
+use crate::boxes::{Boxes, against, overlap};
+use crate::faces::{left_by_edges, left_by_planes};
+use crate::stack::Stack;
+use crate::tree::{Link, Node};
+use crate::waiting::Waiting;
+
+/// What is still to be done, kept from query to query for its memory.
+#[derive(Debug, Default)]
+pub struct Open {
+    /// Of which one at least is an inner node.
+    boxes: Stack,
+    leaves: Stack,
+    /// Pairs of triangles that no plane of theirs separates.
+    waiting: Waiting,
+}
+
+/// Pairs of leaves are put off until there are so many.
+const LEAVES: usize = 4;
+/// Of those, the memory is asked for so many ahead.
+const AHEAD: usize = 3;
 
 /// A query that visits pairs of triangles that meet, until the visitor says false.
 pub struct Contacts<'q, C, V> {
     pair: &'q Pair<'q>,
-    open: &'q mut Vec<[Link; 2]>,
+    open: &'q mut Open,
     work: &'q mut C,
     visit: V,
 }
 
 impl<'q, C: Count, V: FnMut(u32, u32) -> bool> Contacts<'q, C, V> {
-    pub fn new(pair: &'q Pair<'q>, open: &'q mut Vec<[Link; 2]>, work: &'q mut C, visit: V) -> Self {
+    pub fn new(pair: &'q Pair<'q>, open: &'q mut Open, work: &'q mut C, visit: V) -> Self {
         Self { pair, open, work, visit }
     }
 }
@@ -28,63 +45,138 @@ impl<C: Count, V: FnMut(u32, u32) -> bool> Work for Contacts<'_, C, V> {
 
     #[inline(always)]
     fn run<L: Lanes>(mut self) {
-        let Pair { a: tree_a, b: tree_b, relative, .. } = self.pair;
-        self.open.clear();
-        self.open.push([tree_a.root, tree_b.root]);
-        while let Some([a, b]) = self.open.pop() {
-            let (node_a, node_b) = (tree_a.node(a), tree_b.node(b));
-            let placed = relative.place::<L>(node_b, b.is_leaf());
-            let live = live(a, b);
-            if a.is_leaf() && b.is_leaf() {
-                let mut left = touching(&Faces::<L>::spread(node_a), &Faces::tile(&placed), relative.slack, live);
-                if self.work.is_counting() {
-                    each(live, |i, j| self.work.primitive_test(node_a.children[i], node_b.children[j]));
-                }
-                while left != 0 {
-                    let (i, j) = lowest(left);
-                    left &= left - 1;
-                    if !self.meets(node_a.children[i], node_b.children[j]) {
-                        return;
-                    }
-                }
-                continue;
+        self.open.boxes.clear();
+        self.open.leaves.clear();
+        self.open.waiting.count = 0;
+        self.put::<L>(1, L::splat(0.0), &[self.pair.a.root.0; 4], &[self.pair.b.root.0; 4]);
+        // One pair is always on its way: a processor works on both, and memory has that long to arrive.
+        let mut coming: Option<[Link; 2]> = None;
+        loop {
+            let next = self.open.boxes.pop();
+            if let Some(next) = next {
+                self.fetch::<L>(next);
             }
-            self.work.bv_tests(u64::from(live.count_ones()));
-            let of_a = if a.is_leaf() { Boxes::<L>::of_leaf(node_a) } else { Boxes::spread(node_a) };
-            let of_b = if b.is_leaf() { Boxes::<L>::of_leaf(&placed) } else { Boxes::tile(&placed) };
-            let last = Link(node_a.children[0]).is_leaf() && Link(node_b.children[0]).is_leaf();
-            let (mut left, squares) = overlap(&of_a, &of_b, relative.slack, live);
-            let mut square = [0.0; 16];
-            squares.store(&mut square);
-            while left != 0 {
-                // The nearest middles last, so that they come first: where objects overlap, they do so most there. Not
-                // worth the while just above the leaves.
-                let mut farthest = left.trailing_zeros() as usize;
-                let mut others = if last { 0 } else { left & (left - 1) };
-                while others != 0 {
-                    let lane = others.trailing_zeros() as usize;
-                    others &= others - 1;
-                    farthest = if square[lane & 15] > square[farthest & 15] { lane } else { farthest };
-                }
-                left &= !(1 << farthest);
-                let (i, j) = (farthest / 4 % 4, farthest % 4);
-                let next_a = if a.is_leaf() { a } else { Link(node_a.children[i]) };
-                let next_b = if b.is_leaf() { b } else { Link(node_b.children[j]) };
-                L::prefetch(tree_a.node(next_a));
-                L::prefetch(tree_b.node(next_b));
-                self.open.push([next_a, next_b]);
+            if let Some([a, b]) = coming {
+                self.boxes::<L>(a, b);
+            }
+            coming = next;
+            let ended = coming.is_none() && self.open.boxes.len() == 0;
+            let due = ended || self.open.leaves.len() >= LEAVES;
+            let found = due && !self.leaves::<L>();
+            if ended || found {
+                return;
             }
         }
     }
 }
 
-impl<C, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
+impl<C: Count, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
+    #[inline(always)]
+    fn fetch<L: Lanes>(&self, [a, b]: [Link; 2]) {
+        L::prefetch(self.pair.a.node(a));
+        L::prefetch(self.pair.b.node(b));
+    }
+
+    /// Puts pairs of nodes where they belong, the nearest last, so that it comes first: where objects overlap, they do so
+    /// most there.
+    #[inline(always)]
+    fn put<L: Lanes>(&mut self, lanes: Bits, squares: L, a: &[u32; 4], b: &[u32; 4]) {
+        // Known before the tests have ended, other than the lanes.
+        let of_leaves = of_leaves(a, b);
+        if of_leaves != 0xffff {
+            let inner = lanes & !of_leaves;
+            self.open.boxes.push::<L>(inner, a, b);
+            self.open.boxes.prefer(inner, squares.least(inner));
+        }
+        if of_leaves != 0 {
+            self.open.leaves.push::<L>(lanes & of_leaves, a, b);
+        }
+    }
+
+    /// Compares the children of two nodes, or a leaf with the children of a node.
+    #[inline(always)]
+    fn boxes<L: Lanes>(&mut self, a: Link, b: Link) {
+        let Pair { a: tree_a, b: tree_b, relative, .. } = self.pair;
+        let (node_a, node_b) = (tree_a.node(a), tree_b.node(b));
+        let live = live(a, b);
+        self.work.bv_tests(u64::from(live.count_ones()));
+        let (left, squares) = against!(overlap, [a, b], node_a, node_b, relative, live);
+        self.put::<L>(left, squares, &successors(a, node_a), &successors(b, node_b));
+    }
+
+    /// Compares the triangles of all pairs of leaves that were put off. Says whether to go on.
+    #[inline(always)]
+    fn leaves<L: Lanes>(&mut self) -> bool {
+        let Pair { a: tree_a, b: tree_b, relative, .. } = self.pair;
+        let count = self.open.leaves.len();
+        for place in 0..count.min(AHEAD) {
+            self.fetch::<L>(self.open.leaves.get(place));
+        }
+        for place in 0..count {
+            let [a, b] = self.open.leaves.get(place);
+            if place + AHEAD < count {
+                self.fetch::<L>(self.open.leaves.get(place + AHEAD));
+            }
+            let (leaf_a, leaf_b) = (tree_a.node(a), tree_b.node(b));
+            let placed = relative.place::<L>(leaf_b, true);
+            let live = live(a, b);
+            if self.work.is_counting() {
+                each(live, |i, j| self.work.primitive_test(leaf_a.children[i], leaf_b.children[j]));
+            }
+            let mut left = left_by_planes::<L>(&leaf_a.vectors, &placed, relative.slack, live);
+            while left != 0 {
+                let (i, j) = lowest(left);
+                left &= left - 1;
+                self.open.waiting.push([&leaf_a.vectors, &placed], [i, j], [leaf_a.children[i], leaf_b.children[j]]);
+                if self.open.waiting.is_full() && !self.look_closer::<L>() {
+                    return false;
+                }
+            }
+        }
+        self.open.leaves.clear();
+        self.open.waiting.count == 0 || self.look_closer::<L>()
+    }
+
+    /// Compares pairs of triangles by the other directions, and exactly. Says whether to go on.
+    #[inline(always)]
+    fn look_closer<L: Lanes>(&mut self) -> bool {
+        let waiting = &mut self.open.waiting;
+        let (of_a, of_b) = waiting.faces::<L>();
+        let mut left = left_by_edges(&of_a, &of_b, self.pair.relative.slack, (1 << waiting.count) - 1);
+        waiting.count = 0;
+        while left != 0 {
+            let [a, b] = self.open.waiting.ids[left.trailing_zeros() as usize % 16];
+            left &= left - 1;
+            if !self.meets(a, b) {
+                return false;
+            }
+        }
+        true
+    }
+
     /// Says whether to go on.
     fn meets(&mut self, a: u32, b: u32) -> bool {
         let Pair { a: tree_a, b: tree_b, frame, .. } = self.pair;
         let (of_a, of_b) = (frame.place_a(&tree_a.triangle(a)), frame.place_b(&tree_b.triangle(b)));
         !meet(&of_a, &of_b) || (self.visit)(a, b)
     }
+}
+
+/// What takes a node's place when it is opened.
+#[inline(always)]
+pub fn successors(link: Link, node: &Node) -> [u32; 4] {
+    if link.is_leaf() { [link.0; 4] } else { node.children }
+}
+
+/// The lanes in which both are leaves.
+#[inline(always)]
+fn of_leaves(a: &[u32; 4], b: &[u32; 4]) -> Bits {
+    let (mut of_a, mut of_b) = (0, 0);
+    for i in 0..4 {
+        of_a |= Bits::from(Link(a[i]).is_leaf()) * (0xf << (4 * i));
+        of_b |= Bits::from(Link(b[i]).is_leaf()) * (0x1111 << i);
+    }
+    of_a & of_b
 }
 
 /// The lanes in which there is a pair to test: places of A by places of B; a leaf against an inner node is one place.
@@ -104,7 +196,7 @@ pub fn lowest(left: Bits) -> (usize, usize) {
     (lane / 4 % 4, lane % 4)
 }
 
-/// Calls a function for the places of all lanes of these.
+/// Calls a function for the places of all lanes of these. Not for kernels: the function is compiled for any processor.
 #[inline(always)]
 pub fn each(mut left: Bits, mut f: impl FnMut(usize, usize)) {
     while left != 0 {

@@ -1,7 +1,7 @@
 //! Sixteen pairs of triangles: four of A against four of B.
 
-use crate::lanes::{Bits, Lanes, Points, add_scaled, cross, dot, inverse, sub, three};
-use crate::tree::Node;
+use crate::tree::{Vectors, row};
+use ocb_lanes::{Bits, Lanes, Points, add_scaled, cross, dot, inverse, sub, three};
 
 /// Sixteen triangles.
 pub struct Faces<L> {
@@ -11,14 +11,27 @@ pub struct Faces<L> {
 impl<L: Lanes> Faces<L> {
     /// The triangles of a leaf of A, each in four lanes side by side.
     #[inline(always)]
-    pub fn spread(leaf: &Node) -> Self {
-        Self { corners: three!(k => three!(i => L::spread(leaf.row(i, k)))) }
+    fn spread(leaf: &Vectors) -> Self {
+        Self { corners: three!(k => three!(i => L::spread(row(leaf, i, k)))) }
     }
 
     /// The triangles of a leaf of B, four times one after the other.
     #[inline(always)]
-    pub fn tile(leaf: &Node) -> Self {
-        Self { corners: three!(k => three!(i => L::tile(leaf.row(i, k)))) }
+    fn tile(leaf: &Vectors) -> Self {
+        Self { corners: three!(k => three!(i => L::tile(row(leaf, i, k)))) }
+    }
+
+    /// Sixteen triangles, by corners and axes.
+    #[inline(always)]
+    pub fn load(corners: &[[[f32; 16]; 3]; 3]) -> Self {
+        Self { corners: three!(k => three!(i => L::load(&corners[k][i]))) }
+    }
+
+    /// The edges from the first corner.
+    #[inline(always)]
+    fn two_edges(&self) -> [Points<L>; 2] {
+        let [p, q, r] = &self.corners;
+        [sub(q, p), sub(r, p)]
     }
 
     #[inline(always)]
@@ -47,25 +60,30 @@ fn norm_1<L: Lanes>(v: &Points<L>) -> L {
     v[0].abs() + v[1].abs() + v[2].abs()
 }
 
-/// Pairs that may have a point in common: those that none of eleven directions separates certainly.
-///
-/// The normals come first. Along the product of two edges only their triangles' third corners leave the edges' ends.
+/// Pairs that may have a point in common: those that neither triangle's plane separates certainly.
 #[inline(always)]
-pub fn touching<L: Lanes>(a: &Faces<L>, b: &Faces<L>, slack: f32, live: Bits) -> Bits {
+pub fn left_by_planes<L: Lanes>(leaf_a: &Vectors, leaf_b: &Vectors, slack: f32, live: Bits) -> Bits {
+    let (a, b) = (Faces::<L>::spread(leaf_a), Faces::tile(leaf_b));
+    let (slack, tiny) = (L::splat(slack), L::splat(TINY));
+    let ([d, e], [f, g]) = (a.two_edges(), b.two_edges());
+    let (normal_a, normal_b) = (cross(&d, &e), cross(&f, &g));
+    let of_b = three!(k => dot(&normal_a, &sub(&b.corners[k], &a.corners[0])));
+    let of_a = three!(k => dot(&normal_b, &sub(&a.corners[k], &b.corners[0])));
+    let bound_a = (norm_1(&d) * slack).mul_add(norm_1(&e), tiny);
+    let bound_b = (norm_1(&f) * slack).mul_add(norm_1(&g), tiny);
+    let keep = L::unless_above(L::lanes(live), beyond_zero(&of_b), bound_a);
+    L::bits(L::unless_above(keep, beyond_zero(&of_a), bound_b))
+}
+
+/// Pairs that may have a point in common: those that none of nine directions, each across an edge of either, separates
+/// certainly. Along such a direction only the third corners leave the edges' ends.
+#[inline(always)]
+pub fn left_by_edges<L: Lanes>(a: &Faces<L>, b: &Faces<L>, slack: f32, live: Bits) -> Bits {
     let (zero, slack, tiny) = (L::splat(0.0), L::splat(slack), L::splat(TINY));
     let (edges_a, edges_b) = (a.edges(), b.edges());
     let sizes_a = three!(k => norm_1(&edges_a[k]) * slack);
     let sizes_b = three!(k => norm_1(&edges_b[k]));
-    let normal_a = cross(&edges_a[0], &edges_a[1]);
-    let normal_b = cross(&edges_b[0], &edges_b[1]);
-    let of_b = three!(k => dot(&normal_a, &sub(&b.corners[k], &a.corners[0])));
-    let of_a = three!(k => dot(&normal_b, &sub(&a.corners[k], &b.corners[0])));
-    let keep = L::unless_above(L::lanes(live), beyond_zero(&of_b), sizes_a[0].mul_add(norm_1(&edges_a[1]), tiny));
-    let keep = L::unless_above(keep, beyond_zero(&of_a), (sizes_b[0] * slack).mul_add(sizes_b[1], tiny));
-    if L::bits(keep) == 0 {
-        return 0;
-    }
-    let mut keep = [keep; 3];
+    let mut keep = [L::lanes(live); 3];
     for i in 0..3 {
         for j in 0..3 {
             let direction = cross(&edges_a[i], &edges_b[j]);
@@ -95,10 +113,11 @@ pub struct Distances {
     pub most: [f32; 16],
 }
 
-/// Lower bounds along the lines of centroids.
+/// Lower bounds of the distances between the triangles of two leaves, along the lines of centroids.
 #[inline(always)]
-pub fn rough_distance<L: Lanes>(a: &Faces<L>, b: &Faces<L>, slack: f32) -> L {
-    certain(a, b, &sub(&sum(b), &sum(a)), slack)
+pub fn rough_distance<L: Lanes>(leaf_a: &Vectors, leaf_b: &Vectors, slack: f32) -> L {
+    let (a, b) = (Faces::spread(leaf_a), Faces::tile(leaf_b));
+    certain(&a, &b, &sub(&sum(&b), &sum(&a)), slack)
 }
 
 #[inline(always)]

@@ -5,36 +5,40 @@ mod boxes;
 mod build;
 mod collide;
 mod faces;
-mod lanes;
 mod nearest;
 mod obb;
 mod queue;
 mod relative;
 mod rounding;
+mod stack;
 mod tree;
+mod waiting;
 
-use lanes::Path;
+use ocb_lanes::Path;
 use ocb_triangles::Frame;
 use opencollbench_plugin::{
     About, Algorithm, Answer, Collision, ContactList, Contacts, Count, Distance, Mesh, Parameter, Parameters, Placed,
     Refusal, Separation,
 };
-use tree::{Link, Tree};
+use tree::Tree;
 
 /// Oriented boxes, sixteen pairs at once.
 #[derive(Debug)]
 pub struct Fast {
     path: Path,
-    /// Pairs of nodes that are still to be opened, kept from query to query for their memory.
-    overlapping: Vec<[Link; 2]>,
-    within: queue::NearestFirst,
+    overlapping: collide::Open,
+    within: nearest::Open,
 }
 
 const WIDTH: i32 = 16;
 
 impl Default for Fast {
     fn default() -> Self {
-        Self { path: Path::widest(WIDTH as usize), overlapping: Vec::new(), within: queue::NearestFirst::default() }
+        Self {
+            path: Path::widest(WIDTH as usize),
+            overlapping: collide::Open::default(),
+            within: nearest::Open::default(),
+        }
     }
 }
 

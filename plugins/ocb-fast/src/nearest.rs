@@ -1,16 +1,30 @@
 //! How far apart? Both trees at once, nearest pairs of nodes first.
 
+use ocb_lanes::{Bits, Lanes, Work};
 use ocb_triangles::vector::{Vector, dot, sub};
 use ocb_triangles::{Closest, Triangle, distance_below};
 use opencollbench_plugin::{Count, Separation};
 
 use crate::Pair;
-use crate::boxes::{Boxes, squared_distance};
-use crate::collide::{each, live};
-use crate::faces::{Faces, distances, rough_distance};
-use crate::lanes::{Lanes, Work};
+use crate::boxes::{Boxes, against, squared_distance};
+use crate::collide::{each, live, lowest, successors};
+use crate::faces::{distances, rough_distance};
 use crate::queue::NearestFirst;
 use crate::tree::Link;
+use crate::waiting::Waiting;
+
+/// What is still to be done, kept from query to query for its memory.
+#[derive(Debug, Default)]
+pub struct Open {
+    pairs: NearestFirst,
+    /// Pairs of triangles that are not apart by the limit, as far as a rough bound can tell.
+    waiting: Waiting,
+    /// Pairs of triangles that may be the closest, each with a lower bound of its distance.
+    candidates: Vec<(f32, [u32; 2])>,
+}
+
+/// So many pairs of nodes are opened in a row: a processor works on several of them at the same time.
+const ROW: usize = 4;
 
 /// A query for the closest pair of points.
 ///
@@ -18,21 +32,20 @@ use crate::tree::Link;
 /// are kept, and measured in double precision when all bounds are known.
 pub struct Nearest<'q, C> {
     pair: &'q Pair<'q>,
-    open: &'q mut NearestFirst,
+    open: &'q mut Open,
     work: &'q mut C,
+    /// The least of the bounds of the triangles that wait.
+    least: f32,
     /// The distance is certainly not above this, in A's unit.
     limit: f32,
     closest: Closest,
     ids: [u32; 2],
 }
 
-/// A pair of triangles, and a lower bound of its distance.
-type Candidate = (f32, [u32; 2]);
-
 impl<'q, C: Count> Nearest<'q, C> {
-    pub fn new(pair: &'q Pair<'q>, open: &'q mut NearestFirst, work: &'q mut C) -> Self {
+    pub fn new(pair: &'q Pair<'q>, open: &'q mut Open, work: &'q mut C) -> Self {
         let closest = Closest { squared: f64::INFINITY, a: [0.0; 3], b: [0.0; 3] };
-        Self { pair, open, work, limit: f32::INFINITY, closest, ids: [0; 2] }
+        Self { pair, open, work, least: f32::INFINITY, limit: f32::INFINITY, closest, ids: [0; 2] }
     }
 
     /// Measures a pair of triangles.
@@ -69,74 +82,150 @@ fn gap_along(direction: Vector, a: &Triangle, b: &Triangle) -> f64 {
     of_b[0].min(of_b[1]).min(of_b[2]) - of_a[0].max(of_a[1]).max(of_a[2])
 }
 
+/// A pair of nodes and a lower bound of its squared distance.
+type Bounded = (f32, [Link; 2]);
+
 impl<C: Count> Work for Nearest<'_, C> {
     type Output = Separation;
 
     #[inline(always)]
     fn run<L: Lanes>(mut self) -> Separation {
-        let Pair { a: tree_a, b: tree_b, relative, .. } = self.pair;
-        let mut candidates: Vec<Candidate> = Vec::new();
-        self.open.clear();
-        self.open.push(0.0, [tree_a.root, tree_b.root]);
-        while let Some((squared, [a, b])) = self.open.pop(self.limit * self.limit) {
-            let squared_limit = self.limit * self.limit;
-            if squared > squared_limit {
-                continue;
+        self.open.candidates.clear();
+        self.open.pairs.clear();
+        self.open.waiting.count = 0;
+        self.open.pairs.push(0.0, [self.pair.a.root, self.pair.b.root]);
+        loop {
+            let (row, count) = self.take::<L>();
+            // Triangles that may be nearer than all nodes, or give the first bound, are next.
+            let due = count == 0 || row[0].0 > self.least * self.least || self.limit == f32::INFINITY;
+            if self.open.waiting.count > 0 && due {
+                self.look_closer::<L>();
+            } else if count == 0 {
+                break;
             }
-            if let Some([next_a, next_b]) = self.open.peek() {
-                L::prefetch(tree_a.node(next_a));
-                L::prefetch(tree_b.node(next_b));
+            self.row::<L>(&row[..count]);
+            if self.closest.squared == 0.0 {
+                return self.separation();
             }
-            let (node_a, node_b) = (tree_a.node(a), tree_b.node(b));
-            let placed = relative.place::<L>(node_b, b.is_leaf());
-            let live = live(a, b);
-            self.work.bv_tests(u64::from(live.count_ones()));
-            if a.is_leaf() && b.is_leaf() {
-                let (of_a, of_b) = (Faces::<L>::spread(node_a), Faces::tile(&placed));
-                let rough = rough_distance(&of_a, &of_b, relative.slack);
-                let left = live & !L::bits(rough.above(L::splat(self.limit)));
-                if left == 0 {
-                    continue;
-                }
-                let found = distances(&of_a, &of_b, relative.slack);
-                each(left, |i, j| {
-                    let (least, most) = (found.least[4 * i + j], found.most[4 * i + j]);
-                    let ids = [node_a.children[i], node_b.children[j]];
-                    self.work.primitive_test(ids[0], ids[1]);
-                    if least > self.limit {
-                        return;
-                    }
-                    self.limit = self.limit.min(most);
-                    if least > 0.0 {
-                        candidates.push((least, ids));
-                    } else {
-                        self.measure(ids);
-                    }
-                });
-                if self.closest.squared == 0.0 {
-                    return self.separation();
-                }
-                continue;
-            }
-            let of_a = if a.is_leaf() { Boxes::<L>::of_leaf(node_a) } else { Boxes::spread(node_a) };
-            let of_b = if b.is_leaf() { Boxes::<L>::of_leaf(&placed) } else { Boxes::tile(&placed) };
-            let bounds = squared_distance(&of_a, &of_b);
-            let left = live & !L::bits(bounds.above(L::splat(squared_limit)));
-            let mut squared = [0.0; 16];
-            bounds.store(&mut squared);
-            each(left, |i, j| {
-                let next_a = if a.is_leaf() { a } else { Link(node_a.children[i]) };
-                let next_b = if b.is_leaf() { b } else { Link(node_b.children[j]) };
-                self.open.push(squared[4 * i + j], [next_a, next_b]);
-            });
         }
+        let mut candidates = core::mem::take(&mut self.open.candidates);
         candidates.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        for (least, ids) in candidates {
+        for &(least, ids) in &candidates {
             if least > self.limit {
                 break;
             }
             self.measure(ids);
         }
+        self.open.candidates = candidates;
         self.separation()
+    }
+}
+
+impl<C: Count> Nearest<'_, C> {
+    /// Takes the nearest pairs of nodes, and asks for their memory.
+    #[inline(always)]
+    fn take<L: Lanes>(&mut self) -> ([Bounded; ROW], usize) {
+        let mut row = [(0.0, [self.pair.a.root, self.pair.b.root]); ROW];
+        let mut count = 0;
+        let limit = self.limit * self.limit;
+        while count < ROW
+            && let Some((squared, pair)) = self.open.pairs.pop(limit)
+        {
+            if squared <= limit {
+                L::prefetch(self.pair.a.node(pair[0]));
+                L::prefetch(self.pair.b.node(pair[1]));
+                row[count] = (squared, pair);
+                count += 1;
+            }
+        }
+        (row, count)
+    }
+
+    /// Opens pairs of nodes, or compares their triangles.
+    #[inline(always)]
+    fn row<L: Lanes>(&mut self, row: &[Bounded]) {
+        let mut bounds = [[0.0; 16]; ROW];
+        let mut left = [0; ROW];
+        for (place, &(squared, [a, b])) in row.iter().enumerate() {
+            if squared > self.limit * self.limit {
+                continue;
+            }
+            if a.is_leaf() && b.is_leaf() {
+                self.leaves::<L>(a, b);
+            } else {
+                left[place] = self.boxes::<L>(a, b, &mut bounds[place]);
+            }
+        }
+        for (place, &(_, [a, b])) in row.iter().enumerate() {
+            let next_a = successors(a, self.pair.a.node(a));
+            let next_b = successors(b, self.pair.b.node(b));
+            each(left[place], |i, j| {
+                self.open.pairs.push(bounds[place][4 * i + j], [Link(next_a[i]), Link(next_b[j])]);
+            });
+        }
+    }
+
+    /// Lower bounds of the squared distances of the children of two nodes, and those that are within the limit.
+    #[inline(always)]
+    fn boxes<L: Lanes>(&mut self, a: Link, b: Link, squared: &mut [f32; 16]) -> Bits {
+        let Pair { a: tree_a, b: tree_b, relative, .. } = self.pair;
+        let (node_a, node_b) = (tree_a.node(a), tree_b.node(b));
+        let live = live(a, b);
+        self.work.bv_tests(u64::from(live.count_ones()));
+        let bounds = against!(squared_distance, [a, b], node_a, node_b, relative);
+        bounds.store(squared);
+        live & !L::bits(bounds.above(L::splat(self.limit * self.limit)))
+    }
+
+    /// Rough bounds for the triangles of two leaves; those that are within the limit have to wait.
+    #[inline(always)]
+    fn leaves<L: Lanes>(&mut self, a: Link, b: Link) {
+        let Pair { a: tree_a, b: tree_b, relative, .. } = self.pair;
+        let (leaf_a, leaf_b) = (tree_a.node(a), tree_b.node(b));
+        let live = live(a, b);
+        self.work.bv_tests(u64::from(live.count_ones()));
+        let placed = relative.place::<L>(leaf_b, true);
+        let rough = rough_distance::<L>(&leaf_a.vectors, &placed, relative.slack);
+        let mut left = live & !L::bits(rough.above(L::splat(self.limit)));
+        let mut bounds = [0.0; 16];
+        rough.store(&mut bounds);
+        // No closure here: it would be compiled for any processor.
+        while left != 0 {
+            let (i, j) = lowest(left);
+            left &= left - 1;
+            let bound = bounds[4 * i + j].max(0.0);
+            if self.open.waiting.is_full() {
+                self.look_closer::<L>();
+            }
+            if bound <= self.limit {
+                let ids = [leaf_a.children[i], leaf_b.children[j]];
+                self.work.primitive_test(ids[0], ids[1]);
+                self.least = self.least.min(bound);
+                self.open.waiting.push([&leaf_a.vectors, &placed], [i, j], ids);
+            }
+        }
+    }
+
+    /// Bounds from below and above for the triangles that wait. Those that meet, as far as the bounds can tell, are measured
+    /// now, the others when all bounds are known.
+    #[inline(always)]
+    fn look_closer<L: Lanes>(&mut self) {
+        let (of_a, of_b) = self.open.waiting.faces::<L>();
+        let found = distances(&of_a, &of_b, self.pair.relative.slack);
+        for lane in 0..self.open.waiting.count.min(16) {
+            let (least, most) = (found.least[lane], found.most[lane]);
+            let ids = self.open.waiting.ids[lane];
+            if least > self.limit {
+                continue;
+            }
+            self.limit = self.limit.min(most);
+            if least > 0.0 {
+                self.open.candidates.push((least, ids));
+            } else {
+                self.measure(ids);
+            }
+        }
+        self.open.waiting.count = 0;
+        self.least = f32::INFINITY;
     }
 }

@@ -126,7 +126,8 @@ pub fn face_axes(triangle: &Triangle) -> Axes {
 fn orthonormal(first: Vector, third: Vector) -> Axes {
     let unit = |v: Vector, other: Vector| {
         let square = dot(v, v);
-        if square > 1e-280 { v.map(|x| x / square.sqrt()) } else { other }
+        let inverse = 1.0 / square.sqrt();
+        if square > 1e-280 { v.map(|x| x * inverse) } else { other }
     };
     let first = unit(first, [1.0, 0.0, 0.0]);
     // The coordinate axis most across the first one stands in for a third that says nothing.

@@ -44,13 +44,6 @@ impl NearestFirst {
         self.latest[class] = self.entries.len() as u32;
     }
 
-    /// The pair that comes next, if nothing nearer is put in and its class has another.
-    #[inline(always)]
-    pub fn peek(&self) -> Option<[Link; 2]> {
-        let latest = *self.latest.get(self.nearest)? as usize;
-        self.entries.get(latest.wrapping_sub(1)).map(|entry| entry.pair)
-    }
-
     /// Takes a pair of the nearest class that has one; none when that class lies beyond a limit.
     #[inline(always)]
     pub fn pop(&mut self, limit: f32) -> Option<(f32, [Link; 2])> {

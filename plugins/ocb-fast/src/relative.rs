@@ -3,15 +3,18 @@
 use ocb_triangles::Frame;
 use ocb_triangles::vector::{Vector, add, cross, dot, norm_1, rotate, sub};
 
-use crate::lanes::{Lanes, Points, three};
 use crate::rounding::SLACK;
-use crate::tree::{Node, Tree};
+use crate::tree::{Node, Tree, Vectors};
+use ocb_lanes::{Lanes, Points, three};
 
 /// The placement of B in A's tree coordinates, in single precision, and what it may be off.
 #[derive(Clone, Copy, Debug)]
 pub struct Relative {
     rotation: [[f32; 3]; 3],
-    translation: [f32; 3],
+    /// The translation for each vector of an inner node, and of a leaf: directions do not move.
+    shifts: [[[f32; 16]; 3]; 2],
+    /// The scale for each of them.
+    scales: [[f32; 16]; 2],
     /// B's unit in A's; a power of two.
     scale: f32,
     /// A's unit in the objects' lengths.
@@ -38,7 +41,8 @@ impl Relative {
         let in_range = scale < MOST_RATIO && scale > 1.0 / MOST_RATIO && lengths < MOST_RATIO && skew < 0.01;
         Self {
             rotation: rotation.map(|row| row.map(|x| x as f32)),
-            translation: translation.map(|x| x as f32),
+            shifts: MOVES.map(|moves| translation.map(|x| moves.map(|m| m * x as f32))),
+            scales: MOVES.map(|moves| moves.map(|m| m * scale as f32 + (1.0 - m))),
             scale: scale as f32,
             unit: a.unit,
             // Infinite is larger than any gap, so that all pairs are left to the exact tests.
@@ -46,32 +50,35 @@ impl Relative {
         }
     }
 
-    /// A node of B in A's frame; its boxes are larger by the slack.
+    /// The vectors of a node of B in A's frame.
     #[inline(always)]
-    pub fn place<L: Lanes>(&self, node: &Node, leaf: bool) -> Node {
-        let moved = if leaf { &LEAF_MOVES } else { &INNER_MOVES };
-        let moves = L::load(moved);
-        let scale = moves.mul_add(L::splat(self.scale), L::splat(1.0) - moves);
+    pub fn place<L: Lanes>(&self, node: &Node, leaf: bool) -> Vectors {
+        let scale = L::load(&self.scales[usize::from(leaf)]);
+        let shifts = &self.shifts[usize::from(leaf)];
         let from: Points<L> = three!(i => L::load(&node.vectors[i]) * scale);
-        let mut placed = *node;
+        let mut placed = [[0.0; 16]; 3];
         for i in 0..3 {
             let [x, y, z] = three!(j => L::splat(self.rotation[i][j]));
-            let shift = moves * L::splat(self.translation[i]);
-            x.mul_add(from[0], y.mul_add(from[1], z.mul_add(from[2], shift))).store(&mut placed.vectors[i]);
-        }
-        for (half, given) in placed.half.as_flattened_mut().iter_mut().zip(node.half.as_flattened()) {
-            *half = given * self.scale + self.slack;
+            x.mul_add(from[0], y.mul_add(from[1], z.mul_add(from[2], L::load(&shifts[i])))).store(&mut placed[i]);
         }
         placed
+    }
+
+    /// Half sides of boxes of B in A's unit, larger by the slack.
+    #[inline(always)]
+    pub fn enlarge<L: Lanes>(&self, half: L) -> L {
+        half.mul_add(L::splat(self.scale), L::splat(self.slack))
     }
 }
 
 /// More than products of numbers that are too small for single precision can lose.
 const TINY: f64 = 1e-34;
 
-/// Which vectors of a node are points, and move with B; the others are directions.
-const INNER_MOVES: [f32; 16] = [1., 1., 1., 1., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0.];
-const LEAF_MOVES: [f32; 16] = [1., 1., 1., 1., 1., 1., 1., 1., 1., 1., 1., 1., 1., 0., 0., 0.];
+/// Which vectors of an inner node, and of a leaf, are points and move with B; the others are directions.
+const MOVES: [[f32; 16]; 2] = [
+    [1., 1., 1., 1., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0.],
+    [1., 1., 1., 1., 1., 1., 1., 1., 1., 1., 1., 1., 1., 0., 0., 0.],
+];
 
 fn transposed(m: &[Vector; 3]) -> [Vector; 3] {
     [0, 1, 2].map(|j| [m[0][j], m[1][j], m[2][j]])

@@ -33,13 +33,8 @@
 //! sum h` (a nearly orthonormal matrix and its inverse transposed), the sum four roundings: less than `32 u sum h`
 //! altogether. Along B's axes the same holds for A. Each stored half side has [`crate::obb::SPARE`]` = 128 u` times
 //! the sum of all three to spare, which reaches any direction, since the magnitudes of three orthonormal axes'
-//! products with a unit vector add up to 1 at least.
-//!
-//! **Products of edges.** `m = a_i x b_j` has a length from 0 to 1, so what is off must be paid for absolutely. With
-//! both factors off by `(3 + sqrt(3)) u`, the difference of two products is off by less than `22 u S`; the
-//! difference of the middles by `10 u S`: together no more than the slack, which the kernel adds once more. The
-//! radii use the identities of orthonormal axes, each entry off by less than `40 u`: [`crate::boxes`] adds `256 u`
-//! of the six half sides.
+//! products with a unit vector add up to 1 at least. Half sides of B are brought to A's unit, a power of two, and
+//! enlarged by the slack in one or two roundings: `2 u` of them, in the spare.
 //!
 //! **Bounds of distances of boxes.** Gaps along the three axes of one box are parts of one vector, up to `2 sqrt(3)
 //! u` of its length. Along the line of the middles, both reaches are products with the same numbers that make the

@@ -11,13 +11,12 @@ pub const FOUR: usize = 4;
 
 /// An inner node or a leaf; which one, whoever refers to it knows. Four cache lines.
 ///
-/// `vectors[axis][4 k + i]` is a coordinate of vector `k` of child `i`. The children of an inner node have four vectors:
-/// the middle of their box and its three axes; `half[k][i]` is half of the side along axis `k`. The triangles of a leaf
+/// The children of an inner node have four vectors: the middle of their box and its three axes; `half[k][i]` is half of the side along axis `k`. The triangles of a leaf
 /// have three, their corners; the fourth places hold middle and axes of the leaf's own box, and `half[0]` its half sides.
 #[repr(C, align(64))]
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    pub vectors: [[f32; 16]; 3],
+    pub vectors: Vectors,
     pub half: [[f32; 4]; 3],
     /// Inner node: [`Link`]s. Leaf: ids of triangles. Lanes that nobody needs repeat the first one.
     pub children: [u32; 4],
@@ -25,12 +24,15 @@ pub struct Node {
 
 impl Node {
     pub const EMPTY: Self = Self { vectors: [[0.0; 16]; 3], half: [[0.0; 4]; 3], children: [0; 4] };
+}
 
-    /// A coordinate of vector `k` of the four children.
-    #[inline(always)]
-    pub fn row(&self, axis: usize, k: usize) -> &[f32; 4] {
-        &self.vectors[axis].as_chunks().0[k]
-    }
+/// `[axis][4 k + i]` is a coordinate of vector `k` of child `i`.
+pub type Vectors = [[f32; 16]; 3];
+
+/// A coordinate of vector `k` of the four children.
+#[inline(always)]
+pub fn row(vectors: &Vectors, axis: usize, k: usize) -> &[f32; 4] {
+    &vectors[axis].as_chunks().0[k]
 }
 
 /// Where a node is, whether it is a leaf, and how many children or triangles it has.

@@ -31,5 +31,6 @@ fn counts_a_query_by_hand() {
     assert_eq!(counts.bv_tests, 8);
     assert_eq!(counts.primitive_tests, u64::from(counts.tests_a.iter().sum::<u32>()));
     assert_eq!(counts.tests_a.iter().sum::<u32>(), counts.tests_b.iter().sum::<u32>());
-    assert!([1, 4, 16].contains(&counts.primitive_tests), "{}", counts.primitive_tests);
+    // No plane separates any of four from any of four: they fill the lanes, and the first contact is among them.
+    assert_eq!(counts.primitive_tests, 16);
 }

@@ -69,13 +69,8 @@ fn what_is_named_by_its_hash_does_not_depend_on_the_systems_sines() {
 fn unsafe_stands_in_few_files() {
     // The ABI on both of its sides, the jail, the place that pins threads to CPUs, and instructions that not every machine
     // has; a test's support may play the host.
-    const ALLOWED: [&str; 5] = [
-        "plugin-api/",
-        "sandbox/",
-        "host/engine/src/machine.rs",
-        "plugins/ocb-fast/src/lanes/",
-        "plugins/common/tests/support/",
-    ];
+    const ALLOWED: [&str; 5] =
+        ["plugin-api/", "sandbox/", "host/engine/src/machine.rs", "plugins/lanes/", "plugins/common/tests/support/"];
     let mut found = Vec::new();
     for (path, text) in ["host", "plugin-api", "plugins", "sandbox", "web", "tests"].iter().flat_map(|f| rust_below(f))
     {

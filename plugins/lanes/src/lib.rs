@@ -1,8 +1,5 @@
-//! Sixteen numbers in single precision, and what the kernels do with them.
-//!
-//! The kernels are written once, over [`Lanes`]; each set of instructions brings a type. A comparison with a NaN is false,
-//! and `min` and `max` give their second operand when one is a NaN, as x86 has it: kernels that only ever *reject* by a
-//! comparison keep what they cannot judge.
+#![doc = include_str!("../README.md")]
+#![expect(clippy::needless_range_loop, reason = "kernels number lanes, of several arrays at once")]
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
@@ -19,6 +16,9 @@ pub use path::{Path, Work};
 pub type Bits = u32;
 
 /// Sixteen numbers.
+///
+/// A comparison with a NaN is false, and `min` and `max` give their second operand when one is a NaN, as x86 has it: kernels
+/// that only ever *reject* by a comparison keep what they cannot judge.
 pub trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// The outcome of a comparison in each lane.
     type Mask: Copy;
@@ -57,11 +57,17 @@ pub trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = S
     fn or_else(self, mask: Self::Mask, other: Self) -> Self;
     /// The mask as bits.
     fn bits(mask: Self::Mask) -> Bits;
+    /// The lane of the smallest number, to 19 bits, among these lanes; the numbers are not negative. Any lane if there is none.
+    fn least(self, among: Bits) -> usize;
+    /// For each bit, lowest first: number `i` of the first four and number `j` of the other four, where `4 i + j` is its lane.
+    /// What comes after those is anything.
+    fn pairs(bits: Bits, spread: &[u32; 4], tile: &[u32; 4], to: [&mut [u32; 16]; 2]);
     /// Asks for the cache lines of something that will be read soon.
     fn prefetch<T>(what: &T);
 }
 
 /// The same for 0, 1 and 2. Not `map` of an array, whose closure is compiled for any processor.
+#[macro_export]
 macro_rules! three {
     ($i:ident => $value:expr) => {
         [
@@ -80,8 +86,6 @@ macro_rules! three {
         ]
     };
 }
-pub(crate) use three;
-
 /// Three coordinates of sixteen points.
 pub type Points<L> = [L; 3];
 

@@ -161,6 +161,50 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
+    fn least(self, among: Bits) -> usize {
+        let (of_low, of_high) = Self::lanes(among);
+        instructions!({
+            let key = |numbers, lanes, among| {
+                let upper = _mm256_and_si256(_mm256_castps_si256(numbers), _mm256_set1_epi32(!15));
+                let others = _mm256_xor_si256(_mm256_castps_si256(among), _mm256_set1_epi32(-1));
+                _mm256_or_si256(_mm256_or_si256(upper, lanes), others)
+            };
+            let low = key(self.0, _mm256_set_epi32(7, 6, 5, 4, 3, 2, 1, 0), of_low);
+            let high = key(self.1, _mm256_set_epi32(15, 14, 13, 12, 11, 10, 9, 8), of_high);
+            let eight = _mm256_min_epu32(low, high);
+            let four = _mm_min_epu32(_mm256_castsi256_si128(eight), _mm256_extracti128_si256::<1>(eight));
+            let two = _mm_min_epu32(four, _mm_shuffle_epi32::<0b_01_00_11_10>(four));
+            let one = _mm_min_epu32(two, _mm_shuffle_epi32::<0b_10_11_00_01>(two));
+            _mm_cvtsi128_si32(one) as usize % 16
+        })
+    }
+
+    #[inline(always)]
+    fn pairs(bits: Bits, spread: &[u32; 4], tile: &[u32; 4], to: [&mut [u32; 16]; 2]) {
+        instructions!({
+            // The lanes' numbers in order, four bits each, and those that are wanted packed to the front.
+            let wanted = _pdep_u64(u64::from(bits), 0x1111_1111_1111_1111) * 0xf;
+            let packed = _pext_u64(0xfedc_ba98_7654_3210, wanted);
+            // A byte each, then 32 bits each.
+            let packed = _mm_cvtsi64_si128(packed as i64);
+            let nibble = _mm_set1_epi8(0xf);
+            let high = _mm_and_si128(_mm_srli_epi16::<4>(packed), nibble);
+            let bytes = _mm_unpacklo_epi8(_mm_and_si128(packed, nibble), high);
+            let lanes = [_mm256_cvtepu8_epi32(bytes), _mm256_cvtepu8_epi32(_mm_srli_si128::<8>(bytes))];
+            let spread = _mm256_broadcast_ps(&_mm_loadu_ps(spread.as_ptr().cast()));
+            let tile = _mm256_broadcast_ps(&_mm_loadu_ps(tile.as_ptr().cast()));
+            let [to_spread, to_tile] = to;
+            for half in 0..2 {
+                // Of each index, the two lowest bits count.
+                let of_spread = _mm256_permutevar_ps(spread, _mm256_srli_epi32::<2>(lanes[half]));
+                let of_tile = _mm256_permutevar_ps(tile, lanes[half]);
+                _mm256_storeu_ps(to_spread.as_mut_ptr().add(8 * half).cast(), of_spread);
+                _mm256_storeu_ps(to_tile.as_mut_ptr().add(8 * half).cast(), of_tile);
+            }
+        })
+    }
+
+    #[inline(always)]
     fn prefetch<T>(what: &T) {
         prefetch(what);
     }

@@ -155,5 +155,30 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
+    fn least(self, mut among: Bits) -> usize {
+        let (mut least, mut found) = (f32::INFINITY, 0);
+        while among != 0 {
+            let lane = among.trailing_zeros() as usize % 16;
+            among &= among - 1;
+            if self.0[lane] < least {
+                (least, found) = (self.0[lane], lane);
+            }
+        }
+        found
+    }
+
+    #[inline(always)]
+    fn pairs(mut bits: Bits, spread: &[u32; 4], tile: &[u32; 4], to: [&mut [u32; 16]; 2]) {
+        let mut count = 0;
+        while bits != 0 {
+            let lane = bits.trailing_zeros() as usize % 16;
+            bits &= bits - 1;
+            to[0][count] = spread[lane / 4];
+            to[1][count] = tile[lane % 4];
+            count = (count + 1) % 16;
+        }
+    }
+
+    #[inline(always)]
     fn prefetch<T>(_what: &T) {}
 }

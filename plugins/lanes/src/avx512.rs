@@ -134,6 +134,32 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
+    fn least(self, among: Bits) -> usize {
+        instructions!({
+            let lanes = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
+            let upper = _mm512_and_si512(_mm512_castps_si512(self.0), _mm512_set1_epi32(!15));
+            let keys = _mm512_or_si512(upper, lanes);
+            _mm512_mask_reduce_min_epu32(among as __mmask16, keys) as usize % 16
+        })
+    }
+
+    #[inline(always)]
+    fn pairs(bits: Bits, spread: &[u32; 4], tile: &[u32; 4], to: [&mut [u32; 16]; 2]) {
+        instructions!({
+            let [to_spread, to_tile] = to;
+            let bits = bits as __mmask16;
+            let spread = _mm_loadu_si128(spread.as_ptr().cast());
+            let tile = _mm_loadu_si128(tile.as_ptr().cast());
+            let order = _mm512_set_epi32(3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0);
+            let spread = _mm512_permutexvar_epi32(order, _mm512_castsi128_si512(spread));
+            let spread = _mm512_maskz_compress_epi32(bits, spread);
+            let tile = _mm512_maskz_compress_epi32(bits, _mm512_broadcast_i32x4(tile));
+            _mm512_storeu_si512(to_spread.as_mut_ptr().cast(), spread);
+            _mm512_storeu_si512(to_tile.as_mut_ptr().cast(), tile);
+        })
+    }
+
+    #[inline(always)]
     fn prefetch<T>(what: &T) {
         super::avx2::prefetch(what);
     }

@@ -1,0 +1,76 @@
+//! Pairs of nodes that are still to be opened, the latest first.
+
+use ocb_lanes::{Bits, Lanes};
+
+use crate::tree::Link;
+
+/// A stack that takes sixteen at once. A and B apart, as the lanes bring them.
+#[derive(Debug, Default)]
+pub struct Stack {
+    /// Longer than what is used, so that there is always room for sixteen.
+    of_a: Vec<u32>,
+    of_b: Vec<u32>,
+    used: usize,
+}
+
+const LANES: usize = 16;
+
+impl Stack {
+    /// Empties the stack.
+    pub fn clear(&mut self) {
+        self.used = 0;
+    }
+
+    #[inline(always)]
+    pub fn len(&self) -> usize {
+        self.used
+    }
+
+    /// Puts in the pairs of places in these lanes.
+    #[inline(always)]
+    pub fn push<L: Lanes>(&mut self, lanes: Bits, a: &[u32; 4], b: &[u32; 4]) {
+        let end = self.used + LANES;
+        if end > self.of_a.len() {
+            self.grow();
+        }
+        let to_a = self.of_a[self.used..].first_chunk_mut();
+        let to_b = self.of_b[self.used..].first_chunk_mut();
+        if let (Some(to_a), Some(to_b)) = (to_a, to_b) {
+            L::pairs(lanes, a, b, [to_a, to_b]);
+            self.used += lanes.count_ones() as usize;
+        }
+    }
+
+    /// Of the pairs that were put in from these lanes just now, makes one the latest.
+    #[inline(always)]
+    pub fn prefer(&mut self, lanes: Bits, lane: usize) {
+        let count = lanes.count_ones() as usize;
+        let before = (lanes & ((1 << lane) - 1)).count_ones() as usize;
+        let first = self.used - count;
+        // With none put in, both are the place after the latest.
+        let (place, last) = (first + before, first + count.saturating_sub(1));
+        self.of_a.swap(place, last);
+        self.of_b.swap(place, last);
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn grow(&mut self) {
+        let more = 2 * self.of_a.len() + 16 * LANES;
+        self.of_a.resize(more, 0);
+        self.of_b.resize(more, 0);
+    }
+
+    /// Takes the latest pair.
+    #[inline(always)]
+    pub fn pop(&mut self) -> Option<[Link; 2]> {
+        self.used = self.used.checked_sub(1)?;
+        Some([Link(self.of_a[self.used]), Link(self.of_b[self.used])])
+    }
+
+    /// A pair by the order of coming.
+    #[inline(always)]
+    pub fn get(&self, place: usize) -> [Link; 2] {
+        [Link(self.of_a[place]), Link(self.of_b[place])]
+    }
+}
