@@ -28,7 +28,7 @@ step() { # step NAME COMMAND...: run it, keep its output, remember a failure
 trap stop_services EXIT
 trap 'exit 130' INT TERM
 
-step build bash -c 'make -s pages stock && cargo build --release --workspace --all-targets && make -s plugins-cpp'
+step build bash -c 'make -s pages stock && cargo build --release --workspace && cargo test --release --workspace --no-run && make -s plugins-cpp'
 step check make -s check
 step vitest npm --prefix web/app run test
 start_services || broken+=(services)
