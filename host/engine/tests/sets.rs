@@ -45,7 +45,7 @@ fn golden() -> Vec<(RunSpec, &'static str)> {
     vec![
         (
             spec("stock:sponge@600", counted("sphere"), json!({})),
-            "8ecf8670be31c7d5d9bda101077cf343933ea3dd46e2a408946fece21712544d",
+            "8b7fbd80b8016c0d8815d22e5333095f4756229aef2e8d7315f6d67884d2da98",
         ),
         (
             spec(
@@ -53,19 +53,19 @@ fn golden() -> Vec<(RunSpec, &'static str)> {
                 json!({ "kind": "sphere", "sampling": steps }),
                 json!({ "relative_distance": 0.2 }),
             ),
-            "c1f051c6bd4014fc7830a15e46bd456f4e66938bed5968aac8beb5cb683fc095",
+            "d0994eba8a57ac61cb7e994bd13c431564a66160eda4a90e93434a8a68ae2dc7",
         ),
         (
             spec("stock:sponge@600", counted("grid"), json!({ "ladder": true })),
-            "15b6f1ccbc36f3bc3ce19b378d91bd1b69ea94578a704dd9f95fe833437b6295",
+            "203620550271a89304935ea2d48d45afcd2ef25c33eac65cfe71e5cb4c5e2c76",
         ),
         (
             spec("stock:sponge@600", json!({ "kind": "trajectory", "center_distance": 0.9, "count": 40 }), json!({})),
-            "09a5991b55db7c2a5544394f3e1d1956686ae7346378109fc68019ff385aa13a",
+            "9c879176f2098b4fd61380a5fc043bae8f53dc91d98f9ef0f7fb28043ff10116",
         ),
         (
             spec("stock:sponge@600", json!({ "kind": "random", "count": 40, "hit_share": 0.3 }), json!({})),
-            "cd60e029ad643cef7457510700f25c579cab1823b95867a081758c850c7cabdc",
+            "fa8fdac4423c12814cde7334ced4ca621d9763aa77704f82b1f8c38428042488",
         ),
     ]
 }
