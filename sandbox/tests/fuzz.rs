@@ -227,7 +227,12 @@ fn scribbled(attack: &str, threads: usize, trials: u64) {
     let launcher = launcher_with(Policy { query_seconds: 0.3, threads, ..policy() });
     let mut numbers = Numbers(0x5c21);
     let mut outcomes = std::collections::BTreeMap::new();
-    for trial in 0..trials {
+    // A few trials may all come through; more of them show that some do not.
+    let kinds = 4 - threads;
+    for trial in 0..20 * trials {
+        if trial >= trials && outcomes.len() >= kinds {
+            break;
+        }
         let mut session = start(&launcher, &plugin).expect("nothing has struck yet");
         let begun = Instant::now();
         for _ in 0..20 {
@@ -245,5 +250,5 @@ fn scribbled(attack: &str, threads: usize, trials: u64) {
         *outcomes.entry(ending.outcome.name()).or_insert(0u64) += 1;
     }
     println!("{attack}: {outcomes:?}");
-    assert!(outcomes.len() >= 4 - threads, "{outcomes:?}");
+    assert!(outcomes.len() >= kinds, "{outcomes:?}");
 }
