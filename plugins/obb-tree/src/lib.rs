@@ -4,21 +4,15 @@
 mod obb;
 
 use obb::Obb;
-use ocb_hierarchy::{Open, Query, Search, Tree};
-use opencollbench_plugin::{
-    About, Algorithm, Answer, Collision, ContactList, Contacts, Count, Distance, Mesh, Placed, Separation,
-};
+use ocb_hierarchy::{Method, Plain, Tree};
+use opencollbench_plugin::{About, Mesh};
 
 /// A hierarchy of oriented boxes.
-#[derive(Debug, Default)]
-pub struct ObbTree {
-    /// Memory of the traversals, kept from query to query.
-    open: Open<u32>,
-}
+pub type ObbTree = Plain<Obb>;
 
 opencollbench_plugin::export!(ObbTree: distance contacts counters);
 
-impl Algorithm for ObbTree {
+impl Method for Obb {
     const ABOUT: About = About {
         id: c"obb-tree",
         name: c"OBBTree",
@@ -28,36 +22,9 @@ impl Algorithm for ObbTree {
         ..About::new()
     };
 
-    type Object = Tree<Obb>;
+    type Hierarchy = Tree<Obb>;
 
-    fn load_mesh(&mut self, mesh: Mesh<'_>) -> Answer<Tree<Obb>> {
-        Ok(Tree::build(&mesh))
+    fn build(mesh: &Mesh<'_>) -> Tree<Obb> {
+        Tree::build(mesh)
     }
-
-    fn collide(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<Collision> {
-        Ok(query(a, b, work).first_contact(&mut self.open))
-    }
-}
-
-impl Contacts for ObbTree {
-    fn contacts(
-        &mut self,
-        a: Placed<'_, Self>,
-        b: Placed<'_, Self>,
-        found: &mut ContactList<'_>,
-        work: &mut impl Count,
-    ) -> Answer<()> {
-        query(a, b, work).all_contacts(&mut self.open, found);
-        Ok(())
-    }
-}
-
-impl Distance for ObbTree {
-    fn distance(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<Separation> {
-        Ok(query(a, b, work).nearest(&mut self.open, &Search::default()))
-    }
-}
-
-fn query<'a, C: Count>(a: Placed<'a, ObbTree>, b: Placed<'a, ObbTree>, work: &'a mut C) -> Query<'a, Tree<Obb>, C> {
-    Query::new([a.object, b.object], [a.pose, b.pose], work)
 }
