@@ -21,7 +21,7 @@ static DATA: LazyLock<Mutex<PathBuf>> = LazyLock::new(|| {
 
 fn spec(count: u32) -> Value {
     json!({
-        "object_a": "stock:torus-knot@8000", "query": "proximity", "passes": 2, "budget_seconds": 5,
+        "object_a": "stock:torus-knot@8000", "query": "proximity", "passes": 2, "budget_seconds": 1,
         "method": { "kind": "sphere", "sampling": { "kind": "count", "count": count } },
         "algorithms": ["brute-force", "box-tree", "parry"],
     })
