@@ -1,4 +1,4 @@
-//! The fixed cost of a trial: from the order to the first question, for plugins of different sizes.
+//! The fixed cost of a trial: from the order to the first question, and what ending it takes, for plugins of different sizes.
 //!
 //! `cargo bench --bench trial -- [ROUNDS] [PLUGIN.so:ALGORITHM ...]`
 
@@ -8,7 +8,7 @@ use std::time::Instant;
 use nalgebra::Point3;
 use ocb_core::mesh::Mesh;
 use ocb_core::query::Semantics;
-use ocb_sandbox::{Launcher, Policy, Trial};
+use ocb_sandbox::{Launcher, Policy, Session, Trial};
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
@@ -30,29 +30,35 @@ fn main() {
     println!("fixed cost of a trial, {rounds} each, milliseconds: median (fastest to slowest)");
     for (plugin, algorithm) in named.iter().filter(|(plugin, _)| plugin.exists()) {
         let bytes = std::fs::metadata(plugin).map_or(0, |m| m.len());
-        let start = median(rounds, || begin(&launcher, plugin, algorithm));
-        let describe = median(rounds, || launcher.describe(plugin).map(drop).expect("it describes itself"));
-        println!("{algorithm:<12} {:>7.2} MB  start {start}   describe {describe}", bytes as f64 / 1e6);
+        let (start, end) = median(rounds, || begin(&launcher, plugin, algorithm));
+        let (describe, _) = median(rounds, || launcher.describe(plugin).expect("it describes itself"));
+        println!("{algorithm:<12} {:>7.2} MB  start {start}   end {end}   describe {describe}", bytes as f64 / 1e6);
     }
 }
 
-fn begin(launcher: &Launcher, plugin: &Path, algorithm: &str) {
+fn begin(launcher: &Launcher, plugin: &Path, algorithm: &str) -> Session {
     let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.5]].map(Point3::from);
     let mesh = Mesh::new(corners.to_vec(), vec![[0, 1, 2], [2, 1, 3]]).expect("two triangles");
     let trial =
         Trial { plugin, algorithm, mesh_a: &mesh, mesh_b: None, parameters: &[], semantics: Semantics::Surface };
-    drop(launcher.start(&trial).expect("it starts"));
+    launcher.start(&trial).expect("it starts")
 }
 
-/// Of what the closure takes, with the first as warm-up.
-fn median(rounds: usize, mut work: impl FnMut()) -> String {
-    work();
-    let mut times: Vec<f64> = Vec::with_capacity(rounds);
+/// Of what the closure takes, and of what it takes to drop its result; the first is warm-up.
+fn median<T>(rounds: usize, mut work: impl FnMut() -> T) -> (String, String) {
+    drop(work());
+    let mut times = [(); 2].map(|()| Vec::with_capacity(rounds));
     for _ in 0..rounds {
         let begun = Instant::now();
-        work();
-        times.push(begun.elapsed().as_secs_f64() * 1e3);
+        let result = work();
+        times[0].push(begun.elapsed().as_secs_f64() * 1e3);
+        let begun = Instant::now();
+        drop(result);
+        times[1].push(begun.elapsed().as_secs_f64() * 1e3);
     }
-    times.sort_by(f64::total_cmp);
-    format!("{:6.2} ({:.2} to {:.2})", times[rounds / 2], times[0], times[rounds - 1])
+    let [start, end] = times.map(|mut all| {
+        all.sort_by(f64::total_cmp);
+        format!("{:6.2} ({:.2} to {:.2})", all[rounds / 2], all[0], all[rounds - 1])
+    });
+    (start, end)
 }

@@ -2,8 +2,11 @@
 //!
 //! [`root`] builds the file system, this file takes rights away, [`harden`] closes the runner's own process.
 
-use std::io;
+use std::fs::File;
+use std::io::{self, Write};
 use std::os::fd::{AsRawFd, BorrowedFd, OwnedFd, RawFd};
+
+use crate::memory::ITSELF;
 
 pub mod harden;
 pub mod root;
@@ -14,6 +17,8 @@ pub mod root;
 pub enum ConfineError {
     #[error("the parent-death signal cannot be set: {0}")]
     ParentDeath(io::Error),
+    #[error("the memory group cannot be entered: {0}")]
+    MemoryGroup(io::Error),
     #[error("{0}")]
     Namespaces(io::Error),
     #[error("user and group ids cannot be mapped: {0}")]
@@ -77,6 +82,11 @@ pub(crate) fn checked(result: libc::c_int) -> io::Result<()> {
 pub fn die_with_parent() -> Result<(), ConfineError> {
     // SAFETY: takes integers only.
     checked(unsafe { libc::prctl(libc::PR_SET_PDEATHSIG, libc::SIGKILL, 0, 0, 0) }).map_err(ConfineError::ParentDeath)
+}
+
+/// Moves this process, which has one thread, into the memory group whose entrance this is.
+pub fn enter_group(entrance: OwnedFd) -> Result<(), ConfineError> {
+    File::from(entrance).write_all(ITSELF).map_err(ConfineError::MemoryGroup)
 }
 
 /// Supplementary groups survive the entry into a user namespace until they are dropped.

@@ -173,13 +173,11 @@ impl Jail {
             cpu_seconds: jail.cpu_limit(),
             futex: places.kind == ClockKind::Futex,
         };
-        let files = [sheet.as_fd(), request_file.as_fd(), answer_file.as_fd(), plugin_file.as_fd()];
         let mut started = || -> Result<(), Outcome> {
-            // While the launcher is still starting: a move between groups waits for the whole kernel (some 10 ms).
-            // Init and runner are born into it.
-            if let Some(group) = &jail.group {
-                group.add(pid).map_err(|e| Outcome::fault("MemoryGroup", e))?;
-            }
+            let entrance = jail.group.as_ref().map(MemoryGroup::entrance).transpose();
+            let entrance = entrance.map_err(|e| Outcome::fault("MemoryGroup", e))?;
+            let mut files = vec![sheet.as_fd(), request_file.as_fd(), answer_file.as_fd(), plugin_file.as_fd()];
+            files.extend(entrance.iter().map(OwnedFd::as_fd));
             jail.control.send(&order, &files).map_err(|e| Outcome::fault("Start", e))?;
             jail.admit()?;
             jail.take_listener(namespaces)

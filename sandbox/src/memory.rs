@@ -2,12 +2,15 @@
 
 use std::fs;
 use std::io;
+use std::os::fd::OwnedFd;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 /// Groups are named `ocb-jail-<pid of the supervisor>-<count>`, so that a janitor can tell whose they were.
 const PREFIX: &str = "ocb-jail-";
+/// What a process writes into [`MemoryGroup::entrance`].
+pub(crate) const ITSELF: &[u8] = b"0";
 
 /// One control group with a memory limit. Removed on drop; its processes must have ended by then.
 #[derive(Debug)]
@@ -52,9 +55,14 @@ impl MemoryGroup {
         Ok(group)
     }
 
-    /// Moves a process in.
-    pub fn add(&self, pid: i32) -> io::Result<()> {
-        self.write("cgroup.procs", &pid.to_string())
+    /// The file through which a process with a single thread moves itself in, by writing [`ITSELF`]. Moving another
+    /// process, or one that may have several threads, waits until the whole kernel has stood still once (some 10 ms).
+    pub fn entrance(&self) -> io::Result<OwnedFd> {
+        let file = match self.version {
+            Version::V1 => "tasks",
+            Version::V2 => "cgroup.procs",
+        };
+        fs::OpenOptions::new().write(true).open(self.folder.join(file)).map(OwnedFd::from)
     }
 
     /// How many of its processes the kernel has killed for want of memory.

@@ -50,9 +50,13 @@ fn launch_with(control: &Control) -> Result<(), Report> {
     // What the host process may have left open without close-on-exec.
     confine::close_from(3).map_err(|e| fault(ConfineError::Descriptors(e)))?;
     let Some((order, files)) = control.receive::<Order>().map_err(talk)? else { return Ok(()) };
-    let Ok([trial, request, answer, plugin]) = <[OwnedFd; 4]>::try_from(files) else {
-        return Err(talk(io::Error::other("the order came without its four files")));
-    };
+    let mut files = files.into_iter();
+    let mut file = || files.next().ok_or_else(|| talk(io::Error::other("the order came without its four files")));
+    let [trial, request, answer, plugin] = [file()?, file()?, file()?, file()?];
+    // Init and runner are born into it.
+    if let Some(entrance) = files.next() {
+        confine::enter_group(entrance).map_err(fault)?;
+    }
     let files = Files { trial, request, answer, plugin };
     if std::os::unix::process::parent_id() as i32 != order.supervisor {
         return Ok(()); // It died before the parent-death signal was set.
