@@ -37,3 +37,19 @@ for (const scheme of ['light', 'dark']) {
     })
   }
 }
+
+for (const [scheme, width] of [['light', 1280], ['dark', 390]]) {
+  test(`the API page describes every route, ${scheme}, ${width} pixels wide`, async (t) => {
+    const v = await visitor(t, { scheme, width })
+    await v.go('/api#start_run')
+    const document = await v.api('/openapi.json')
+    const ids = Object.values(document.paths).flatMap((methods) => Object.values(methods).map(({ operationId }) => operationId))
+    await v.at('route-start_run').waitFor()
+    for (const id of ids) assert.equal(await v.at(`route-${id}`).count(), 1, id)
+    await v.at('route-start_run').getByRole('link', { name: 'RunSpec' }).click()
+    await v.page.waitForURL(/#schema-RunSpec$/)
+    await until('the schema in view', () => v.page.locator('#schema-RunSpec h3').evaluate((e) => Math.abs(e.getBoundingClientRect().top) < 400))
+    await v.picture(`api-${scheme}-${width}`)
+    await v.accessible('the API page')
+  })
+}

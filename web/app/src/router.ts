@@ -12,9 +12,10 @@ export const router = createRouter({
     { path: '/objects', component: () => import('./pages/ObjectsPage.vue'), meta: { title: 'Objects' } },
     { path: '/about', component: () => import('./pages/AboutPage.vue'), meta: { title: 'How we measure' } },
     { path: '/truth', component: () => import('./pages/TruthPage.vue'), meta: { title: 'How answers are judged' } },
+    { path: '/api', component: () => import('./pages/ApiPage.vue'), meta: { title: 'API' } },
     { path: '/:rest(.*)*', component: () => import('./pages/NotFoundPage.vue'), meta: { title: 'Nothing here' } },
   ],
-  scrollBehavior: (to, from, saved) => saved ?? (to.path === from.path ? false : to.hash ? { el: to.hash, top: 90 } : { top: 0 }),
+  scrollBehavior: (to, from, saved) => saved ?? (to.hash ? { el: to.hash, top: 90 } : to.path === from.path ? false : { top: 0 }),
 })
 
 router.afterEach(async (to, from) => {

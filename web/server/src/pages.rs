@@ -19,7 +19,7 @@ const HASHED: &str = "assets/";
 /// Answers whatever is no route: a file of the pages, or the one page that shows every other address.
 pub(crate) async fn serve(request: Request) -> Response {
     let path = request.uri().path();
-    if path == "/api" || path.starts_with("/api/") {
+    if path.starts_with("/api/") {
         return Problem::not_found(format!("There is no {path:?} in this API; /api/v1/openapi.json lists its routes."))
             .into_response();
     }

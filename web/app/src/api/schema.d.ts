@@ -1341,6 +1341,24 @@ export interface operations {
         };
         requestBody: {
             content: {
+                /**
+                 * @example {
+                 *       "algorithms": [
+                 *         "ocb-fast",
+                 *         "box-tree"
+                 *       ],
+                 *       "method": {
+                 *         "kind": "sphere",
+                 *         "sampling": {
+                 *           "count": 1000,
+                 *           "kind": "count"
+                 *         }
+                 *       },
+                 *       "object_a": "stock:torus-knot@8000",
+                 *       "query": "proximity",
+                 *       "relative_distance": 0.1
+                 *     }
+                 */
                 "application/json": components["schemas"]["RunSpec"];
             };
         };
@@ -1595,6 +1613,24 @@ export interface operations {
         };
         requestBody: {
             content: {
+                /**
+                 * @example {
+                 *       "algorithms": [
+                 *         "ocb-fast",
+                 *         "box-tree"
+                 *       ],
+                 *       "method": {
+                 *         "kind": "sphere",
+                 *         "sampling": {
+                 *           "count": 1000,
+                 *           "kind": "count"
+                 *         }
+                 *       },
+                 *       "object_a": "stock:torus-knot@8000",
+                 *       "query": "proximity",
+                 *       "relative_distance": 0.1
+                 *     }
+                 */
                 "application/json": components["schemas"]["RunSpec"];
             };
         };

@@ -11,8 +11,19 @@ use crate::extract::{Json, Path};
 use crate::guest::Guest;
 use crate::problem::{Problem, Result};
 
+/// A spec for the document: a knot against itself, a tenth of its size apart.
+fn example() -> serde_json::Value {
+    serde_json::json!({
+        "object_a": "stock:torus-knot@8000",
+        "query": "proximity",
+        "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 1000 } },
+        "relative_distance": 0.1,
+        "algorithms": ["ocb-fast", "box-tree"],
+    })
+}
+
 /// Number of configurations and expected time of a run that is not asked for yet.
-#[utoipa::path(post, path = "/estimates", tag = "runs", request_body = RunSpec,
+#[utoipa::path(post, path = "/estimates", tag = "runs", request_body(content = RunSpec, example = json!(example())),
     responses(
         (status = 200, body = Estimate),
         (status = 400, description = "No JSON", body = Problem, content_type = "application/problem+json"),
@@ -24,7 +35,7 @@ pub(crate) async fn estimate_run(State(app): State<App>, Json(spec): Json<RunSpe
 }
 
 /// Asks for a run.
-#[utoipa::path(post, path = "/runs", tag = "runs", request_body = RunSpec,
+#[utoipa::path(post, path = "/runs", tag = "runs", request_body(content = RunSpec, example = json!(example())),
     responses(
         (status = 201, description = "Queued; `Location` names it", body = RunInfo),
         (status = 400, description = "No JSON", body = Problem, content_type = "application/problem+json"),

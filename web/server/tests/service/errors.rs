@@ -70,7 +70,7 @@ async fn what_is_no_json_is_refused() {
 async fn unknown_addresses_and_methods_are_problems() {
     let service = Service::start().await;
     let guest = service.guest();
-    for path in ["/api", "/api/", "/api/v1", "/api/v1/nothing", "/api/v2/objects", "/api/v1/runs/x/y"] {
+    for path in ["/api/", "/api/v1", "/api/v1/nothing", "/api/v2/objects", "/api/v1/runs/x/y"] {
         problem(guest.get(path).send().await.expect("an answer"), 404).await;
     }
     problem(guest.post("/api/v1/status").send().await.expect("an answer"), 405).await;

@@ -93,3 +93,19 @@ async fn status_and_algorithms_answer() {
     }
     service.stop().await;
 }
+
+#[tokio::test]
+async fn the_examples_of_the_document_are_accepted() {
+    let service = Service::start().await;
+    let guest = service.guest();
+    let document = guest.json("/api/v1/openapi.json").await;
+    let example = |path: &str| {
+        let body = &document["paths"][path]["post"]["requestBody"]["content"]["application/json"];
+        body["example"].as_object().unwrap_or_else(|| panic!("no example for {path}")).clone()
+    };
+    let spec = Value::Object(example("/api/v1/estimates"));
+    let response = guest.post("/api/v1/estimates").json(&spec).send().await.expect("an answer");
+    assert_eq!(response.status(), StatusCode::OK, "{:?}", response.text().await);
+    guest.start(&Value::Object(example("/api/v1/runs"))).await;
+    service.stop().await;
+}
