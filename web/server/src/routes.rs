@@ -1,6 +1,7 @@
 //! Every route on one page.
 
 mod algorithms;
+mod charts;
 mod heatmaps;
 mod objects;
 mod records;
@@ -58,6 +59,11 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(records::records_parquet))
         .routes(routes!(records::records_csv))
         .routes(routes!(records::configurations_parquet))
+        .routes(routes!(charts::show_board))
+        .routes(routes!(charts::show_board_csv))
+        .routes(routes!(charts::show_chart))
+        .routes(routes!(charts::chart_as_csv))
+        .routes(routes!(charts::chart_as_parquet))
         .routes(routes!(runs::featured_run))
         .routes(routes!(service::show_status))
         .routes(routes!(service::show_document));
