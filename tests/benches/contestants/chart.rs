@@ -28,7 +28,8 @@ fn panel(title: String, mut members: Vec<&Row>, machine: &str) -> Chart {
             filled: row.rank.is_some(),
             ..Point::at(median, place as f64, u64::from(row.n))
         };
-        let name = if row.wrong > 0 { format!("{} ({} wrong)", row.algorithm, row.wrong) } else { row.algorithm.clone() };
+        let name =
+            if row.wrong > 0 { format!("{} ({} wrong)", row.algorithm, row.wrong) } else { row.algorithm.clone() };
         Some(Series { name, style: Some(0), form: Form::Line, points: vec![point] })
     };
     Chart {

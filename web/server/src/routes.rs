@@ -27,6 +27,7 @@ use crate::{App, events, layers, pages, upload};
             run may look at it.",
         license(name = "MIT OR Apache-2.0")
     ),
+    components(schemas(ocb_engine::model::Accuracy, ocb_engine::model::ChartKind)),
     tags(
         (name = "objects", description = "Meshes to measure on"),
         (name = "algorithms", description = "What the plugins offer"),
