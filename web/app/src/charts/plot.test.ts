@@ -1,7 +1,7 @@
 import { afterEach, describe, expect, it } from 'vitest'
 import { createApp, h, nextTick, ref, type App } from 'vue'
 import type { Chart, ChartPoint } from '../api/types'
-import { aloud, keys, names, path, plot } from './plot'
+import { aloud, keys, names, overlap, path, plot } from './plot'
 import PlotChart from './PlotChart.vue'
 
 const point = (x: number | null, y: number, more: Partial<ChartPoint> = {}): ChartPoint => ({
@@ -70,9 +70,9 @@ describe('a chart', () => {
 
   it('gives close marks names that do not touch, and none where there is no room', () => {
     const placed = names([{ x: 100, y: 100, letters: 8 }, { x: 104, y: 102, letters: 8 }, { x: 650, y: 100, letters: 8 }], BOX)
-    const rects = placed.flatMap((at) => (at ? [[at.x, at.y - 10, at.x + 8 * 6.6, at.y + 3]] : []))
+    const rects = placed.flatMap((at) => (at ? [{ left: at.x, right: at.x + 8 * 6.6, top: at.y - 10, bottom: at.y + 3 }] : []))
     expect(rects.length).toBe(3)
-    for (const [i, a] of rects.entries()) for (const b of rects.slice(i + 1)) expect(a[0]! < b[2]! && b[0]! < a[2]! && a[1]! < b[3]! && b[1]! < a[3]!).toBe(false)
+    for (const [i, a] of rects.entries()) for (const b of rects.slice(i + 1)) expect(overlap(a, b)).toBe(false)
     expect(names([{ x: 100, y: 100, letters: 500 }], BOX)).toEqual([null])
   })
 })

@@ -82,18 +82,18 @@ export function faults({ missed, false_alarms }: ChartPoint): { text: string; ki
 }
 
 const LETTER = 6.6
-const overlap = (a: number[], b: number[]) => a[0]! < b[2]! && b[0]! < a[2]! && a[1]! < b[3]! && b[1]! < a[3]!
+export const overlap = (a: Box, b: Box) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom
 
 /** Where the name of each mark begins, so that no two lie on each other; null where there is no room: the table has it. */
 export function names(marks: readonly (Place & { letters: number })[], box: Box): (Place | null)[] {
-  const taken = marks.map(({ x, y }) => [x - 6, y - 6, x + 6, y + 6])
+  const taken = marks.map(({ x, y }): Box => ({ left: x - 6, right: x + 6, top: y - 6, bottom: y + 6 }))
   return marks.map(({ x, y, letters }) => {
     const width = letters * LETTER
     const lefts = [x + 10, x - 10 - width, x - width / 2]
     for (const dy of [4, -9, 17, -22, 30, -35, 43]) {
       for (const left of lefts) {
-        const me = [left, y + dy - 10, left + width, y + dy + 3]
-        const inside = left >= box.left && left + width <= box.right && me[1]! >= box.top && me[3]! <= box.bottom
+        const me = { left, right: left + width, top: y + dy - 10, bottom: y + dy + 3 }
+        const inside = left >= box.left && me.right <= box.right && me.top >= box.top && me.bottom <= box.bottom
         if (!inside || taken.some((other) => overlap(me, other))) continue
         taken.push(me)
         return { x: left, y: y + dy }
