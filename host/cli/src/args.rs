@@ -7,6 +7,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use ocb_engine::Profile;
 
+use crate::board::BoardArgs;
+use crate::chart::ChartArgs;
 use crate::choice::{ColormapArg, MeasureArg, OutliersArg, ScaleArg, SideArg, StatisticArg};
 use crate::placing::PlacingArgs;
 
@@ -112,6 +114,10 @@ pub enum Command {
     /// Tell what this machine has for the jail, what it lacks and how to get it; exit code 1 when foreign plugins could
     /// not run under the chosen profile.
     Doctor,
+    /// Compare algorithms over all runs: speed against accuracy, with a table and a chart.
+    Board(BoardArgs),
+    /// Write a chart of a run as .svg, .csv, .parquet or .json.
+    Chart(ChartArgs),
     /// Write a heatmap of a run as .glb, .ply or .csv.
     Heatmap(HeatmapArgs),
 }

@@ -87,3 +87,37 @@ choice! {
         Log,
     }
 }
+choice! {
+    /// What to chart speed against.
+    AccuracyArg => ocb_engine::model::Accuracy {
+        /// Share of wrong answers.
+        Wrong,
+        /// Share of missed collisions.
+        Missed,
+        /// Share of false alarms.
+        FalseAlarms,
+        /// Digits told apart, -log10 eps*.
+        Digits,
+        /// Worst error of a distance.
+        Distance,
+    }
+}
+choice! {
+    /// What a chart shows.
+    KindArg => ocb_engine::model::ChartKind {
+        /// Speed against accuracy.
+        Accuracy,
+        /// Mean and maximum time against distance.
+        Distance,
+        /// Mean and maximum time against triangle count.
+        Triangles,
+        /// Distribution of the time per query.
+        Ecdf,
+        /// Time against BV tests.
+        BvTests,
+        /// Time against primitive tests.
+        PrimitiveTests,
+        /// Share of wrong decisions against distance and margin.
+        Resolution,
+    }
+}

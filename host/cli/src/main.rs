@@ -2,6 +2,8 @@
 
 mod args;
 mod bench;
+mod board;
+mod chart;
 mod choice;
 mod doctor;
 mod failure;
@@ -52,6 +54,8 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Object { command } => object::object(&store, &command, json).await,
         Command::Run { command } => run::run(&store, &command, json).await,
         Command::Doctor => doctor::doctor(&store, json),
+        Command::Board(args) => board::board(&store, &args, json).await,
+        Command::Chart(args) => chart::chart(&store, &args, json).await,
         Command::Heatmap(args) => heatmap::heatmap(&store, &args, json).await,
     }
 }

@@ -15,7 +15,7 @@ use crate::record::Record;
 use crate::validation::Terms;
 
 /// eps* of one algorithm on one set.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
 pub struct Resolution {
     /// eps*: the largest distance or margin, divided by S, at which an answer is wrong. When none is, eps* is at most
     /// this: the larger of the smallest ones tried on either side. Absent when nothing was tried.
@@ -31,7 +31,7 @@ pub struct Resolution {
 }
 
 /// One side of eps*.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
 pub struct Threshold {
     /// Configurations of this side that were answered.
     pub n: u32,
@@ -40,6 +40,20 @@ pub struct Threshold {
     /// When some are wrong: the largest distance or margin, divided by S, at which one is. When none is: the smallest
     /// that was tried, so that the resolution is at least as good as this. Absent when none was tried.
     pub at: Option<f64>,
+    /// The same by powers of ten of the distance or margin, ascending; empty in results of older versions.
+    #[serde(default)]
+    pub decades: Vec<Decade>,
+}
+
+/// Configurations whose distance or margin, divided by S, is from `10^exponent` to ten times that.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
+pub struct Decade {
+    /// Which power of ten.
+    pub exponent: i32,
+    /// Configurations that were answered.
+    pub n: u32,
+    /// Those answered wrongly, however narrow the decision.
+    pub wrong: u32,
 }
 
 /// The worst errors of distances.
@@ -81,10 +95,35 @@ impl Resolution {
                 all.misses.add(truth.margin / size, truth.margin / size, says_apart);
             }
         }
-        let sides = [all.false_hits, all.misses];
-        all.seen = sides.iter().any(|side| side.wrong > 0);
-        all.eps = sides.iter().filter(|side| !all.seen || side.wrong > 0).filter_map(|side| side.at).reduce(f64::max);
-        all
+        all.concluded()
+    }
+
+    /// Of both sets together.
+    pub fn and(&self, other: &Self) -> Self {
+        let worse = |a: Option<f64>, b: Option<f64>| a.into_iter().chain(b).reduce(f64::max);
+        let distance = match (self.distance, other.distance) {
+            (Some(a), Some(b)) => {
+                Some(DistanceError { n: a.n + b.n, over: worse(a.over, b.over), under: worse(a.under, b.under) })
+            }
+            (one, another) => one.or(another),
+        };
+        let (false_hits, misses) = (self.false_hits.and(&other.false_hits), self.misses.and(&other.misses));
+        Self { false_hits, misses, distance, ..Self::default() }.concluded()
+    }
+
+    /// eps* from both sides.
+    fn concluded(mut self) -> Self {
+        let sides = [&self.false_hits, &self.misses];
+        self.seen = sides.iter().any(|side| side.wrong > 0);
+        self.eps = sides.iter().filter(|side| !self.seen || side.wrong > 0).filter_map(|side| side.at).reduce(f64::max);
+        self
+    }
+}
+
+impl DistanceError {
+    /// The most outside the certified interval on either side, in units of `u S`; 0 when none is.
+    pub fn worst(&self) -> f64 {
+        self.over.into_iter().chain(self.under).fold(0.0, f64::max)
     }
 }
 
@@ -109,5 +148,61 @@ impl Threshold {
         if better {
             self.at = Some(if wrong { lo } else { hi });
         }
+        // A distance of 0 without a hit cannot be; what rounds to it belongs to the narrowest.
+        let exponent = hi.max(f64::MIN_POSITIVE).log10().floor() as i32;
+        self.count(Decade { exponent, n: 1, wrong: u32::from(wrong) });
+    }
+
+    fn count(&mut self, more: Decade) {
+        match self.decades.binary_search_by_key(&more.exponent, |decade| decade.exponent) {
+            Ok(place) => {
+                self.decades[place].n += more.n;
+                self.decades[place].wrong += more.wrong;
+            }
+            Err(place) => self.decades.insert(place, more),
+        }
+    }
+
+    fn and(&self, other: &Self) -> Self {
+        let at = match (self.wrong > 0, other.wrong > 0) {
+            (true, false) => self.at,
+            (false, true) => other.at,
+            (true, true) => self.at.into_iter().chain(other.at).reduce(f64::max),
+            (false, false) => self.at.into_iter().chain(other.at).reduce(f64::min),
+        };
+        let (n, wrong) = (self.n + other.n, self.wrong + other.wrong);
+        let mut both = Self { n, wrong, at, decades: self.decades.clone() };
+        other.decades.iter().for_each(|decade| both.count(*decade));
+        both
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn side(all: &[(f64, bool)]) -> Threshold {
+        let mut side = Threshold::default();
+        all.iter().for_each(|(at, wrong)| side.add(*at, *at, *wrong));
+        side
+    }
+
+    #[test]
+    fn two_sets_together_are_as_one() {
+        let halves = [&[(3e-4, true), (2e-2, false), (5e-5, false)][..], &[(7e-6, true), (4e-4, true), (1e-1, false)]];
+        let of = |all: &[(f64, bool)]| Resolution { false_hits: side(all), ..Resolution::default() }.concluded();
+        let (first, second) = (of(halves[0]), of(halves[1]));
+        assert_eq!(first.and(&second), of(&halves.concat()));
+        assert_eq!(first.and(&second).eps, Some(4e-4));
+        let faultless = |at: f64| Resolution { misses: side(&[(at, false)]), ..Resolution::default() }.concluded();
+        assert_eq!(faultless(1e-3).and(&faultless(1e-8)).eps, Some(1e-8), "finer was tried and nothing was wrong");
+        assert_eq!(first.and(&faultless(1e-1)).eps, first.eps, "what is wrong counts before what is not");
+    }
+
+    #[test]
+    fn decades_hold_everything_once() {
+        let side = side(&[(3e-4, true), (9.9e-4, false), (1e-3, false), (0.5, false)]);
+        let decade = |exponent, n, wrong| Decade { exponent, n, wrong };
+        assert_eq!(side.decades, [decade(-4, 2, 1), decade(-3, 1, 0), decade(-1, 1, 0)]);
     }
 }

@@ -165,6 +165,20 @@ pub fn quantile_interval(sorted: &[f64], q: f64) -> (f64, f64) {
     (sorted[lo], sorted[hi])
 }
 
+/// 95 % interval of a share of which `count` of `n` were seen: Wilson's (1927); when none was seen, from 0 to `3 / n`, the
+/// rule of three. Panics when `n` is 0 or less than `count`.
+pub fn share_interval(count: u64, n: u64) -> (f64, f64) {
+    assert!(n > 0 && count <= n, "a share needs n of at least 1 and of at least the count");
+    if count == 0 {
+        return (0.0, (3.0 / n as f64).min(1.0));
+    }
+    // Square of the normal distribution's 97.5 % point.
+    let (z2, n, p) = (3.841_458_820_694_124, n as f64, count as f64 / n as f64);
+    let middle = p + z2 / (2.0 * n);
+    let reach = (z2 * (p * (1.0 - p) / n + z2 / (4.0 * n * n))).sqrt();
+    (((middle - reach) / (1.0 + z2 / n)).max(0.0), ((middle + reach) / (1.0 + z2 / n)).min(1.0))
+}
+
 /// What a sample says about its maximum, from ascending values: another sample of the same size has a maximum of at
 /// least the sixth largest value here, with probability 1 - 2^-6 = 98 %, whatever the distribution.
 ///

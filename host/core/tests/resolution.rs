@@ -70,13 +70,18 @@ impl Ladder {
     }
 }
 
+/// Configurations, those answered wrongly, and where.
+fn told(side: &Threshold) -> (u32, u32, Option<f64>) {
+    (side.n, side.wrong, side.at)
+}
+
 #[test]
 fn without_errors_the_narrowest_decision_bounds_it() {
     let ladder = Ladder::new();
     let all = ladder.says(|height| height <= 0.0);
-    assert_eq!(all.false_hits, Threshold { n: 3, wrong: 0, at: Some(1e-6 / ladder.size(2)) });
+    assert_eq!(told(&all.false_hits), (3, 0, Some(1e-6 / ladder.size(2))));
     // Touching has no margin and is on neither side.
-    assert_eq!(all.misses, Threshold { n: 2, wrong: 0, at: Some(ladder.placed[4].truth.margin / ladder.size(4)) });
+    assert_eq!(told(&all.misses), (2, 0, Some(ladder.placed[4].truth.margin / ladder.size(4))));
     assert!(ladder.placed[4].truth.margin > 0.0);
     assert_eq!(all.distance, None);
     assert_eq!((all.eps, all.seen), (all.false_hits.at, false));
@@ -86,7 +91,7 @@ fn without_errors_the_narrowest_decision_bounds_it() {
 fn with_errors_the_widest_one_counts() {
     let ladder = Ladder::new();
     let eager = ladder.says(|height| height < 0.01);
-    assert_eq!(eager.false_hits, Threshold { n: 3, wrong: 2, at: Some(1e-3 / ladder.size(1)) });
+    assert_eq!(told(&eager.false_hits), (3, 2, Some(1e-3 / ladder.size(1))));
     assert_eq!(eager.misses.wrong, 0);
     assert_eq!((eager.eps, eager.seen), (Some(1e-3 / ladder.size(1)), true));
     let both = ladder.says(|height| height > 0.0);
@@ -94,7 +99,7 @@ fn with_errors_the_widest_one_counts() {
     let shy = ladder.says(|height| height < -1e-5);
     assert_eq!(shy.false_hits.wrong, 0);
     assert_eq!((shy.eps, shy.seen), (shy.misses.at, true));
-    assert_eq!(shy.misses, Threshold { n: 2, wrong: 1, at: Some(ladder.placed[4].truth.margin / ladder.size(4)) });
+    assert_eq!(told(&shy.misses), (2, 1, Some(ladder.placed[4].truth.margin / ladder.size(4))));
 }
 
 #[test]

@@ -3,6 +3,8 @@
 //! The meaning of each column, its unit and its frame stand in `host/README.md`; the file itself carries the schema
 //! version, the run, the hardware class and the plugin's hash as key-value metadata.
 
+mod board;
+mod charts;
 mod records;
 mod sets;
 mod truths;
@@ -22,6 +24,8 @@ use parquet::file::properties::WriterProperties;
 
 use crate::{EngineError, Result};
 
+pub use board::board_parquet;
+pub use charts::chart_parquet;
 pub use records::{RecordColumns, RecordsOf, read_records, records_parquet};
 pub use sets::{SetOf, read_poses, read_set, set_parquet};
 pub use truths::{contacts_parquet, truths_parquet};

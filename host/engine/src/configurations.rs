@@ -135,6 +135,7 @@ pub fn describe(set: &ConfigurationSet, sha256: &str, triangles: [usize; 2]) -> 
         evenness_b: coverage_b.evenness,
         spacing: set.spacing,
         box_side: set.box_side,
+        oracle: Some(ocb_core::oracle::VERSION),
     }
 }
 

@@ -1,10 +1,12 @@
 //! The one handle for server and command line.
 
+mod charts;
 mod featured;
 mod follow;
 mod runs;
 mod sets;
 
+pub use charts::{board_csv, chart_csv, chart_parquet};
 pub use sets::SetJob;
 
 use std::collections::VecDeque;

@@ -5,7 +5,9 @@
 
 mod benchmark;
 mod blobs;
+pub mod board;
 mod cache;
+mod charts;
 mod columns;
 mod config;
 mod configurations;
@@ -26,6 +28,7 @@ mod store;
 pub mod truth;
 
 pub use config::{EngineConfig, Profile};
-pub use engine::{Engine, SetJob};
+pub use engine::{Engine, SetJob, board_csv, chart_csv, chart_parquet};
 pub use error::{EngineError, Result};
+pub use ocb_chart as chart;
 pub use ocb_sandbox::doctor;

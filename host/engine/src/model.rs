@@ -2,6 +2,8 @@
 //!
 //! Ids are UUIDv7 text, times are microseconds since the Unix epoch (UTC), durations say their unit in their name.
 
+mod board;
+mod chart;
 mod contract;
 mod heatmap;
 mod plugin;
@@ -15,6 +17,8 @@ use ocb_core::resolution::Resolution;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+pub use board::{Accuracy, Board, BoardFilter, BoardOption, BoardRequest, BoardRow};
+pub use chart::{ChartKind, ChartRequest};
 pub use contract::{ContractClass, Delivered, Order};
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
 pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport};
@@ -267,6 +271,9 @@ pub struct SetInfo {
     /// Side of the cube of random placement.
     #[serde(default)]
     pub box_side: Option<f64>,
+    /// Version of the oracle that certified it; absent in sets of older versions.
+    #[serde(default)]
+    pub oracle: Option<u32>,
 }
 
 /// How many configurations are of a class.

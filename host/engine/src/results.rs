@@ -109,7 +109,8 @@ impl Inner {
         Ok(values)
     }
 
-    async fn records(&self, run: &str, algorithm: &str) -> Result<(StoredResult, Arc<RecordColumns>)> {
+    /// The columns of one algorithm's records that charts need, from memory when they were used lately.
+    pub async fn records(&self, run: &str, algorithm: &str) -> Result<(StoredResult, Arc<RecordColumns>)> {
         let (stored, blob) = self.stored_result(run, algorithm).await?;
         if let Some(records) = self.records.get(&blob) {
             return Ok((stored, records));

@@ -8,6 +8,7 @@ export const router = createRouter({
     { path: '/', component: StartPage, meta: { title: 'Where is it slow?' } },
     { path: '/new', component: () => import('./pages/BuilderPage.vue'), meta: { title: 'New benchmark' } },
     { path: '/r/:id', component: () => import('./pages/RunPage.vue'), props: true, meta: { title: 'Run' } },
+    { path: '/board', component: () => import('./pages/BoardPage.vue'), meta: { title: 'Leaderboard' } },
     { path: '/runs', component: () => import('./pages/RunsPage.vue'), meta: { title: 'My runs' } },
     { path: '/objects', component: () => import('./pages/ObjectsPage.vue'), meta: { title: 'Objects' } },
     { path: '/about', component: () => import('./pages/AboutPage.vue'), meta: { title: 'How we measure' } },

@@ -1,6 +1,7 @@
 //! Every route on one page.
 
 mod algorithms;
+mod charts;
 mod heatmaps;
 mod objects;
 mod records;
@@ -26,6 +27,7 @@ use crate::{App, events, layers, pages, upload};
             run may look at it.",
         license(name = "MIT OR Apache-2.0")
     ),
+    components(schemas(ocb_engine::model::Accuracy, ocb_engine::model::ChartKind)),
     tags(
         (name = "objects", description = "Meshes to measure on"),
         (name = "algorithms", description = "What the plugins offer"),
@@ -58,6 +60,11 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(records::records_parquet))
         .routes(routes!(records::records_csv))
         .routes(routes!(records::configurations_parquet))
+        .routes(routes!(charts::show_board))
+        .routes(routes!(charts::show_board_csv))
+        .routes(routes!(charts::show_chart))
+        .routes(routes!(charts::chart_as_csv))
+        .routes(routes!(charts::chart_as_parquet))
         .routes(routes!(runs::featured_run))
         .routes(routes!(service::show_status))
         .routes(routes!(service::show_document));

@@ -145,3 +145,15 @@ proptest! {
         prop_assert!(lo <= x && x <= hi, "{} {} {}", lo, x, hi);
     }
 }
+
+#[test]
+fn shares_have_wilsons_interval_and_nothing_seen_has_a_bound() {
+    // Newcombe (1998), table I, method 3: 81 of 263 and 15 of 148.
+    for (count, n, expected) in [(81, 263, [0.2553, 0.3662]), (15, 148, [0.0624, 0.1605])] {
+        let (lo, hi) = share_interval(count, n);
+        assert!((lo - expected[0]).abs() < 5e-5 && (hi - expected[1]).abs() < 5e-5, "{lo} {hi}");
+    }
+    assert_eq!(share_interval(0, 300), (0.0, 0.01));
+    assert_eq!(share_interval(0, 1), (0.0, 1.0));
+    assert!(share_interval(5, 5).1 >= 1.0 - 1e-12);
+}

@@ -106,6 +106,18 @@ impl Store {
         rows.iter().map(read_run).collect()
     }
 
+    /// The newest finished runs of the service for everybody, and of this owner.
+    pub async fn finished_runs(&self, owner: Option<&str>, limit: i64) -> Result<Vec<RunRow>> {
+        let rows = sqlx::query(select_runs!(
+            "WHERE state = 'done' AND (featured = 1 OR owner = $1) ORDER BY finished_us DESC, id DESC LIMIT $2"
+        ))
+        .bind(owner)
+        .bind(limit)
+        .fetch_all(&self.pool)
+        .await?;
+        rows.iter().map(read_run).collect()
+    }
+
     /// The newest finished run for the start page.
     pub async fn newest_featured(&self) -> Result<Option<RunRow>> {
         let row = sqlx::query(select_runs!(

@@ -138,6 +138,7 @@ fn set_info() -> SetInfo {
         evenness_b: 0.4,
         spacing: None,
         box_side: Some(1.5),
+        oracle: Some(4),
     }
 }
 

@@ -2,7 +2,7 @@ import createClient from 'openapi-fetch'
 import { asApiError, fromResponse } from './errors'
 import type { paths } from './schema'
 import type {
-  AlgorithmInfo, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, RunInfo, RunSpec,
+  Accuracy, AlgorithmInfo, Board, Chart, ChartKind, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, RunInfo, RunSpec,
 } from './types'
 
 const http = createClient<paths>({ baseUrl: '/' })
@@ -36,6 +36,16 @@ export const cancelRun = (id: string): Promise<RunInfo> =>
 
 export const getEcdf = (id: string, algorithm: string): Promise<Ecdf> =>
   answer(http.GET('/api/v1/runs/{id}/ecdf', { params: { path: { id }, query: { algorithm } } }))
+
+export const getChart = (id: string, query: { kind: ChartKind; accuracy: Accuracy }): Promise<Chart> =>
+  answer(http.GET('/api/v1/runs/{id}/chart', { params: { path: { id }, query } }))
+
+/** Filters of the board as the API names them; what is left out is chosen. */
+export type BoardQuery = Partial<Record<'question' | 'class' | 'hardware' | 'scene' | 'distance' | 'precision', string>> & { accuracy?: Accuracy }
+
+export const getBoard = (query: BoardQuery): Promise<Board> => answer(http.GET('/api/v1/board', { params: { query } }))
+
+export const boardUrl = (file: string, query: BoardQuery): string => `/api/v1/${file}?${new URLSearchParams(Object.entries(query))}`
 
 export const getHeatmap = (id: string, request: HeatmapRequest): Promise<Heatmap> =>
   answer(http.GET('/api/v1/runs/{id}/heatmap', { params: { path: { id }, query: request } }))

@@ -17,6 +17,40 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/board": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Speed against accuracy over the finished runs that the service shows to everybody and the visitor's own. */
+        get: operations["show_board"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/board.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The rows of the board as CSV with a header line. */
+        get: operations["show_board_csv"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/estimates": {
         parameters: {
             query?: never;
@@ -172,6 +206,57 @@ export interface paths {
         put?: never;
         /** Ends a run that is queued or at work; one that has ended stays as it is. */
         post: operations["cancel_run"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{id}/chart": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** A chart of a run: its series with n and intervals. */
+        get: operations["show_chart"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{id}/chart.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The points of a chart as CSV with a header line. */
+        get: operations["chart_as_csv"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{id}/chart.parquet": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The points of a chart as Parquet. */
+        get: operations["chart_as_parquet"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -357,6 +442,11 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * @description A measure of accuracy.
+         * @enum {string}
+         */
+        Accuracy: "wrong" | "missed" | "false_alarms" | "digits" | "distance";
         /** @description How many of some answers agree with exact arithmetic. */
         Agreement: {
             /**
@@ -481,6 +571,173 @@ export interface components {
              */
             seconds: number;
         };
+        /** @description An axis. */
+        Axis: {
+            /** @description What it measures. */
+            label: string;
+            /** @description Name of the lane before the axis, for points without a value. */
+            lane?: string | null;
+            /** @description How numbers become places. */
+            scale: components["schemas"]["Scale"];
+            /** @description `ns`, `1/s`, `share`, `u S`, or a plain word. */
+            unit: string;
+        };
+        /** @description Results of many runs that may be compared with one another. */
+        Board: {
+            /** @description Speed against accuracy. */
+            chart: components["schemas"]["Chart"];
+            /** @description The filters in the order in which they are applied. */
+            filters: components["schemas"]["BoardFilter"][];
+            /** @description What is to be seen, in one sentence. */
+            finding: string;
+            /**
+             * Format: int32
+             * @description Results before any filter.
+             */
+            results: number;
+            /** @description One per algorithm with its settings: places first, then what has none. */
+            rows: components["schemas"]["BoardRow"][];
+        };
+        /** @description A filter, and what it left out. */
+        BoardFilter: {
+            /** @description The value in force. */
+            chosen: string;
+            /** @description Its name in requests. */
+            name: string;
+            /** @description What could be chosen, as far as the filters before it allow. */
+            options: components["schemas"]["BoardOption"][];
+            /**
+             * Format: int32
+             * @description How many results it took away.
+             */
+            removed: number;
+        };
+        /** @description A value of a filter. */
+        BoardOption: {
+            /**
+             * Format: int32
+             * @description Algorithms with a result there.
+             */
+            algorithms: number;
+            /** @description As requests name it. */
+            value: string;
+            /** @description In words. */
+            words: string;
+        };
+        /** @description One algorithm with its settings. */
+        BoardRow: {
+            /** @description Algorithm id, with its settings. */
+            algorithm: string;
+            /**
+             * Format: double
+             * @description Build time of both structures, milliseconds; the longest.
+             */
+            build_ms?: number | null;
+            /** @description Contract class, in words. */
+            class: string;
+            /**
+             * Format: double
+             * @description Worst error of a distance in roundings `u S`; absent when no distance was asked for.
+             */
+            distance_error?: number | null;
+            /**
+             * Format: double
+             * @description eps*, or its bound when no error was seen.
+             */
+            eps?: number | null;
+            /** @description `eps` is a value and no bound. */
+            eps_seen: boolean;
+            false_alarm_share?: components["schemas"]["Estimated"] | null;
+            /**
+             * Format: int64
+             * @description False alarms.
+             */
+            false_alarms: number;
+            /** @description What its hierarchy is made of. */
+            family: string;
+            /**
+             * Format: int64
+             * @description When the oldest of its measurements ended.
+             */
+            finished_us: number;
+            /** @description Nothing else is as accurate and faster. */
+            frontier: boolean;
+            /** @description Hardware class. */
+            hardware_class: string;
+            /**
+             * Format: int64
+             * @description Memory in bytes; the most.
+             */
+            memory_bytes?: number | null;
+            /**
+             * Format: int64
+             * @description Missed collisions.
+             */
+            missed: number;
+            missed_share?: components["schemas"]["Estimated"] | null;
+            /**
+             * Format: int64
+             * @description Answers judged.
+             */
+            n: number;
+            /** @description Display name. */
+            name: string;
+            /**
+             * Format: int32
+             * @description Of so many.
+             */
+            of: number;
+            /**
+             * Format: int32
+             * @description Version of the oracle that judged it.
+             */
+            oracle?: number | null;
+            /**
+             * Format: int32
+             * @description Place by speed, from 1; overlapping intervals share one. Absent for what failed or answered wrongly.
+             */
+            rank?: number | null;
+            rate?: components["schemas"]["Estimated"] | null;
+            /** @description Why it has no place. */
+            reason?: string | null;
+            /** @description The runs behind it. */
+            runs: string[];
+            /**
+             * Format: int32
+             * @description Scenes and distances it was measured on.
+             */
+            scenarios: number;
+            /** @description Shares its place. */
+            tied: boolean;
+            /**
+             * Format: int64
+             * @description Wrong answers in all.
+             */
+            wrong: number;
+            wrong_share?: components["schemas"]["Estimated"] | null;
+        };
+        /** @description A picture of numbers. */
+        Chart: {
+            /** @description What is to be seen, in one sentence; empty when there is nothing to say. */
+            finding: string;
+            /** @description Which one, as requests name it. */
+            kind: string;
+            /** @description How to read it, one sentence each. */
+            notes: string[];
+            /** @description What is drawn, in the order of the key. */
+            series: components["schemas"]["Series"][];
+            /** @description What is shown. */
+            title: string;
+            /** @description To the right. */
+            x: components["schemas"]["Axis"];
+            /** @description Upwards. */
+            y: components["schemas"]["Axis"];
+        };
+        /**
+         * @description What a chart of a run shows.
+         * @enum {string}
+         */
+        ChartKind: "accuracy" | "distance" | "triangles" | "ecdf" | "bv_tests" | "primitive_tests" | "resolution";
         /**
          * @description What may be asked of an answer at one precision: `CLEAR` and `COLLIDING` are scored, `GRAZING` is reported only.
          * @enum {string}
@@ -536,6 +793,24 @@ export interface components {
             delivered: components["schemas"]["Delivered"];
             /** @description In which order it was asked. */
             order: components["schemas"]["Order"];
+        };
+        /** @description Configurations whose distance or margin, divided by S, is from `10^exponent` to ten times that. */
+        Decade: {
+            /**
+             * Format: int32
+             * @description Which power of ten.
+             */
+            exponent: number;
+            /**
+             * Format: int32
+             * @description Configurations that were answered.
+             */
+            n: number;
+            /**
+             * Format: int32
+             * @description Those answered wrongly, however narrow the decision.
+             */
+            wrong: number;
         };
         /**
          * @description What an algorithm delivered, as its answers show.
@@ -677,6 +952,11 @@ export interface components {
              */
             value: number;
         };
+        /**
+         * @description How a series is drawn.
+         * @enum {string}
+         */
+        Form: "line" | "steps" | "rule";
         /** @description Values on the vertices of an object. */
         Heatmap: {
             /** @description Values that went into each vertex after outlier removal. */
@@ -849,6 +1129,62 @@ export interface components {
             minimum: number;
             /** @description Name. */
             name: string;
+        };
+        /** @description One value, with what is known of it. */
+        Point: {
+            /** @description `x` may well be more. */
+            at_least: boolean;
+            /**
+             * Format: int64
+             * @description False alarms among them; said in amber.
+             */
+            false_alarms: number;
+            /** @description Drawn filled; hollow otherwise. */
+            filled: boolean;
+            /**
+             * Format: int64
+             * @description Collisions missed among them; said in red.
+             */
+            missed: number;
+            /**
+             * Format: int64
+             * @description How many measured values are behind it.
+             */
+            n: number;
+            /** @description Name beside the mark. */
+            name?: string | null;
+            /** @description Everything in one sentence; empty where name and numbers say it. */
+            words: string;
+            /**
+             * Format: double
+             * @description Along the first axis; absent: in the lane.
+             */
+            x?: number | null;
+            /**
+             * Format: double
+             * @description Upper end; of a point in the lane: the bound at 95 %.
+             */
+            x_hi?: number | null;
+            /**
+             * Format: double
+             * @description Lower end of its 95 % interval.
+             */
+            x_lo?: number | null;
+            /**
+             * Format: double
+             * @description Along the second axis.
+             */
+            y: number;
+            /**
+             * Format: double
+             * @description Upper end.
+             */
+            y_hi?: number | null;
+            /**
+             * Format: double
+             * @description Lower end of its 95 % interval.
+             */
+            y_lo?: number | null;
         };
         /** @description An error: what is wrong, where, and how to mend it (RFC 9457, `application/problem+json`). */
         Problem: {
@@ -1046,10 +1382,29 @@ export interface components {
             kind: "count";
         };
         /**
+         * @description How numbers become places.
+         * @enum {string}
+         */
+        Scale: "linear" | "log" | "signed" | "rows";
+        /**
          * @description What counts as an object.
          * @enum {string}
          */
         Semantics: "surface" | "solid";
+        /** @description Points that belong together. */
+        Series: {
+            /** @description How it is drawn. */
+            form: components["schemas"]["Form"];
+            /** @description Name in the key. */
+            name: string;
+            /** @description In the order in which they are joined. */
+            points: components["schemas"]["Point"][];
+            /**
+             * Format: int32
+             * @description Which of the eight styles; absent: plain grey.
+             */
+            style?: number | null;
+        };
         /** @description The configuration set of a run. */
         SetInfo: {
             /**
@@ -1104,6 +1459,11 @@ export interface components {
              * @description Rays on which no position was found.
              */
             missed_rays: number;
+            /**
+             * Format: int32
+             * @description Version of the oracle that certified it; absent in sets of older versions.
+             */
+            oracle?: number | null;
             /** @description SHA-256 (hex) of the stored set. */
             sha256: string;
             /**
@@ -1195,6 +1555,8 @@ export interface components {
              *     that was tried, so that the resolution is at least as good as this. Absent when none was tried.
              */
             at?: number | null;
+            /** @description The same by powers of ten of the distance or margin, ascending; empty in results of older versions. */
+            decades?: components["schemas"]["Decade"][];
             /**
              * Format: int32
              * @description Configurations of this side that were answered.
@@ -1328,6 +1690,102 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["AlgorithmInfo"][];
+                };
+            };
+        };
+    };
+    show_board: {
+        parameters: {
+            query?: {
+                /** @description The question: `collision_first`, `collision_all` or `proximity`, with `+solid` behind it for solid bodies. */
+                question?: string;
+                /** @description Contract class, e.g. `first_contact-shuffled-1-f64`. */
+                class?: string;
+                /** @description Hardware class. */
+                hardware?: string;
+                /** @description Pair of objects, e.g. `bunny@3674~bunny@3674`; `all` takes every one. */
+                scene?: string;
+                /** @description How far apart: a relative distance such as `0.1`, `step:0.0001`, `ladder`, `grid:0`, ...; `all` takes every one. */
+                distance?: string;
+                /** @description What is needed: `any`, `none_seen` (no wrong answer), or the largest eps* that will do, e.g. `1e-6`. */
+                precision?: string;
+                /** @description What to chart speed against. */
+                accuracy?: "wrong" | "missed" | "false_alarms" | "digits" | "distance";
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Board"];
+                };
+            };
+            /** @description Unknown measure of accuracy */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The precision is none */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_board_csv: {
+        parameters: {
+            query?: {
+                /** @description The question: `collision_first`, `collision_all` or `proximity`, with `+solid` behind it for solid bodies. */
+                question?: string;
+                /** @description Contract class, e.g. `first_contact-shuffled-1-f64`. */
+                class?: string;
+                /** @description Hardware class. */
+                hardware?: string;
+                /** @description Pair of objects, e.g. `bunny@3674~bunny@3674`; `all` takes every one. */
+                scene?: string;
+                /** @description How far apart: a relative distance such as `0.1`, `step:0.0001`, `ladder`, `grid:0`, ...; `all` takes every one. */
+                distance?: string;
+                /** @description What is needed: `any`, `none_seen` (no wrong answer), or the largest eps* that will do, e.g. `1e-6`. */
+                precision?: string;
+                /** @description What to chart speed against. */
+                accuracy?: "wrong" | "missed" | "false_alarms" | "digits" | "distance";
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description One line per algorithm with its settings */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": string;
+                };
+            };
+            /** @description The precision is none */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
         };
@@ -1735,6 +2193,125 @@ export interface operations {
                 };
             };
             /** @description No such run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_chart: {
+        parameters: {
+            query: {
+                /** @description Kind. */
+                kind: components["schemas"]["ChartKind"];
+                /** @description For `accuracy`: what to chart speed against. */
+                accuracy?: "wrong" | "missed" | "false_alarms" | "digits" | "distance";
+            };
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Chart"];
+                };
+            };
+            /** @description Unknown kind */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such run, or nothing to chart */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    chart_as_csv: {
+        parameters: {
+            query: {
+                /** @description Kind. */
+                kind: components["schemas"]["ChartKind"];
+                /** @description For `accuracy`: what to chart speed against. */
+                accuracy?: "wrong" | "missed" | "false_alarms" | "digits" | "distance";
+            };
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description One line per point */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": string;
+                };
+            };
+            /** @description No such run, or nothing to chart */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    chart_as_parquet: {
+        parameters: {
+            query: {
+                /** @description Kind. */
+                kind: components["schemas"]["ChartKind"];
+                /** @description For `accuracy`: what to chart speed against. */
+                accuracy?: "wrong" | "missed" | "false_alarms" | "digits" | "distance";
+            };
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description One row per point */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.apache.parquet": number[];
+                };
+            };
+            /** @description No such run, or nothing to chart */
             404: {
                 headers: {
                     [name: string]: unknown;

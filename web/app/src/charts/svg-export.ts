@@ -1,7 +1,7 @@
 /** Properties that a stylesheet gives and a file of its own must carry. */
 const CARRIED = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'font-family', 'font-size', 'text-anchor'] as const
 
-const DRAWN: ReadonlySet<string> = new Set(['path', 'line', 'text', 'rect', 'circle'])
+const DRAWN: ReadonlySet<string> = new Set(['path', 'line', 'text', 'tspan', 'rect', 'circle'])
 
 /** The chart as a file of its own: computed styles written into each element, text kept as text. */
 export function standaloneSvg(svg: SVGSVGElement): string {

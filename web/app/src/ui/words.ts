@@ -1,4 +1,4 @@
-import type { Class, Measure, Outliers, Query, StageKind, State, Statistic, Verdict } from '../api/types'
+import type { Accuracy, ChartKind, Class, Measure, Outliers, Query, StageKind, State, Statistic, Verdict } from '../api/types'
 
 /** The names of the API in the words of the pages: each once. */
 export const MEASURE: Record<Measure, string> = {
@@ -6,6 +6,34 @@ export const MEASURE: Record<Measure, string> = {
   bv_tests: 'BV tests',
   primitive_tests: 'Primitive tests',
   density: 'Density',
+}
+
+export const ACCURACY: Record<Accuracy, string> = {
+  wrong: 'wrong answers',
+  missed: 'missed collisions',
+  false_alarms: 'false alarms',
+  digits: 'digits (eps*)',
+  distance: 'error of distances',
+}
+
+/** The filters of the board. */
+export const FILTER: Record<string, string> = {
+  question: 'Question',
+  class: 'Contract class',
+  hardware: 'Hardware class',
+  scene: 'Scene (objects)',
+  distance: 'Distance',
+  precision: 'Precision needed',
+}
+
+export const CHART: Record<ChartKind, string> = {
+  accuracy: 'Speed and accuracy',
+  resolution: 'Failing decisions',
+  ecdf: 'Spread of times',
+  distance: 'By distance',
+  triangles: 'By triangles',
+  bv_tests: 'By BV tests',
+  primitive_tests: 'By primitive tests',
 }
 
 export const STATISTIC: Record<Statistic, string> = {

@@ -79,7 +79,7 @@ pub(crate) async fn configurations_parquet(State(app): State<App>, Path(id): Pat
     Ok(download(PARQUET, &format!("{id}-configurations.parquet"), bytes))
 }
 
-const PARQUET: &str = "application/vnd.apache.parquet";
+pub(crate) const PARQUET: &str = "application/vnd.apache.parquet";
 
 /// A file to save. Ids and algorithm names come from the request: only plain characters reach the header.
 pub(crate) fn download(media_type: &str, name: &str, bytes: Vec<u8>) -> Response {

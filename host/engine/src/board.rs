@@ -1,0 +1,145 @@
+//! The board: results of many runs, filtered until they may be compared, and charted speed against accuracy.
+//!
+//! Two algorithms are compared on the same pairs of objects at the same distances, on one hardware class, with the same
+//! thing delivered; what was measured on a part of that only has no place. Where several runs hold the same, the newest
+//! plugin file counts, and of its runs the one with the most configurations. Over several scenarios counts are added,
+//! eps* and the error of distances are the worst, and the time is the mean with every scenario asked equally often.
+
+mod family;
+mod filter;
+mod frontier;
+mod keys;
+mod picture;
+mod row;
+
+use ocb_chart::Chart;
+
+use crate::model::{Accuracy, AlgorithmResult, Board, BoardRequest, BoardRow, RunSpec, SetInfo};
+use crate::{EngineError, Result};
+
+/// A value of a filter, for programs and for people.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Named {
+    /// For programs.
+    pub value: String,
+    /// For people.
+    pub words: String,
+}
+
+/// One algorithm in one run.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// The run.
+    pub run: String,
+    /// When it ended.
+    pub finished_us: i64,
+    /// The machine's hardware class.
+    pub hardware: Named,
+    /// Under all layers of the jail, so that it may be ranked.
+    pub ranked: bool,
+    /// The question.
+    pub question: Named,
+    /// The pair of objects.
+    pub scene: Named,
+    /// How far apart.
+    pub distance: Named,
+    /// Version of the oracle.
+    pub oracle: Option<u32>,
+    /// SHA-256 of the plugin file.
+    pub plugin_sha256: String,
+    /// The numbers.
+    pub result: AlgorithmResult,
+}
+
+/// Where and when one run was measured.
+pub struct Circumstances<'a> {
+    /// Id of the run.
+    pub run: &'a str,
+    /// When it ended.
+    pub finished_us: i64,
+    /// What was asked.
+    pub spec: &'a RunSpec,
+    /// Names of the objects.
+    pub names: [&'a str; 2],
+    /// CPU and hardware class.
+    pub machine: [&'a str; 2],
+    /// Measured under all layers of the jail.
+    pub ranked: bool,
+    /// The configurations.
+    pub set: Option<&'a SetInfo>,
+}
+
+impl Measured {
+    /// One result of a run.
+    pub fn of(run: &Circumstances, plugin_sha256: &str, result: AlgorithmResult) -> Self {
+        let [cpu, class] = run.machine;
+        let short: String = class.chars().take(12).collect();
+        Self {
+            run: run.run.to_owned(),
+            finished_us: run.finished_us,
+            hardware: Named { value: class.to_owned(), words: format!("{cpu} ({short})") },
+            ranked: run.ranked,
+            question: keys::question(run.spec),
+            scene: keys::scene(run.spec, run.names),
+            distance: keys::distance(run.spec),
+            oracle: run.set.and_then(|set| set.oracle),
+            plugin_sha256: plugin_sha256.to_owned(),
+            result,
+        }
+    }
+}
+
+/// The board over these results.
+///
+/// # Errors
+/// `Invalid` when the precision that is asked for is neither a word nor a number that makes sense.
+pub fn board(measured: Vec<Measured>, request: &BoardRequest) -> Result<Board> {
+    let needed = Needed::parse(request.precision.as_deref())?;
+    let results = measured.len() as u32;
+    let (left, mut filters) = filter::narrowed(measured, request);
+    let mut rows = row::rows(&left);
+    let precision = filter::precise(&mut rows, &needed, request.precision.as_deref());
+    filters.push(precision);
+    frontier::place(&mut rows, request.accuracy);
+    let finding = frontier::finding(&rows);
+    let chart = picture::chart(&rows, request.accuracy, "board", &finding);
+    Ok(Board { filters, results, rows, finding, chart })
+}
+
+/// Speed against accuracy of the algorithms of one run, each contract class with a frontier of its own.
+pub fn of_run(measured: &[Measured], accuracy: Accuracy) -> Chart {
+    let mut rows: Vec<BoardRow> = Vec::new();
+    for class in filter::classes(measured) {
+        let members: Vec<Measured> = measured.iter().filter(|m| m.result.class == class).cloned().collect();
+        let mut own = row::rows(&members);
+        frontier::place(&mut own, accuracy);
+        rows.append(&mut own);
+    }
+    let finding = frontier::finding(&rows);
+    picture::chart(&rows, accuracy, "accuracy", &finding)
+}
+
+/// How right an algorithm has to be to stay on the board.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Needed {
+    Any,
+    /// No wrong answer.
+    NoneSeen,
+    /// eps* at most this.
+    Eps(f64),
+}
+
+impl Needed {
+    fn parse(text: Option<&str>) -> Result<Self> {
+        match text {
+            None | Some("any") => Ok(Self::Any),
+            Some("none_seen") => Ok(Self::NoneSeen),
+            Some(number) => match number.parse::<f64>() {
+                Ok(eps) if eps > 0.0 && eps <= 1.0 => Ok(Self::Eps(eps)),
+                _ => Err(EngineError::Invalid(format!(
+                    "The precision {number:?} is none; say any, none_seen, or the largest eps* that will do, such as 1e-6."
+                ))),
+            },
+        }
+    }
+}

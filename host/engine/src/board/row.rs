@@ -1,0 +1,128 @@
+//! The results of one algorithm, over all scenarios that are left.
+
+use ocb_core::record::Verdict;
+use ocb_core::resolution::Resolution;
+use ocb_core::statistics::share_interval;
+
+use super::{Measured, family, keys};
+use crate::model::{AlgorithmResult, BoardRow, Estimated};
+
+/// One row per algorithm with its settings, in no order.
+pub fn rows(left: &[Measured]) -> Vec<BoardRow> {
+    let mut scenarios: Vec<(&str, &str)> = Vec::new();
+    let mut algorithms: Vec<&str> = Vec::new();
+    for m in left {
+        let scenario = (m.scene.value.as_str(), m.distance.value.as_str());
+        if !scenarios.contains(&scenario) {
+            scenarios.push(scenario);
+        }
+        if !algorithms.contains(&m.result.algorithm.as_str()) {
+            algorithms.push(&m.result.algorithm);
+        }
+    }
+    let row = |algorithm: &&str| {
+        let own: Vec<&Measured> = left.iter().filter(|m| m.result.algorithm == *algorithm).collect();
+        let best = scenarios.iter().filter_map(|scenario| best(&own, *scenario)).collect::<Vec<_>>();
+        combined(&best, scenarios.len() as u32)
+    };
+    algorithms.iter().filter_map(row).collect()
+}
+
+/// Of the newest plugin file the run with the most configurations, of those the newest; in this scenario.
+fn best<'a>(own: &[&'a Measured], (scene, distance): (&str, &str)) -> Option<&'a Measured> {
+    let here = || own.iter().filter(|m| m.scene.value == scene && m.distance.value == distance);
+    let newest = here().max_by_key(|m| m.finished_us)?;
+    here().filter(|m| m.plugin_sha256 == newest.plugin_sha256).max_by_key(|m| (m.result.n, m.finished_us)).copied()
+}
+
+fn combined(best: &[&Measured], of: u32) -> Option<BoardRow> {
+    let first = best.first()?;
+    let results = || best.iter().map(|m| &m.result);
+    let n: u64 = results().map(|r| u64::from(r.n)).sum();
+    let count = |verdict| results().map(|r| u64::from(verdicts(r, verdict))).sum::<u64>();
+    let wrong = results().map(|r| u64::from(r.wrong)).sum();
+    let (missed, false_alarms) = (count(Verdict::FalseNegative), count(Verdict::FalsePositive));
+    let resolution = results().filter_map(|r| r.resolution.clone()).reduce(|a, b| a.and(&b)).unwrap_or_default();
+    let Resolution { eps, seen, distance, .. } = resolution;
+    let scenarios = results().filter(|r| r.n > 0).count() as u32;
+    Some(BoardRow {
+        algorithm: first.result.algorithm.clone(),
+        name: first.result.name.clone(),
+        family: family::family(&first.result.algorithm).1.into(),
+        class: first.result.class.map(|class| keys::class(&class).words).unwrap_or_default(),
+        rank: None,
+        tied: false,
+        reason: why_not(best, of),
+        frontier: false,
+        n,
+        wrong,
+        missed,
+        false_alarms,
+        wrong_share: share(wrong, n),
+        missed_share: share(missed, n),
+        false_alarm_share: share(false_alarms, n),
+        eps,
+        eps_seen: seen,
+        distance_error: distance.map(|error| error.worst()),
+        rate: rate(best),
+        build_ms: results().filter_map(|r| r.build_ms).reduce(f64::max),
+        memory_bytes: results().filter_map(|r| r.memory_bytes).max(),
+        scenarios,
+        of,
+        finished_us: best.iter().map(|m| m.finished_us).min().unwrap_or_default(),
+        runs: best.iter().map(|m| m.run.clone()).collect(),
+        oracle: best.iter().filter_map(|m| m.oracle).min(),
+        hardware_class: first.hardware.value.clone(),
+    })
+}
+
+fn verdicts(result: &AlgorithmResult, verdict: Verdict) -> u32 {
+    result.verdicts.iter().filter(|v| v.verdict == verdict).map(|v| v.count).sum()
+}
+
+fn share(count: u64, n: u64) -> Option<Estimated> {
+    (n > 0).then(|| {
+        let (lo, hi) = share_interval(count, n);
+        Estimated { value: count as f64 / n as f64, lo, hi }
+    })
+}
+
+/// Questions per second with every scenario asked equally often. The scenarios are independent, so the halves of their
+/// intervals add up as squares.
+fn rate(best: &[&Measured]) -> Option<Estimated> {
+    let times: Vec<Estimated> = best.iter().filter_map(|m| m.result.time.map(|time| time.mean_ns)).collect();
+    let k = times.len() as f64;
+    let mean = times.iter().map(|t| t.value).sum::<f64>() / k;
+    let half = |of: fn(&Estimated) -> f64| times.iter().map(|t| of(t).powi(2)).sum::<f64>().sqrt() / k;
+    let (below, above) = (half(|t| t.value - t.lo), half(|t| t.hi - t.value));
+    // An interval may reach down to no time at all; a rate may not reach up to infinity.
+    let shortest = (mean - below).max(f64::MIN_POSITIVE.max(1e-3 * mean));
+    (mean > 0.0).then(|| Estimated { value: 1e9 / mean, lo: 1e9 / (mean + above), hi: 1e9 / shortest })
+}
+
+/// Why it can have no place, if so.
+fn why_not(best: &[&Measured], of: u32) -> Option<String> {
+    if let Some(failed) = best.iter().find(|m| m.result.outcome.name != "Completed") {
+        return Some(failed.result.outcome.message.clone());
+    }
+    if best.iter().any(|m| m.result.n == 0 || m.result.time.is_none()) {
+        return Some("Nothing was measured.".into());
+    }
+    if best.iter().any(|m| !m.ranked) {
+        return Some("Measured in the development profile, without every layer of the jail.".into());
+    }
+    let silent =
+        |r: &AlgorithmResult| r.verdicts.iter().filter(|v| v.verdict.is_silent()).map(|v| v.count).sum::<u32>();
+    let silent: u32 = best.iter().map(|m| silent(&m.result)).sum();
+    if silent > 0 {
+        return Some(format!("It gave no answer to {silent} questions."));
+    }
+    if (best.len() as u32) < of {
+        return Some(format!("Measured on {} of {of} scenarios: its speed does not compare.", best.len()));
+    }
+    let wrong: u32 = best.iter().map(|m| m.result.wrong).sum();
+    (wrong > 0).then(|| WRONG.to_owned())
+}
+
+/// Wrong answers take the place away, but not the mark in the chart.
+pub const WRONG: &str = "It gave wrong answers: a time for a wrong answer is no result.";

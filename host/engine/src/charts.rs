@@ -1,0 +1,75 @@
+//! The charts of a run: each a set of series with n and intervals, from stored records and summaries.
+//!
+//! Times are compared inside one hardware class, so that charts over several runs take those of this run's class alone,
+//! and only runs that the asker may see.
+
+mod resolution;
+mod times;
+mod work;
+
+use ocb_chart::{Chart, Series};
+use ocb_core::statistics::bootstrap_interval;
+
+use crate::board::{Measured, of_run};
+use crate::engine::Inner;
+use crate::model::{AlgorithmResult, ChartKind, ChartRequest};
+use crate::store::RunRow;
+use crate::{EngineError, Result};
+
+impl Inner {
+    /// One chart of a finished run.
+    pub async fn chart(&self, run: &str, request: ChartRequest, viewer: Option<&str>) -> Result<Chart> {
+        let row = self.run_row(run).await?;
+        let results = self.measured_results(&row).await?;
+        if results.is_empty() {
+            return Err(EngineError::NotFound(format!(
+                "The run {run:?} has nothing to chart: no algorithm has a time."
+            )));
+        }
+        let chart = match request.kind {
+            ChartKind::Accuracy => {
+                let measured: Vec<Measured> = self.measured_of(&row).await?;
+                of_run(&measured, request.accuracy)
+            }
+            ChartKind::Distance => self.time_by_distance(&row, &results, viewer).await?,
+            ChartKind::Triangles => self.time_by_triangles(&row, &results, viewer).await?,
+            ChartKind::Ecdf => self.times_spread(&row, &results).await?,
+            ChartKind::BvTests | ChartKind::PrimitiveTests => self.time_by_tests(&row, &results, request.kind).await?,
+            ChartKind::Resolution => resolution::chart(&results),
+        };
+        if chart.series.iter().all(|series| series.points.is_empty()) {
+            return Err(EngineError::NotFound(nothing(request.kind).into()));
+        }
+        Ok(chart)
+    }
+
+    /// The summaries of a run that come with a time.
+    async fn measured_results(&self, row: &RunRow) -> Result<Vec<AlgorithmResult>> {
+        let all = self.store.results(&row.id).await?.into_iter().map(|stored| stored.result);
+        Ok(all.filter(|result| result.n > 0).collect())
+    }
+}
+
+/// Why there are no points.
+fn nothing(kind: ChartKind) -> &'static str {
+    match kind {
+        ChartKind::Accuracy => "No algorithm of this run has both a time and an accuracy of this kind.",
+        ChartKind::Distance | ChartKind::Triangles | ChartKind::Ecdf => "This run has no times to chart.",
+        ChartKind::BvTests | ChartKind::PrimitiveTests => "No algorithm of this run counts its tests.",
+        ChartKind::Resolution => {
+            "This run has no decisions by distance: it was measured by an older version, or touches everywhere."
+        }
+    }
+}
+
+/// Arithmetic mean with its 95 % bootstrap interval; the same values give the same interval.
+fn mean(values: &[f64]) -> [f64; 3] {
+    let of = |values: &mut [f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let (lo, hi) = bootstrap_interval(values, of, 1);
+    [of(&mut values.to_vec()), lo, hi]
+}
+
+/// A chart whose series are the algorithms in the run's order.
+fn series(name: &str, place: usize, form: ocb_chart::Form, points: Vec<ocb_chart::Point>) -> Series {
+    Series { name: name.to_owned(), style: Some((place % ocb_chart::STYLES.len()) as u8), form, points }
+}

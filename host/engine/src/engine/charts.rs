@@ -1,0 +1,67 @@
+//! The board and the charts of a run, as values and as files.
+
+use ocb_chart::Chart;
+
+use super::{Engine, Inner};
+use crate::board::{self, Circumstances, Measured};
+use crate::model::{Board, BoardRequest, ChartRequest};
+use crate::store::RunRow;
+use crate::{Profile, Result, columns};
+
+/// Finished runs that are looked at, at most: the newest.
+const MOST_RUNS: i64 = 1000;
+
+impl Engine {
+    /// Results of the finished runs that the viewer may see, filtered until they may be compared.
+    pub async fn board(&self, request: &BoardRequest, viewer: Option<&str>) -> Result<Board> {
+        let mut measured = Vec::new();
+        for row in self.inner.visible_runs(viewer).await? {
+            measured.extend(self.inner.measured_of(&row).await?);
+        }
+        board::board(measured, request)
+    }
+
+    /// One chart of a run. Others of its kind are taken from the runs that the viewer may see.
+    pub async fn chart(&self, run: &str, request: ChartRequest, viewer: Option<&str>) -> Result<Chart> {
+        self.inner.chart(run, request, viewer).await
+    }
+}
+
+/// The rows of the board as CSV with a header line.
+pub fn board_csv(board: &Board) -> Result<Vec<u8>> {
+    columns::csv(&columns::board_parquet(&board.rows)?)
+}
+
+/// The numbers of a chart as Parquet, one row per point.
+pub fn chart_parquet(chart: &Chart) -> Result<Vec<u8>> {
+    columns::chart_parquet(chart)
+}
+
+/// The same rows as CSV with a header line.
+pub fn chart_csv(chart: &Chart) -> Result<Vec<u8>> {
+    columns::csv(&columns::chart_parquet(chart)?)
+}
+
+impl Inner {
+    /// The finished runs whose results this viewer may see in lists and comparisons, the newest first: those that the
+    /// service shows to everybody, and the viewer's own.
+    pub async fn visible_runs(&self, viewer: Option<&str>) -> Result<Vec<RunRow>> {
+        self.store.finished_runs(viewer, MOST_RUNS).await
+    }
+
+    /// The results of one run; none when it was never measured.
+    pub async fn measured_of(&self, row: &RunRow) -> Result<Vec<Measured>> {
+        let Some(machine) = &row.environment else { return Ok(Vec::new()) };
+        let circumstances = Circumstances {
+            run: &row.id,
+            finished_us: row.finished_us.unwrap_or(row.created_us),
+            spec: &row.spec,
+            names: [&row.object_a_name, &row.object_b_name],
+            machine: [&machine.cpu, &machine.hardware_class],
+            ranked: machine.profile == Profile::Production.as_str(),
+            set: row.set.as_ref(),
+        };
+        let results = self.store.results(&row.id).await?.into_iter();
+        Ok(results.map(|stored| Measured::of(&circumstances, &stored.plugin_sha256, stored.result)).collect())
+    }
+}

@@ -1,0 +1,188 @@
+//! What the board makes of given results.
+
+use ocb_engine::board::{Measured, Named, board};
+use ocb_engine::model::{Accuracy, Board, BoardRequest, BoardRow};
+use serde_json::{Value, json};
+
+fn named(value: &str) -> Named {
+    Named { value: value.into(), words: value.into() }
+}
+
+/// A result with this mean time, within 2 %, and these verdicts among `n`.
+fn measured(algorithm: &str, mean_ns: f64, n: u32, verdicts: &[(&str, u32)]) -> Measured {
+    let wrong: u32 = verdicts.iter().map(|(_, count)| count).sum();
+    let estimate = |value: f64| json!({ "value": value, "lo": 0.98 * value, "hi": 1.02 * value });
+    let result = json!({
+        "algorithm": algorithm, "name": algorithm, "n": n, "of": n, "budget_limited": false, "wrong": wrong,
+        "outcome": { "name": "Completed", "message": "All.", "ours": false },
+        "time": { "mean_ns": estimate(mean_ns), "median_ns": estimate(mean_ns), "p95_ns": estimate(mean_ns),
+                  "max_ns": estimate(mean_ns), "below_resolution": 0 },
+        "class": { "delivered": "first_contact", "order": "shuffled", "cpus": 1, "bits": 64 },
+        "verdicts": verdicts.iter().map(|(verdict, count)| json!({ "verdict": verdict, "count": count })).collect::<Vec<_>>(),
+        "resolution": { "eps": if wrong > 0 { 1e-3 } else { 1e-9 }, "seen": wrong > 0,
+                        "false_hits": { "n": n, "wrong": wrong, "at": if wrong > 0 { 1e-3 } else { 1e-9 } },
+                        "misses": { "n": 0, "wrong": 0, "at": null }, "distance": null },
+        "bv_tests_mean": null, "primitive_tests_mean": null, "build_ms": 2.5, "memory_bytes": 1000,
+    });
+    Measured {
+        run: format!("run of {algorithm}"),
+        finished_us: 1_000,
+        hardware: named("this"),
+        ranked: true,
+        question: named("collision_first"),
+        scene: named("a~a"),
+        distance: named("0"),
+        oracle: Some(4),
+        plugin_sha256: "p".into(),
+        result: serde_json::from_value(result).expect("a result"),
+    }
+}
+
+fn failed(algorithm: &str) -> Measured {
+    let mut measured = measured(algorithm, 1.0, 0, &[]);
+    measured.result.time = None;
+    measured.result.outcome.name = "Signaled".into();
+    measured.result.outcome.message = "It crashed with SIGSEGV.".into();
+    measured
+}
+
+fn five() -> Vec<Measured> {
+    vec![
+        measured("box-tree", 1_000.0, 200, &[]),
+        measured("box-tree:leaf_size=8", 1_010.0, 200, &[]),
+        measured("parry", 4_000.0, 200, &[]),
+        measured("voxmap-pointshell", 200.0, 200, &[("false_negative", 3), ("false_positive", 7)]),
+        failed("embree"),
+    ]
+}
+
+fn ask(measured: Vec<Measured>, request: &Value) -> Board {
+    let request: BoardRequest = serde_json::from_value(request.clone()).expect("a request");
+    board(measured, &request).expect("a board")
+}
+
+fn row<'a>(board: &'a Board, algorithm: &str) -> &'a BoardRow {
+    board.rows.iter().find(|row| row.algorithm == algorithm).unwrap_or_else(|| panic!("{algorithm} in {board:#?}"))
+}
+
+#[test]
+fn places_go_by_speed_with_ties_and_only_what_is_right_has_one() {
+    let board = ask(five(), &json!({}));
+    let ranks: Vec<(&str, Option<u32>, bool)> =
+        board.rows.iter().map(|row| (row.algorithm.as_str(), row.rank, row.tied)).collect();
+    assert_eq!(
+        ranks,
+        [
+            ("box-tree", Some(1), true),
+            ("box-tree:leaf_size=8", Some(1), true),
+            ("parry", Some(3), false),
+            ("voxmap-pointshell", None, false),
+            ("embree", None, false),
+        ]
+    );
+    let rate = row(&board, "parry").rate.expect("a rate");
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-9 * b;
+    assert!(near(rate.value, 250_000.0) && near(rate.lo, 1e9 / 4080.0) && near(rate.hi, 1e9 / 3920.0), "{rate:?}");
+    assert_eq!(row(&board, "embree").reason.as_deref(), Some("It crashed with SIGSEGV."));
+    assert!(row(&board, "voxmap-pointshell").reason.as_deref().is_some_and(|why| why.contains("wrong")));
+    assert_eq!(
+        board.finding,
+        "Fastest with no wrong answer seen: box-tree, 1,000,000 questions per second, 1.0 times the next \
+         (box-tree:leaf_size=8); the 95 % intervals overlap, so the order is not decided."
+    );
+}
+
+#[test]
+fn missed_collisions_and_false_alarms_are_apart_and_have_intervals() {
+    let board = ask(five(), &json!({}));
+    let wrong = row(&board, "voxmap-pointshell");
+    assert_eq!((wrong.wrong, wrong.missed, wrong.false_alarms), (10, 3, 7));
+    let [all, missed, alarms] =
+        [wrong.wrong_share, wrong.missed_share, wrong.false_alarm_share].map(|share| share.expect("a share"));
+    assert_eq!([all.value, missed.value, alarms.value], [0.05, 0.015, 0.035]);
+    assert!(all.lo < 0.05 && 0.05 < all.hi && missed.hi < all.hi);
+    let clean = row(&board, "parry").wrong_share.expect("a share");
+    assert_eq!([clean.value, clean.lo, clean.hi], [0.0, 0.0, 3.0 / 200.0]);
+}
+
+#[test]
+fn the_chart_has_the_rows_numbers_filled_on_the_frontier_and_hollow_when_a_collision_was_missed() {
+    for accuracy in [Accuracy::Wrong, Accuracy::Missed, Accuracy::FalseAlarms, Accuracy::Digits] {
+        let board = ask(five(), &json!({ "accuracy": accuracy }));
+        let lines = board.chart.series.iter().filter(|series| series.style.is_some());
+        let points: Vec<_> = lines.clone().flat_map(|series| &series.points).collect();
+        assert_eq!(points.len(), 4, "what failed has no mark");
+        for point in &points {
+            let row = row(&board, point.name.as_deref().expect("a name"));
+            let rate = row.rate.expect("a rate");
+            assert_eq!((point.y, point.y_lo, point.y_hi), (rate.value, Some(rate.lo), Some(rate.hi)));
+            assert_eq!((point.n, point.missed, point.false_alarms), (row.n, row.missed, row.false_alarms));
+            let share = |share: Option<ocb_engine::model::Estimated>| share.map(|s| s.value).filter(|x| *x > 0.0);
+            let x = match accuracy {
+                Accuracy::Wrong => share(row.wrong_share),
+                Accuracy::Missed => share(row.missed_share),
+                Accuracy::FalseAlarms => share(row.false_alarm_share),
+                _ => row.eps.map(|eps| -eps.log10()),
+            };
+            assert_eq!(point.x, x);
+            assert_eq!(point.filled, row.frontier && row.missed == 0);
+        }
+        // The fastest is on the frontier with its faults, but hollow; the slowest clean one is beaten.
+        assert!(row(&board, "voxmap-pointshell").frontier && row(&board, "box-tree").frontier);
+        assert!(!row(&board, "parry").frontier);
+        let joined = lines.filter(|series| series.points.len() == 2).count();
+        assert_eq!(joined, 1, "the two settings of box-tree are joined");
+    }
+}
+
+#[test]
+fn one_class_one_machine_one_scene_unless_asked_and_filters_say_what_they_took() {
+    let mut all = five();
+    let mut elsewhere = measured("parry", 500.0, 50, &[]);
+    elsewhere.hardware = named("other");
+    let mut single = measured("parry-f32", 300.0, 50, &[]);
+    single.result.class.as_mut().expect("a class").bits = 32;
+    let mut apart = measured("parry", 100.0, 50, &[]);
+    apart.distance = named("0.1");
+    all.extend([elsewhere, single, apart]);
+    let board = ask(all.clone(), &json!({}));
+    let removed: Vec<(&str, u32)> = board.filters.iter().map(|f| (f.name.as_str(), f.removed)).collect();
+    assert_eq!(
+        removed,
+        [("question", 0), ("class", 1), ("hardware", 1), ("scene", 0), ("distance", 1), ("precision", 0)]
+    );
+    assert_eq!(board.results, 8);
+    assert_eq!(row(&board, "parry").rate.map(|r| r.value.round()), Some(250_000.0));
+    // Over all distances counts are added, and who was not measured everywhere has no place.
+    let board = ask(all.clone(), &json!({ "distance": "all" }));
+    let parry = row(&board, "parry");
+    assert_eq!((parry.n, parry.rank, parry.scenarios), (250, Some(1), 2));
+    assert!((parry.rate.expect("a rate").value - 1e9 / 2050.0).abs() < 1e-6);
+    assert!(row(&board, "box-tree").reason.as_deref().is_some_and(|why| why.contains("1 of 2 scenarios")));
+    // A filter that leaves nothing says so.
+    let board = ask(all.clone(), &json!({ "scene": "b~b" }));
+    assert!(board.rows.is_empty());
+    assert_eq!(board.filters.iter().find(|f| f.name == "scene").map(|f| f.removed), Some(6));
+    let board = ask(all, &json!({ "precision": "1e-6" }));
+    assert!(board.rows.iter().all(|row| row.algorithm != "voxmap-pointshell"));
+    assert_eq!(board.filters.last().map(|f| f.removed), Some(1));
+}
+
+#[test]
+fn the_newest_plugin_counts_and_of_its_runs_the_largest() {
+    let older = Measured { plugin_sha256: "old".into(), ..measured("parry", 9_000.0, 900, &[]) };
+    let large = Measured { finished_us: 2_000, ..measured("parry", 4_000.0, 300, &[]) };
+    let small = Measured { finished_us: 3_000, ..measured("parry", 5_000.0, 20, &[]) };
+    let board = ask(vec![small, large, older], &json!({}));
+    let parry = row(&board, "parry");
+    assert_eq!((parry.n, parry.finished_us), (300, 2_000));
+}
+
+#[test]
+fn a_precision_that_is_none_is_refused() {
+    for bad in ["0", "-1", "NaN", "fine", "2"] {
+        let request = BoardRequest { precision: Some(bad.into()), ..BoardRequest::default() };
+        let refused = board(five(), &request).expect_err("it is no precision").to_string();
+        assert!(refused.contains(bad) && refused.contains("1e-6"), "{refused}");
+    }
+}
