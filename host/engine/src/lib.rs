@@ -6,6 +6,7 @@
 mod benchmark;
 mod blobs;
 mod cache;
+mod checks;
 mod columns;
 mod config;
 mod configurations;
@@ -18,6 +19,7 @@ mod machine;
 mod measure;
 pub mod model;
 mod objects;
+mod passwords;
 mod registry;
 mod results;
 mod runlog;
@@ -26,6 +28,8 @@ mod store;
 pub mod truth;
 
 pub use config::{EngineConfig, Profile};
-pub use engine::{Engine, SetJob};
+pub use engine::{Engine, MAX_PLUGIN_BYTES, SESSION, SetJob};
 pub use error::{EngineError, Result};
 pub use ocb_sandbox::doctor;
+pub use registry::Extent;
+pub use results::no_run;

@@ -4,7 +4,9 @@
 
 mod contract;
 mod heatmap;
+mod people;
 mod plugin;
+mod submission;
 mod timing;
 mod truth;
 
@@ -17,7 +19,12 @@ use utoipa::ToSchema;
 
 pub use contract::{ContractClass, Delivered, Order};
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
-pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport};
+pub use people::{
+    AccountInfo, AuditEntry, Credentials, Identity, NewPassword, NewRole, NewToken, Role, Scope, TokenInfo,
+    TokenRequest, Wish,
+};
+pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport, Repro};
+pub use submission::{Action, Decision, Manifest, PluginInfo, PluginState};
 pub use timing::{Draw, Reference, Timing, TimingCheck};
 pub use truth::{ContactRow, TruthRow};
 
