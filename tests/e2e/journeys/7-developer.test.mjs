@@ -57,6 +57,7 @@ test('a developer publishes a plugin, a curator decides, a user benchmarks it', 
 
   // Registered, and welcomed by a curator.
   await developer.go('/account')
+  await developer.at('account-name').waitFor()
   await developer.accessible('the account page of a guest')
   await enter(developer, 'ada', PASSWORD, true)
   await developer.at('wish').fill('I have all pairs of triangles.')

@@ -1,5 +1,177 @@
 // Generated from web/server/openapi.json by `npm run generate`: do not edit.
 export interface paths {
+    "/api/v1/account": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Who is logged in; a guest has no account. */
+        get: operations["show_account"];
+        put?: never;
+        /** Makes an account and enters it. A name that is taken gets 409: names stand beside plugins, so they are no secret. */
+        post: operations["make_account"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/account/developer": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Asks the curators to be made a developer, who submits plugins. */
+        post: operations["ask_to_develop"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/account/login": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Enters an account. A wrong name and a wrong password get the same answer, in the same time. */
+        post: operations["log_in"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/account/logout": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Leaves the account in this browser. */
+        post: operations["log_out"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/account/logout-everywhere": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Leaves the account in every browser; tokens stay. */
+        post: operations["log_out_everywhere"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/account/password": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Changes the password and leaves the account in every browser. */
+        post: operations["change_password"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/account/tokens": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Tokens for programs, without their secrets. */
+        get: operations["list_tokens"];
+        put?: never;
+        /** Makes a token; its secret is in this answer and nowhere else. */
+        post: operations["make_token"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/account/tokens/{id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /** Ends a token. */
+        delete: operations["end_token"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/accounts": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** All accounts by name; those that want to be developers say why. */
+        get: operations["list_accounts"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/accounts/{id}/role": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Gives an account a role. Curators decide about users and developers, administrators about all. */
+        post: operations["change_role"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/algorithms": {
         parameters: {
             query?: never;
@@ -7,8 +179,25 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** All algorithms. */
+        /** The installed and the public algorithms, and the visitor's own. */
         get: operations["list_algorithms"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/curation": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** What waits for a curator, oldest first. */
+        get: operations["list_curation"];
         put?: never;
         post?: never;
         delete?: never;
@@ -118,6 +307,78 @@ export interface paths {
         };
         /** This document. */
         get: operations["show_document"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/plugins": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The public plugins and those of the visitor, newest first; each one's report and history stand on its own page. */
+        get: operations["list_plugins"];
+        put?: never;
+        /** Sends a plugin, which is then checked. The same bytes twice are one. */
+        post: operations["submit_plugin"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/plugins/{id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * One plugin with its report and its history. One that was never public is shown to its author and to curators; to others
+         *     it is not there.
+         */
+        get: operations["show_plugin"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/plugins/{id}/decisions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Takes a step on a plugin's way. The author offers, answers and withdraws; curators decide, but not about their own. */
+        post: operations["decide"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/plugins/{id}/events": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The plugin after every line of its report, as server-sent events; ends with the check. */
+        get: operations["follow_plugin"];
         put?: never;
         post?: never;
         delete?: never;
@@ -357,6 +618,27 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /** @description An account, as its owner and curators see it. */
+        AccountInfo: {
+            /**
+             * Format: int64
+             * @description When it was made.
+             */
+            created_us: number;
+            /** @description Its id. */
+            id: string;
+            /** @description Its name, as it is shown beside plugins. */
+            name: string;
+            /** @description What it may do. */
+            role: components["schemas"]["Role"];
+            /** @description Why its owner wants to be a developer, while that is undecided. */
+            wish?: string | null;
+        };
+        /**
+         * @description A step on a plugin's way.
+         * @enum {string}
+         */
+        Action: "offer" | "answer" | "withdraw" | "approve" | "ask" | "reject" | "suspend" | "exclude" | "reinstate";
         /** @description How many of some answers agree with exact arithmetic. */
         Agreement: {
             /**
@@ -481,6 +763,44 @@ export interface components {
              */
             seconds: number;
         };
+        /** @description One thing that somebody did. */
+        AuditEntry: {
+            /** @description What, in a word. */
+            action: string;
+            /** @description Who: the name of an account, or `the service`. */
+            actor: string;
+            /**
+             * Format: int64
+             * @description When.
+             */
+            at_us: number;
+            /** @description The reason given. */
+            detail: string;
+            /**
+             * Format: int64
+             * @description Position in the log, from 1.
+             */
+            seq: number;
+            /** @description To what. */
+            subject: string;
+        };
+        /** @description One check of a plugin. */
+        CheckLine: {
+            /** @description What was checked, e.g. `load in the jail`. */
+            check: string;
+            /** @description What was seen, one sentence. */
+            evidence: string;
+            /** @description How to mend it, when it did not pass. */
+            hint?: string | null;
+            repro?: components["schemas"]["Repro"] | null;
+            /** @description How it ended. */
+            verdict: components["schemas"]["CheckVerdict"];
+        };
+        /**
+         * @description How one check ended.
+         * @enum {string}
+         */
+        CheckVerdict: "pass" | "note" | "fail";
         /**
          * @description What may be asked of an answer at one precision: `CLEAR` and `COLLIDING` are scored, `GRAZING` is reported only.
          * @enum {string}
@@ -536,6 +856,22 @@ export interface components {
             delivered: components["schemas"]["Delivered"];
             /** @description In which order it was asked. */
             order: components["schemas"]["Order"];
+        };
+        /** @description Name and password. */
+        Credentials: {
+            /** @description Moves the guest's runs and objects into the account. */
+            keep?: boolean;
+            /** @description User name or e-mail address: 3 to 80 letters, digits and `. _ - @ +`. */
+            name: string;
+            /** @description Password of 10 to 200 characters. */
+            password: string;
+        };
+        /** @description A step, and why it is taken. */
+        Decision: {
+            /** @description The step. */
+            action: components["schemas"]["Action"];
+            /** @description Why, for the author and for the log. */
+            reason?: string;
         };
         /**
          * @description What an algorithm delivered, as its answers show.
@@ -710,6 +1046,29 @@ export interface components {
             /** @description Which statistic. */
             statistic: components["schemas"]["Statistic"];
         };
+        /** @description Who asks: a guest has no account. */
+        Identity: {
+            account?: components["schemas"]["AccountInfo"] | null;
+        };
+        /** @description What a developer says of a plugin. */
+        Manifest: {
+            /** @description Authors. */
+            authors: string;
+            /** @description SPDX licence expression. */
+            license: string;
+            /** @description Display name. */
+            name: string;
+            /** @description The paper the method comes from. */
+            paper?: string;
+            /** @description The questions it answers. */
+            queries: components["schemas"]["Query"][];
+            /** @description Where the source is. */
+            source?: string;
+            /** @description It enters the multi-threaded track, too. */
+            threads?: boolean;
+            /** @description Version: letters, digits and `. + - _`, at most 32; another one for every upload. */
+            version: string;
+        };
         /**
          * @description What to colour an object by.
          * @enum {string}
@@ -772,6 +1131,25 @@ export interface components {
             kind: "file";
             /** @description Content hash (SHA-256, hex) of the file. */
             sha256: string;
+        };
+        /** @description A change of the password. */
+        NewPassword: {
+            /** @description The password from now on. */
+            new: string;
+            /** @description The password until now. */
+            old: string;
+        };
+        /** @description Another role for an account. */
+        NewRole: {
+            /** @description The role. */
+            role: components["schemas"]["Role"];
+        };
+        /** @description A token just made: the only time that its secret is shown. */
+        NewToken: {
+            /** @description To be sent as `Authorization: Bearer <secret>`. */
+            secret: string;
+            /** @description The token. */
+            token: components["schemas"]["TokenInfo"];
         };
         /** @description An object as the lists show it. */
         ObjectInfo: {
@@ -850,6 +1228,57 @@ export interface components {
             /** @description Name. */
             name: string;
         };
+        /** @description A plugin somebody brought, as whoever may see it sees it. */
+        PluginInfo: {
+            /** @description The algorithms that it describes. */
+            algorithms: components["schemas"]["AlgorithmInfo"][];
+            /**
+             * Format: int64
+             * @description Size of the file.
+             */
+            bytes: number;
+            /**
+             * Format: int64
+             * @description When its state changed last.
+             */
+            changed_us: number;
+            /**
+             * Format: int64
+             * @description When it was sent.
+             */
+            created_us: number;
+            /** @description Name of the file as it was sent. */
+            file: string;
+            /** @description What a curator should look at; for curators and the author. */
+            flags: string[];
+            /** @description The hardware class on which it was checked. */
+            hardware_class?: string | null;
+            /** @description What was done to it, oldest first. */
+            history: components["schemas"]["AuditEntry"][];
+            /** @description Its id. */
+            id: string;
+            /** @description The report so far. */
+            lines: components["schemas"]["CheckLine"][];
+            /** @description What its author says of it. */
+            manifest: components["schemas"]["Manifest"];
+            /** @description The viewer sent it. */
+            mine: boolean;
+            /** @description Name of the account that sent it. */
+            owner: string;
+            /** @description The version before this one that is or was public. */
+            previous?: string | null;
+            /** @description Why it is there: a curator's or the author's words, or the first line that failed. */
+            reason: string;
+            /** @description SHA-256 (hex) of the file. */
+            sha256: string;
+            /** @description Where it is on its way. */
+            state: components["schemas"]["PluginState"];
+        };
+        /**
+         * @description Where a plugin is on its way to the public benchmark.
+         * @enum {string}
+         */
+        PluginState: "uploaded" | "vetted" | "failed" | "validated" | "awaiting" | "asked" | "rejected" | "public" | "suspended" | "excluded" | "withdrawn";
         /** @description An error: what is wrong, where, and how to mend it (RFC 9457, `application/problem+json`). */
         Problem: {
             /** @description One sentence for the person who asked. */
@@ -876,6 +1305,31 @@ export interface components {
             /** @description SHA-256 (hex) of its plugin file. */
             plugin_sha256: string;
         };
+        /** @description One question that is answered wrongly; `ocb plugin check FILE.so --repro FILE.json` asks it again. */
+        Repro: {
+            /** @description Algorithm id. */
+            algorithm: string;
+            /** @description It fails also when it is the only question. If not, answers depend on the questions before, and nothing was reduced. */
+            alone: boolean;
+            /** @description What the oracle says. */
+            expected: string;
+            /** @description What the plugin answered. */
+            got: string;
+            /** @description Object A as OBJ text, reduced to as few triangles as still fail. */
+            object_a: string;
+            /** @description Object B. */
+            object_b: string;
+            /** @description Pose of A, a row-major 4x4 matrix. */
+            pose_a: number[];
+            /** @description Pose of B. */
+            pose_b: number[];
+            /** @description The question. */
+            query: components["schemas"]["Query"];
+            /** @description Triangles of A and of B. */
+            triangles: number[];
+            /** @description What is wrong with it. */
+            verdict: components["schemas"]["Verdict"];
+        };
         /** @description eps* of one algorithm on one set. */
         Resolution: {
             distance?: components["schemas"]["DistanceError"] | null;
@@ -892,6 +1346,11 @@ export interface components {
             /** @description Some answer is wrong, so that `eps` is a value and no bound. */
             seen: boolean;
         };
+        /**
+         * @description What an account may do; each role may do what those before it may.
+         * @enum {string}
+         */
+        Role: "user" | "developer" | "curator" | "administrator";
         /** @description Something that happened in a run. */
         RunEvent: {
             /**
@@ -1045,6 +1504,11 @@ export interface components {
             /** @enum {string} */
             kind: "count";
         };
+        /**
+         * @description What a token may be used for.
+         * @enum {string}
+         */
+        Scope: "runs" | "plugins";
         /**
          * @description What counts as an object.
          * @enum {string}
@@ -1264,6 +1728,32 @@ export interface components {
              */
             found: number;
         };
+        /** @description A token for programs, without its secret. */
+        TokenInfo: {
+            /**
+             * Format: int64
+             * @description When it was made.
+             */
+            created_us: number;
+            /**
+             * Format: int64
+             * @description When it ends.
+             */
+            expires_us: number;
+            /** @description Its id. */
+            id: string;
+            /** @description What its owner calls it. */
+            name: string;
+            /** @description What it may be used for. */
+            scopes: components["schemas"]["Scope"][];
+        };
+        /** @description A token that is asked for. */
+        TokenRequest: {
+            /** @description What its owner calls it, 1 to 80 characters. */
+            name: string;
+            /** @description What it may be used for. */
+            scopes: components["schemas"]["Scope"][];
+        };
         /**
          * @description The comparison of one answer with the oracle.
          * @enum {string}
@@ -1304,6 +1794,11 @@ export interface components {
              */
             vertex: number;
         };
+        /** @description Why somebody wants to be a developer. */
+        Wish: {
+            /** @description A sentence or two for the curators. */
+            reason: string;
+        };
     };
     responses: never;
     parameters: never;
@@ -1313,6 +1808,487 @@ export interface components {
 }
 export type $defs = Record<string, never>;
 export interface operations {
+    show_account: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Identity"];
+                };
+            };
+        };
+    };
+    make_account: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Credentials"];
+            };
+        };
+        responses: {
+            /** @description Made and entered */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Identity"];
+                };
+            };
+            /** @description The name is taken */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No name or no password */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many accounts */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    ask_to_develop: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Wish"];
+            };
+        };
+        responses: {
+            /** @description Asked */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Is one already */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No reason given */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    log_in: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Credentials"];
+            };
+        };
+        responses: {
+            /** @description Entered */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Identity"];
+                };
+            };
+            /** @description Name and password do not belong together */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Something is missing */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many tries */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    log_out: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Left */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    log_out_everywhere: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Left everywhere */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    change_password: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewPassword"];
+            };
+        };
+        responses: {
+            /** @description Changed; log in again */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The old password is another one */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The new one is too short */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_tokens: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TokenInfo"][];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    make_token: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TokenRequest"];
+            };
+        };
+        responses: {
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["NewToken"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many tokens */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No name or no scope */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    end_token: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Token id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description It opens nothing any more */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such token */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_accounts: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AccountInfo"][];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No curator */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    change_role: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Account id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewRole"];
+            };
+        };
+        responses: {
+            /** @description The account as it is now */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AccountInfo"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not for this curator to decide */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such account */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No role */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     list_algorithms: {
         parameters: {
             query?: never;
@@ -1328,6 +2304,43 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["AlgorithmInfo"][];
+                };
+            };
+        };
+    };
+    list_curation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PluginInfo"][];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No curator */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
         };
@@ -1563,6 +2576,271 @@ export interface operations {
                 };
                 content: {
                     "application/json": unknown;
+                };
+            };
+        };
+    };
+    list_plugins: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PluginInfo"][];
+                };
+            };
+        };
+    };
+    submit_plugin: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": {
+                    /**
+                     * Format: binary
+                     * @description A shared library of at most 64 MiB.
+                     */
+                    file: string;
+                    /** @description A `Manifest` as JSON; it comes before the file. */
+                    manifest: string;
+                };
+            };
+        };
+        responses: {
+            /** @description Was there already */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PluginInfo"];
+                };
+            };
+            /** @description Stored; its check waits in the queue */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PluginInfo"];
+                };
+            };
+            /** @description No such form */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No developer */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many plugins wait, or the quota is used up */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No plugin, or no manifest */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many uploads */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_plugin: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Plugin id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PluginInfo"];
+                };
+            };
+            /** @description No such plugin */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    decide: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Plugin id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Decision"];
+            };
+        };
+        responses: {
+            /** @description The plugin as it is now */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PluginInfo"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Somebody else's to decide */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such plugin */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not a step from where it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such step, or no reason */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    follow_plugin: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Plugin id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The events */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/event-stream": components["schemas"]["PluginInfo"];
+                };
+            };
+            /** @description The check is through */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description No such plugin */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
         };
