@@ -1,7 +1,8 @@
 // Starts the built service on a data folder of its own, walks all journeys against it, and stops it by its process id.
 //
-// OCB_E2E_URL walks against a running service instead; further arguments choose journeys (file names).
-import { spawn } from 'node:child_process'
+// OCB_E2E_URL walks against a running service instead (with OCB_E2E_CURATOR, the password of its account "curator"); further arguments choose journeys (file names).
+import { spawn, spawnSync } from 'node:child_process'
+import { randomUUID } from 'node:crypto'
 import { mkdtempSync, readdirSync, rmSync } from 'node:fs'
 import { createServer } from 'node:net'
 import { tmpdir } from 'node:os'
@@ -33,6 +34,11 @@ async function ready(url, alive) {
 async function startService() {
   const url = `http://127.0.0.1:${await freePort()}`
   const data = mkdtempSync(join(tmpdir(), 'ocb-e2e-'))
+  const password = randomUUID()
+  const made = spawnSync(join(target, 'release/ocb'), ['admin', 'create', 'curator', '--role', 'curator', '--data', data], {
+    env: { ...process.env, OCB_PASSWORD: password }, stdio: ['ignore', 'ignore', 'inherit'],
+  })
+  if (made.status !== 0) throw new Error('no curator could be made')
   const options = ['serve', '--data', data, '--listen', url.slice('http://'.length), '--stock-dir', join(root, 'target/stock')]
   const service = spawn(join(target, 'release/ocb'), options, { cwd: root, stdio: ['ignore', 'inherit', 'inherit'] })
   const ended = new Promise((done) => service.once('exit', (code, signal) => done(signal ?? code)))
@@ -51,7 +57,7 @@ async function startService() {
     await stop().catch(() => {})
     throw error
   }
-  return { url, stop }
+  return { url, password, stop }
 }
 
 const chosen = process.argv.slice(2)
@@ -63,7 +69,7 @@ const service = given ? { url: given, stop: async () => {} } : await startServic
 const test = spawn(process.execPath, ['--test', '--test-concurrency=1', '--test-reporter=spec', ...journeys], {
   cwd: here,
   stdio: 'inherit',
-  env: { ...process.env, OCB_E2E_URL: service.url, OCB_E2E_PICTURES: join(root, 'target/e2e') },
+  env: { ...process.env, OCB_E2E_URL: service.url, OCB_E2E_CURATOR: service.password ?? process.env.OCB_E2E_CURATOR ?? '', OCB_E2E_PICTURES: join(root, 'target/e2e') },
 })
 const code = await new Promise((done) => test.once('exit', (c) => done(c ?? 1)))
 await service.stop()

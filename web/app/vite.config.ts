@@ -10,7 +10,8 @@ export default defineConfig({
   },
   server: {
     // `npm run dev` beside a running `ocb serve`; OCB_API names another address.
-    proxy: { '/api': process.env.OCB_API ?? 'http://127.0.0.1:8080' },
+    // The service compares where a request comes from with where it goes to, so the host must stay as it is.
+    proxy: { '/api': { target: process.env.OCB_API ?? 'http://127.0.0.1:8080', changeOrigin: false } },
   },
   test: { environment: 'happy-dom', include: ['src/**/*.test.ts'] },
 })

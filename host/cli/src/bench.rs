@@ -48,7 +48,7 @@ pub async fn bench(store: &Store, args: &BenchArgs, json: bool) -> Result<ExitCo
 async fn measure(engine: &Engine, args: &BenchArgs, inputs: spec::Inputs, json: bool) -> Result<ExitCode> {
     let stop = serve::stop_signal()?;
     let spec = inputs.into_spec(engine, args).await?;
-    let estimate = engine.estimate(&spec).await?;
+    let estimate = engine.estimate(&spec, Some(OWNER)).await?;
     let expected = units::wait(estimate.total_seconds + estimate.wait_seconds);
     eprintln!("{} configurations, about {expected}", estimate.configurations);
     let (run, interrupted) = follow(engine, spec, stop).await?;

@@ -1,5 +1,6 @@
 //! `ocb`: serve the pages, or do from a terminal what they do.
 
+mod admin;
 mod args;
 mod bench;
 mod board;
@@ -17,6 +18,7 @@ mod placing;
 mod plugin;
 mod run;
 mod serve;
+mod submit;
 mod truth;
 mod units;
 
@@ -53,6 +55,8 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Plugin { command } => plugin::plugin(&store, &command, json).await,
         Command::Object { command } => object::object(&store, &command, json).await,
         Command::Run { command } => run::run(&store, &command, json).await,
+        Command::Submit(args) => submit::submit(&args, json).await,
+        Command::Admin { command } => admin::admin(&store, &command, json).await,
         Command::Doctor => doctor::doctor(&store, json),
         Command::Board(args) => board::board(&store, &args, json).await,
         Command::Chart(args) => chart::chart(&store, &args, json).await,

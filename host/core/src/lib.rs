@@ -21,6 +21,7 @@ pub mod oracle;
 pub mod pose;
 pub mod query;
 pub mod record;
+pub mod reduce;
 pub mod resolution;
 pub mod sampling;
 pub mod statistics;

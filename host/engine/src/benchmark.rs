@@ -327,7 +327,7 @@ impl Bench<'_> {
     /// The algorithms may have changed since the run was asked for, by a restart with other plugins.
     fn contestants(&self) -> Result<Vec<Arc<Contestant>>> {
         let find = |id: &String| {
-            self.inner.registry.choose(id)?.ok_or_else(|| {
+            self.inner.registry.choose(id, self.row.owner.as_deref())?.ok_or_else(|| {
                 EngineError::Invalid(format!(
                     "The algorithm {id:?} is no longer installed; start the run again without it."
                 ))

@@ -10,7 +10,7 @@ use crate::engine::Inner;
 use crate::measure::Stop;
 use crate::model::State;
 use crate::runlog::plain_event;
-use crate::{EngineError, Result};
+use crate::{EngineError, Result, checks};
 
 /// A run that was started this often is not tried again: it may be what ends the service.
 const MAX_ATTEMPTS: i64 = 3;
@@ -25,6 +25,7 @@ pub async fn recover(inner: &Inner) -> Result<()> {
     for run in &failed {
         inner.bell.tell(&inner.store, run, plain_event(State::Failed, 0)).await?;
     }
+    inner.store.recover_checks(checks::MAX_ATTEMPTS).await?;
     if !queued.is_empty() {
         tracing::info!("{} interrupted run(s) are back in the queue", queued.len());
     }
@@ -34,6 +35,15 @@ pub async fn recover(inner: &Inner) -> Result<()> {
 /// Works on the queue until the engine closes.
 pub async fn work(inner: Arc<Inner>) {
     while !inner.closing() {
+        // In turn, so that neither waits for all of the other.
+        let checked = match check_next(&inner).await {
+            Ok(checked) => checked,
+            Err(e) => {
+                tracing::error!("checking a plugin: {e}");
+                tokio::time::sleep(BACK_OFF).await;
+                false
+            }
+        };
         match inner.store.claim().await {
             Ok(Some(id)) => {
                 if let Err(e) = carry_out(&inner, &id).await {
@@ -41,6 +51,7 @@ pub async fn work(inner: Arc<Inner>) {
                     tokio::time::sleep(BACK_OFF).await;
                 }
             }
+            Ok(None) if checked => {}
             Ok(None) => {
                 let _ = tokio::time::timeout(IDLE, inner.wake.notified()).await;
             }
@@ -50,6 +61,19 @@ pub async fn work(inner: Arc<Inner>) {
             }
         }
     }
+}
+
+/// Checks the plugin that waits longest; false when none does.
+async fn check_next(inner: &Arc<Inner>) -> Result<bool> {
+    let Some(row) = inner.store.claim_check(checks::MAX_ATTEMPTS).await? else { return Ok(false) };
+    let stop = Stop::default();
+    inner.set_current(Some((row.id.clone(), stop.clone())));
+    if inner.closing() {
+        stop.stop();
+    }
+    let done = checks::carry_out(inner, &row, &stop).await;
+    inner.set_current(None);
+    done.map(|()| true)
 }
 
 async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {

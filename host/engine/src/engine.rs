@@ -3,10 +3,14 @@
 mod charts;
 mod featured;
 mod follow;
+mod people;
+mod plugins;
 mod runs;
 mod sets;
 
 pub use charts::{board_csv, chart_csv, chart_parquet};
+pub use people::SESSION;
+pub use plugins::{MAX_PLUGIN_BYTES, conflict};
 pub use sets::SetJob;
 
 use std::collections::VecDeque;
@@ -29,7 +33,7 @@ use crate::machine::{Machine, lock_data_folder};
 use crate::measure::Stop;
 use crate::model::{AlgorithmInfo, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, PluginReport, RunSpec, Status};
 use crate::objects::{Objects, blocking};
-use crate::registry::{Registry, check_plugin};
+use crate::registry::{Extent, Registry, check_plugin};
 use crate::results::Format;
 use crate::runlog::Bell;
 use crate::store::Store;
@@ -110,6 +114,7 @@ impl Engine {
             registry,
         });
         let engine = Self { inner };
+        engine.inner.renew_plugins().await?;
         if engine.inner.config.dispatch {
             dispatcher::recover(&engine.inner).await?;
             engine.feature_a_run().await?;
@@ -142,7 +147,7 @@ impl Engine {
             hardware_class: self.inner.machine.hardware_class.clone(),
             running: self.inner.store.running().await?.len() as u32,
             queued: self.inner.store.queued().await?.len() as u32,
-            algorithms: self.inner.registry.algorithms().len() as u32,
+            algorithms: self.inner.registry.algorithms(None).len() as u32,
             problems: self.inner.registry.problems().to_vec(),
         })
     }
@@ -177,30 +182,30 @@ impl Engine {
         Ok(Method::File { sha256 })
     }
 
-    /// All algorithms of all plugins that could be described, by id.
-    pub fn algorithms(&self) -> Vec<AlgorithmInfo> {
-        self.inner.registry.algorithms()
+    /// All algorithms of all plugins that this viewer may ask for, by id.
+    pub fn algorithms(&self, viewer: Option<&str>) -> Vec<AlgorithmInfo> {
+        self.inner.registry.algorithms(viewer)
     }
 
     /// Checks a plugin file: format, loading in the jail, ABI, descriptor, answers on smoke configurations.
     ///
     /// What is wrong with the plugin is in the report; an error means that the check itself could not be made.
-    pub async fn check_plugin(&self, file: &Path) -> Result<PluginReport> {
+    pub async fn check_plugin(&self, file: &Path, extent: Extent) -> Result<PluginReport> {
         let (runner, file, profile) = (self.inner.config.runner.clone(), file.to_owned(), self.inner.config.profile);
         // A thread of its own: a jail ends with the thread that started it.
         let (sender, report) = tokio::sync::oneshot::channel();
-        std::thread::spawn(move || sender.send(check_plugin(&runner, &file, profile)));
+        std::thread::spawn(move || sender.send(check_plugin(&runner, &file, profile, &extent, &mut |_| true)));
         report.await.unwrap_or_else(|_| Err(EngineError::Fault("The plugin check broke down.".into())))
     }
 
     /// Number of configurations, expected time and wait of a run that is not asked for yet; checks the spec as `submit`.
-    pub async fn estimate(&self, spec: &RunSpec) -> Result<Estimate> {
-        estimate::estimate(&self.inner, &self.check(spec).await?).await
+    pub async fn estimate(&self, spec: &RunSpec, viewer: Option<&str>) -> Result<Estimate> {
+        estimate::estimate(&self.inner, &self.check(spec, viewer).await?).await
     }
 
-    async fn check(&self, spec: &RunSpec) -> Result<spec::Checked> {
+    async fn check(&self, spec: &RunSpec, viewer: Option<&str>) -> Result<spec::Checked> {
         let inner = &self.inner;
-        spec::check(spec, &inner.objects, &inner.registry, &inner.store, &inner.blobs).await
+        spec::check(spec, &inner.objects, &inner.registry, &inner.store, &inner.blobs, viewer).await
     }
 
     /// Values on the vertices of one object of the run.

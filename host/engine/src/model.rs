@@ -6,7 +6,9 @@ mod board;
 mod chart;
 mod contract;
 mod heatmap;
+mod people;
 mod plugin;
+mod submission;
 mod timing;
 mod truth;
 
@@ -21,7 +23,12 @@ pub use board::{Accuracy, Board, BoardFilter, BoardOption, BoardRequest, BoardRo
 pub use chart::{ChartKind, ChartRequest};
 pub use contract::{ContractClass, Delivered, Order};
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
-pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport};
+pub use people::{
+    AccountInfo, AuditEntry, Credentials, Identity, NewPassword, NewRole, NewToken, Role, Scope, TokenInfo,
+    TokenRequest, Wish,
+};
+pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport, Repro};
+pub use submission::{Action, Decision, Manifest, PluginInfo, PluginState};
 pub use timing::{Draw, Reference, Timing, TimingCheck};
 pub use truth::{ContactRow, TruthRow};
 

@@ -1,11 +1,12 @@
 //! Which algorithms there are. A plugin is only ever loaded by the jailed runner, also to read its name.
 
+pub mod brought;
 mod check;
 mod choice;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
 
 use ocb_sandbox::{Descriptor, Ending, Launcher, Policy, Profile};
 
@@ -15,7 +16,8 @@ use crate::objects::blocking;
 use crate::store::Store;
 use crate::{EngineConfig, EngineError, Result};
 
-pub use check::check_plugin;
+use brought::Brought;
+pub use check::{Extent, check_manifest, check_plugin, is_free};
 
 /// Largest plugin file that is looked at, bytes.
 const MAX_PLUGIN_BYTES: u64 = 64 << 20;
@@ -52,6 +54,7 @@ pub struct Registry {
     runner: PathBuf,
     profile: Profile,
     contestants: Vec<Arc<Contestant>>,
+    brought: RwLock<Vec<Brought>>,
     problems: Vec<String>,
 }
 
@@ -63,6 +66,7 @@ impl Registry {
             runner: config.runner.clone(),
             profile: config.profile,
             contestants: Vec::new(),
+            brought: RwLock::default(),
             problems: Vec::new(),
         };
         if !config.runner.is_file() {
@@ -98,9 +102,30 @@ impl Registry {
         Ok(registry)
     }
 
-    /// All algorithms by id.
-    pub fn algorithms(&self) -> Vec<AlgorithmInfo> {
-        self.contestants.iter().map(|c| c.info.clone()).collect()
+    /// Those that this viewer may ask for, by id.
+    pub fn algorithms(&self, viewer: Option<&str>) -> Vec<AlgorithmInfo> {
+        let mut all: Vec<AlgorithmInfo> = self.contestants.iter().map(|c| c.info.clone()).collect();
+        let brought = self.brought();
+        all.extend(brought.iter().filter(|b| b.is_for(viewer)).map(|b| b.contestant.info.clone()));
+        all.sort_by(|x, y| x.id.cmp(&y.id));
+        all
+    }
+
+    /// From now on these, of all that developers brought.
+    pub fn offer(&self, brought: Vec<Brought>) {
+        *self.brought.write().unwrap_or_else(PoisonError::into_inner) = brought;
+    }
+
+    fn brought(&self) -> RwLockReadGuard<'_, Vec<Brought>> {
+        self.brought.read().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Nobody but its author may ask for this plugin file now.
+    pub fn is_private(&self, contestant: &Contestant) -> bool {
+        let file = &contestant.info.plugin_sha256;
+        let brought = self.brought();
+        let mut twins = brought.iter().filter(|b| b.contestant.info.plugin_sha256 == *file).peekable();
+        twins.peek().is_some() && twins.all(|b| !b.public)
     }
 
     /// What keeps something from being offered.
@@ -113,15 +138,20 @@ impl Registry {
         self.profile
     }
 
-    /// The algorithm with this id.
+    /// The installed algorithm with this id.
     pub fn contestant(&self, id: &str) -> Option<Arc<Contestant>> {
         self.contestants.iter().find(|c| c.info.id == id).cloned()
     }
 
-    /// The algorithm of this name, which may carry settings (`box-tree:leaf_size=4`); `None` when there is no such id.
-    pub fn choose(&self, name: &str) -> Result<Option<Arc<Contestant>>> {
+    /// The algorithm of this name, which may carry settings (`box-tree:leaf_size=4`); `None` when there is no such id for
+    /// this viewer.
+    pub fn choose(&self, name: &str, viewer: Option<&str>) -> Result<Option<Arc<Contestant>>> {
         let (id, settings) = name.split_once(':').map_or((name, None), |(id, settings)| (id, Some(settings)));
-        match (self.contestant(id), settings) {
+        let brought = || {
+            let all = self.brought();
+            all.iter().find(|b| b.contestant.info.id == id && b.is_for(viewer)).map(|b| b.contestant.clone())
+        };
+        match (self.contestant(id).or_else(brought), settings) {
             (Some(plain), Some(settings)) => Ok(Some(Arc::new(choice::with_settings(&plain, settings)?))),
             (found, _) => Ok(found),
         }
@@ -177,7 +207,8 @@ pub fn plugin_hash(file: &Path) -> Result<String> {
 
 /// The bytes of a plugin file that is at least an ELF file.
 fn read_plugin(file: &Path) -> Result<Vec<u8>> {
-    let shown = file.display();
+    // Its folder is nobody's business who reads a report.
+    let shown = file.file_name().unwrap_or_default().display();
     let bad = |why: String| EngineError::Invalid(format!("{shown} is no plugin: {why}."));
     let length = fs::metadata(file).map_err(|e| bad(format!("it cannot be read ({e})")))?.len();
     if length > MAX_PLUGIN_BYTES {

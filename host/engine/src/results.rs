@@ -202,8 +202,13 @@ impl Inner {
     /// The run, or that there is none.
     pub async fn run_row(&self, run: &str) -> Result<RunRow> {
         let row = self.store.run(run).await?;
-        row.ok_or_else(|| EngineError::NotFound(format!("There is no run {run:?}; check the link.")))
+        row.ok_or_else(|| no_run(run))
     }
+}
+
+/// There is no such run, or not for who asks: both sound alike.
+pub fn no_run(run: &str) -> EngineError {
+    EngineError::NotFound(format!("There is no run {run:?}; check the link."))
 }
 
 /// Which file.

@@ -43,6 +43,7 @@ pub async fn check(
     registry: &Registry,
     store: &Store,
     blobs: &Blobs,
+    viewer: Option<&str>,
 ) -> Result<Checked> {
     let invalid = |sentence: String| Err(EngineError::Invalid(sentence));
     if !(1..=MAX_PASSES).contains(&spec.passes) {
@@ -60,7 +61,7 @@ pub async fn check(
         );
     }
     let configurations = set_size(spec, store, blobs).await?;
-    let contestants = contestants(spec, registry)?;
+    let contestants = contestants(spec, registry, viewer)?;
     let object_a = objects.info(&spec.object_a).await?;
     let object_b = match &spec.object_b {
         Some(id) => objects.info(id).await?,
@@ -119,7 +120,7 @@ pub async fn set_size(spec: &RunSpec, store: &Store, blobs: &Blobs) -> Result<u6
 const ALL: &str = "all";
 
 /// The named algorithms, each once; without names the usual ones that answer the question.
-fn contestants(spec: &RunSpec, registry: &Registry) -> Result<Vec<Arc<Contestant>>> {
+fn contestants(spec: &RunSpec, registry: &Registry, viewer: Option<&str>) -> Result<Vec<Arc<Contestant>>> {
     if spec.semantics == Semantics::Solid && spec.query == Query::CollisionAll {
         return Err(EngineError::Invalid(
             "All contacts are pairs of triangles that meet, and an object inside another one has none; ask solid bodies \
@@ -128,7 +129,7 @@ fn contestants(spec: &RunSpec, registry: &Registry) -> Result<Vec<Arc<Contestant
         ));
     }
     let question = question_name(spec.query, spec.semantics);
-    let known = registry.algorithms();
+    let known = registry.algorithms(viewer);
     let fitting: Vec<&str> = known.iter().filter(|a| answers(a, spec)).map(|a| a.id.as_str()).collect();
     let mut names: Vec<&str> = spec.algorithms.iter().map(String::as_str).collect();
     if names == [ALL] {
@@ -142,7 +143,7 @@ fn contestants(spec: &RunSpec, registry: &Registry) -> Result<Vec<Arc<Contestant
     let mut chosen: Vec<Arc<Contestant>> = Vec::new();
     for name in names {
         let there_are = || fitting.join(", ");
-        let contestant = registry.choose(name)?.ok_or_else(|| {
+        let contestant = registry.choose(name, viewer)?.ok_or_else(|| {
             EngineError::Invalid(format!("There is no algorithm {name:?}; for {question} there are: {}.", there_are()))
         })?;
         if !answers(&contestant.info, spec) {

@@ -3,6 +3,8 @@
 //! `sqlx::Any` checks nothing at compile time; the contract tests run every function here on both databases instead.
 //! The subset that works on both: `$1` placeholders, TEXT, BIGINT, DOUBLE PRECISION, `ON CONFLICT`, `RETURNING`.
 
+mod accounts;
+mod audit;
 mod blobs;
 mod objects;
 mod plugins;
@@ -10,6 +12,7 @@ mod queue;
 mod results;
 mod runs;
 mod sets;
+mod submissions;
 #[cfg(test)]
 mod tests;
 
@@ -26,6 +29,7 @@ use crate::{EngineError, Result};
 
 pub use results::StoredResult;
 pub use runs::RunRow;
+pub use submissions::SubmissionRow;
 
 /// All tables of one data folder.
 #[derive(Clone)]
@@ -80,6 +84,8 @@ fn migrations() -> Migrator {
     Migrator::with_migrations(vec![
         one(1, "first", include_str!("../migrations/0001_first.sql")),
         one(2, "secret", include_str!("../migrations/0002_secret.sql")),
+        one(3, "people", include_str!("../migrations/0003_people.sql")),
+        one(4, "plugins", include_str!("../migrations/0004_plugins.sql")),
     ])
 }
 

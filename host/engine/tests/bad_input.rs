@@ -90,7 +90,8 @@ async fn no_bad_request_is_queued() {
         (RunSpec { method: Method::File { sha256: "0".repeat(64) }, ..good.clone() }, "file of configurations"),
     ];
     for (spec, must_say) in cases {
-        for error in [engine.estimate(&spec).await.unwrap_err(), engine.submit(spec, Some("guest")).await.unwrap_err()]
+        for error in
+            [engine.estimate(&spec, None).await.unwrap_err(), engine.submit(spec, Some("guest")).await.unwrap_err()]
         {
             assert!(matches!(error, EngineError::Invalid(_) | EngineError::NotFound(_)), "{error:?}");
             check_sentence(&error, must_say);
@@ -109,12 +110,12 @@ async fn a_file_that_is_no_plugin_is_reported() {
     let engine = Engine::open(common::idle_config(data.path())).await.unwrap();
     let file = data.path().join("fake.so");
     std::fs::write(&file, "I am a text").unwrap();
-    let report = engine.check_plugin(&file).await.unwrap();
+    let report = engine.check_plugin(&file, common::quick()).await.unwrap();
     assert!(!report.passed);
     assert_eq!(report.lines.len(), 1);
     assert!(report.lines[0].evidence.contains("no ELF file"), "{}", report.lines[0].evidence);
     assert!(report.lines[0].hint.is_some());
-    let absent = engine.check_plugin(&data.path().join("absent.so")).await.unwrap_err();
+    let absent = engine.check_plugin(&data.path().join("absent.so"), common::quick()).await.unwrap_err();
     check_sentence(&absent, "There is no file");
 }
 

@@ -16,7 +16,7 @@ async fn a_run_goes_from_object_to_heatmap() {
     let data = tempfile::tempdir().unwrap();
     let engine = Engine::open(common::config(data.path())).await.unwrap();
     assert_eq!(engine.status().await.unwrap().problems, Vec::<String>::new());
-    let estimate = engine.estimate(&common::spec("proximity", 60, 1)).await.unwrap();
+    let estimate = engine.estimate(&common::spec("proximity", 60, 1), None).await.unwrap();
     assert_eq!((estimate.configurations, estimate.configurations_stored, estimate.runs_ahead), (60, false, 0));
     let run = engine.submit(common::spec("proximity", 60, 1), Some("guest")).await.unwrap();
     let (run, events) = common::finish(&engine, &run.id).await;
@@ -71,7 +71,7 @@ async fn a_run_goes_from_object_to_heatmap() {
 
     // The same set is found again, and its file may be brought back as a file of configurations.
     let again = RunSpec { algorithms: vec!["box-tree".into()], ..common::spec("proximity", 60, 1) };
-    assert!(engine.estimate(&again).await.unwrap().configurations_stored);
+    assert!(engine.estimate(&again, None).await.unwrap().configurations_stored);
     let again = engine.submit(again, Some("guest")).await.unwrap();
     let (again, _) = common::finish(&engine, &again.id).await;
     assert_eq!(again.set.as_ref().map(|s| &s.sha256), Some(&set.sha256));
@@ -155,12 +155,12 @@ async fn our_own_plugins_pass_the_check() {
     let config = EngineConfig { dispatch: false, ..common::config(data.path()) };
     let engine = Engine::open(config.clone()).await.unwrap();
     for file in &config.plugins {
-        let report = engine.check_plugin(file).await.unwrap();
+        let report = engine.check_plugin(file, common::quick()).await.unwrap();
         assert!(report.passed, "{report:#?}");
         assert!(report.lines.len() >= 4, "{report:#?}");
     }
     // An ELF file that is no plugin: the runner's own program.
-    let report = engine.check_plugin(&config.runner).await.unwrap();
+    let report = engine.check_plugin(&config.runner, common::quick()).await.unwrap();
     assert!(!report.passed);
     let gate = &report.lines[1];
     assert!(gate.check.starts_with("ELF gate") && gate.evidence.contains("a program"), "{report:#?}");

@@ -64,7 +64,7 @@ pub(crate) async fn follow_run(
     Ok((headers, sse(stream)).into_response())
 }
 
-fn sse<S>(stream: S) -> impl IntoResponse
+pub(crate) fn sse<S>(stream: S) -> impl IntoResponse
 where
     S: Stream<Item = std::result::Result<Event, Infallible>> + Send + 'static,
 {
@@ -94,7 +94,7 @@ fn last_event_id(headers: &HeaderMap) -> Result<i64> {
     number.ok_or_else(|| Problem::bad_request("Last-Event-ID must be the number of an event of this run."))
 }
 
-async fn stopped(mut stopping: watch::Receiver<bool>) {
+pub(crate) async fn stopped(mut stopping: watch::Receiver<bool>) {
     // An error means that the server is gone, which is the same.
     let _ = stopping.wait_for(|stop| *stop).await;
 }

@@ -1,48 +1,182 @@
-//! Guests: a random cookie owns what a visitor makes, without an account.
+//! Who asks: an account by its session or token, or a guest, whose random cookie owns what a visitor makes.
 
-use axum::extract::{FromRequestParts, Request};
-use axum::http::{HeaderValue, header, request::Parts};
+use axum::extract::{FromRequestParts, Request, State};
+use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header, request::Parts};
 use axum::middleware::Next;
-use axum::response::Response;
+use axum::response::{IntoResponse, Response};
 use axum_extra::extract::CookieJar;
 use axum_extra::extract::cookie::{Cookie, SameSite};
+use ocb_engine::model::{AccountInfo, Role, Scope};
 use uuid::Uuid;
 
-use crate::Problem;
+use crate::App;
+use crate::problem::{Problem, Result};
 
-const COOKIE: &str = "ocb_guest";
+const GUEST: &str = "ocb_guest";
+/// The cookie of a session.
+pub(crate) const SESSION: &str = "ocb_session";
 const YEAR_SECONDS: u64 = 365 * 24 * 3600;
 
-/// Who asks: the owner of the runs and objects made in this browser.
+/// The owner of what is made: an account, or the guest of this browser.
 #[derive(Clone, Debug)]
 pub(crate) struct Guest(pub String);
 
-/// Reads the cookie, or gives the visitor one.
+/// The guest of this browser, whoever is logged in.
+#[derive(Clone, Debug)]
+pub(crate) struct Browser(pub String);
+
+/// Who is logged in; for anybody else the answer is 401.
+#[derive(Clone, Debug)]
+pub(crate) struct Member(pub AccountInfo);
+
+/// A curator or an administrator.
+#[derive(Clone, Debug)]
+pub(crate) struct Curator(pub AccountInfo);
+
+/// Reads cookies and token, or gives the visitor a cookie.
 ///
-/// A value that is no UUID is replaced: the engine stores owners as they come, and nobody else may choose them.
-pub(crate) async fn recognise(mut request: Request, next: Next) -> Response {
+/// A guest's value that is no UUID is replaced: the engine stores owners as they come, and nobody else may choose them.
+pub(crate) async fn recognise(State(app): State<App>, mut request: Request, next: Next) -> Response {
     let jar = CookieJar::from_headers(request.headers());
-    let known = jar.get(COOKIE).and_then(|cookie| Uuid::try_parse(cookie.value()).ok());
-    let id = known.unwrap_or_else(Uuid::new_v4).to_string();
-    request.extensions_mut().insert(Guest(id.clone()));
+    let known = jar.get(GUEST).and_then(|cookie| Uuid::try_parse(cookie.value()).ok());
+    let guest = known.unwrap_or_else(Uuid::new_v4).to_string();
+    let reads = matches!(*request.method(), Method::GET | Method::HEAD);
+    let account = match account(&app, request.headers(), request.uri().path(), reads, &jar).await {
+        Ok(account) => account,
+        Err(problem) => return problem.into_response(),
+    };
+    let secure = is_secure(request.headers());
+    let owner = account.as_ref().map_or_else(|| guest.clone(), AccountInfo::owner);
+    let programs = request.headers().contains_key(header::AUTHORIZATION);
+    let extensions = request.extensions_mut();
+    extensions.insert(Guest(owner));
+    extensions.insert(Browser(guest.clone()));
+    if let Some(account) = account {
+        extensions.insert(Member(account));
+    }
     let mut response = next.run(request).await;
-    if known.is_none() {
-        let mut cookie = Cookie::new(COOKIE, id);
-        cookie.set_path("/");
-        cookie.set_http_only(true);
-        cookie.set_same_site(SameSite::Lax);
-        let value = format!("{cookie}; Max-Age={YEAR_SECONDS}");
-        if let Ok(value) = HeaderValue::from_str(&value) {
-            response.headers_mut().append(header::SET_COOKIE, value);
-        }
+    if known.is_none() && !programs {
+        response.headers_mut().append(header::SET_COOKIE, cookie(GUEST, &guest, YEAR_SECONDS, secure));
     }
     response
+}
+
+async fn account(
+    app: &App,
+    headers: &HeaderMap,
+    path: &str,
+    reads: bool,
+    jar: &CookieJar,
+) -> Result<Option<AccountInfo>> {
+    let Some(value) = headers.get(header::AUTHORIZATION) else {
+        return match jar.get(SESSION) {
+            Some(session) => Ok(app.engine.session(session.value()).await?),
+            None => Ok(None),
+        };
+    };
+    let secret = value.to_str().ok().and_then(|text| text.strip_prefix("Bearer "));
+    let opened = match secret {
+        Some(secret) => app.engine.token(secret.trim()).await?,
+        None => None,
+    };
+    let unknown =
+        || Problem::new(StatusCode::UNAUTHORIZED, "This token opens nothing; make a new one on the account page.");
+    let (account, scopes) = opened.ok_or_else(unknown)?;
+    match scope_of(path) {
+        Some(scope) if scopes.contains(&scope) => Ok(Some(account)),
+        // What is there for everybody may be read by everybody.
+        Some(Scope::Runs) if reads => Ok(None),
+        _ => {
+            let detail = "This token may not be used for that; log in, or make a token with the right scope.";
+            Err(Problem::new(StatusCode::FORBIDDEN, detail))
+        }
+    }
+}
+
+/// What a token must be for; accounts and decisions need a person.
+fn scope_of(path: &str) -> Option<Scope> {
+    let resource = path.strip_prefix("/api/v1/").and_then(|rest| rest.split('/').next()).unwrap_or_default();
+    match resource {
+        "account" | "accounts" | "curation" => None,
+        "plugins" => Some(Scope::Plugins),
+        _ => Some(Scope::Runs),
+    }
+}
+
+/// Behind a proxy that speaks TLS: cookies must not be sent without it.
+pub(crate) fn is_secure(headers: &HeaderMap) -> bool {
+    headers.get("x-forwarded-proto").is_some_and(|proto| proto.as_bytes() == b"https")
+}
+
+/// A cookie that scripts cannot read and other sites cannot use; with no seconds to live it is taken away.
+pub(crate) fn cookie(name: &str, value: &str, seconds: u64, secure: bool) -> HeaderValue {
+    let mut cookie = Cookie::new(name, value);
+    cookie.set_path("/");
+    cookie.set_http_only(true);
+    cookie.set_same_site(SameSite::Lax);
+    cookie.set_secure(secure);
+    HeaderValue::from_str(&format!("{cookie}; Max-Age={seconds}")).expect("names and secrets are plain text")
+}
+
+fn outside() -> Problem {
+    Problem::fault("a route lies outside the guest layer")
 }
 
 impl<S: Send + Sync> FromRequestParts<S> for Guest {
     type Rejection = Problem;
 
-    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
-        parts.extensions.get::<Self>().cloned().ok_or_else(|| Problem::fault("a route lies outside the guest layer"))
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self> {
+        parts.extensions.get::<Self>().cloned().ok_or_else(outside)
+    }
+}
+
+impl<S: Send + Sync> FromRequestParts<S> for Browser {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self> {
+        parts.extensions.get::<Self>().cloned().ok_or_else(outside)
+    }
+}
+
+impl<S: Send + Sync> FromRequestParts<S> for Member {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self> {
+        let nobody =
+            || Problem::new(StatusCode::UNAUTHORIZED, "Log in for that; an account is made on the account page.");
+        parts.extensions.get::<Self>().cloned().ok_or_else(nobody)
+    }
+}
+
+impl<S: Send + Sync> FromRequestParts<S> for Curator {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self> {
+        let Member(account) = Member::from_request_parts(parts, state).await?;
+        if account.role < Role::Curator {
+            return Err(Problem::new(StatusCode::FORBIDDEN, "Only curators may do that."));
+        }
+        Ok(Self(account))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_token_is_for_one_thing() {
+        assert_eq!(scope_of("/api/v1/plugins/x/events"), Some(Scope::Plugins));
+        assert_eq!(scope_of("/api/v1/runs"), Some(Scope::Runs));
+        assert_eq!((scope_of("/api/v1/account/tokens"), scope_of("/api/v1/curation")), (None, None));
+    }
+
+    #[test]
+    fn cookies_are_closed_to_scripts_and_other_sites() {
+        let text = cookie(SESSION, "abc", 60, true).to_str().unwrap().to_owned();
+        for part in ["HttpOnly", "SameSite=Lax", "Secure", "Path=/", "Max-Age=60"] {
+            assert!(text.contains(part), "{text}");
+        }
+        assert!(!cookie(SESSION, "abc", 60, false).to_str().unwrap().contains("Secure"));
     }
 }

@@ -12,7 +12,7 @@ use tower_http::compression::CompressionLayer;
 use tower_http::compression::predicate::{DefaultPredicate, NotForContentType, Predicate};
 use tower_http::trace::TraceLayer;
 
-use crate::{App, Problem, guest};
+use crate::{App, Problem, guest, origin, privacy};
 
 /// Scripts only from here and never inline. Style attributes are what Vue and the chart kit write; `blob:` is how the
 /// viewer loads workers, textures and pictures that the page itself has made.
@@ -30,11 +30,13 @@ const HEADERS: [(HeaderName, &str); 5] = [
     (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
 ];
 
-pub(crate) fn wrap(router: Router<App>) -> Router<App> {
+pub(crate) fn wrap(router: Router<App>, app: &App) -> Router<App> {
     // Parquet is compressed inside. The default leaves out event streams, pictures and small answers.
     let worth_it = DefaultPredicate::new().and(NotForContentType::const_new("application/vnd.apache.parquet"));
     router
-        .layer(middleware::from_fn(guest::recognise))
+        .layer(middleware::from_fn_with_state(app.clone(), privacy::hide_private_runs))
+        .layer(middleware::from_fn_with_state(app.clone(), guest::recognise))
+        .layer(middleware::from_fn(origin::refuse_other_sites))
         .layer(CatchPanicLayer::custom(after_panic))
         .layer(middleware::from_fn(protect))
         .layer(CompressionLayer::new().compress_when(worth_it))

@@ -7,7 +7,10 @@ mod events;
 mod extract;
 mod guest;
 mod layers;
+mod limits;
+mod origin;
 mod pages;
+mod privacy;
 mod problem;
 mod routes;
 mod upload;
@@ -35,6 +38,7 @@ const UPLOADS_AT_A_TIME: usize = 2;
 pub struct App {
     engine: Engine,
     uploads: std::sync::Arc<Semaphore>,
+    limits: std::sync::Arc<limits::Limits>,
     /// True from the moment the service is asked to stop: progress streams end, so that their connections can.
     stopping: watch::Receiver<bool>,
 }
@@ -42,7 +46,8 @@ pub struct App {
 impl App {
     /// The engine behind HTTP; `stopping` ends the progress streams.
     pub fn new(engine: Engine, stopping: watch::Receiver<bool>) -> Self {
-        Self { engine, uploads: std::sync::Arc::new(Semaphore::new(UPLOADS_AT_A_TIME)), stopping }
+        let uploads = std::sync::Arc::new(Semaphore::new(UPLOADS_AT_A_TIME));
+        Self { engine, uploads, limits: std::sync::Arc::default(), stopping }
     }
 }
 
@@ -65,10 +70,11 @@ pub async fn serve(
 ) -> io::Result<()> {
     let (stop, stopping) = watch::channel(false);
     let app = router(App::new(engine, stopping.clone()));
-    let graceful = axum::serve(listener, app).with_graceful_shutdown(async move {
-        shutdown.await;
-        let _ = stop.send(true);
-    });
+    let graceful = axum::serve(listener, app.into_make_service_with_connect_info::<SocketAddr>())
+        .with_graceful_shutdown(async move {
+            shutdown.await;
+            let _ = stop.send(true);
+        });
     let mut stopped = stopping;
     tokio::select! {
         ended = graceful.into_future() => ended,

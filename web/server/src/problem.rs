@@ -46,15 +46,14 @@ impl Problem {
         Self::new(StatusCode::BAD_REQUEST, detail)
     }
 
-    /// The upload is larger than an object may be.
-    pub fn too_large() -> Self {
-        Self::new(
-            StatusCode::PAYLOAD_TOO_LARGE,
-            format!(
-                "The file is larger than {} MiB, the most that an object may have.",
-                crate::upload::MAX_BYTES >> 20
-            ),
-        )
+    /// The upload is larger than what may be sent there.
+    pub fn too_large(most: usize) -> Self {
+        let detail = if most < 1 << 20 {
+            format!("A part of the form is larger than {} KiB, the most that it may have.", most >> 10)
+        } else {
+            format!("The file is larger than {} MiB, the most that it may have.", most >> 20)
+        };
+        Self::new(StatusCode::PAYLOAD_TOO_LARGE, detail)
     }
 
     /// Our fault: the cause goes to the log under a number, the caller gets the number.

@@ -1,9 +1,12 @@
 //! Every route on one page.
 
+mod account;
 mod algorithms;
 mod charts;
 mod heatmaps;
 mod objects;
+mod people;
+mod plugins;
 mod records;
 mod runs;
 mod service;
@@ -24,7 +27,8 @@ use crate::{App, events, layers, pages, upload};
         description = "Benchmarks of collision detection: objects, runs, progress and heatmaps. Times are microseconds since \
             the Unix epoch, durations say their unit in their name. Every error is a `Problem` (RFC 9457) with one sentence \
             in `detail`. The cookie `ocb_guest`, set on first contact, owns what a visitor makes; whoever knows the id of a \
-            run may look at it.",
+            run may look at it. An account, entered by the cookie `ocb_session` or by a token in `Authorization: Bearer`, \
+            owns what is made with it, and may publish.",
         license(name = "MIT OR Apache-2.0")
     ),
     components(schemas(ocb_engine::model::Accuracy, ocb_engine::model::ChartKind)),
@@ -33,6 +37,9 @@ use crate::{App, events, layers, pages, upload};
         (name = "algorithms", description = "What the plugins offer"),
         (name = "runs", description = "Asking, following, cancelling"),
         (name = "results", description = "Numbers and files of a run"),
+        (name = "account", description = "An account of one's own: optional, for those who publish"),
+        (name = "plugins", description = "What developers bring"),
+        (name = "curation", description = "What curators decide"),
         (name = "service", description = "The service itself"),
     )
 )]
@@ -42,6 +49,7 @@ const PREFIX: &str = "/api/v1";
 
 fn api() -> OpenApiRouter<App> {
     let uploads = routes!(objects::list_objects, objects::add_object);
+    let submissions = routes!(plugins::list_plugins, plugins::submit_plugin);
     let routes = OpenApiRouter::new()
         .routes(uploads.layer(DefaultBodyLimit::disable()).layer(middleware::from_fn(upload::refuse_gently)))
         .routes(routes!(objects::show_object))
@@ -66,6 +74,21 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(charts::chart_as_csv))
         .routes(routes!(charts::chart_as_parquet))
         .routes(routes!(runs::featured_run))
+        .routes(routes!(account::show_account, account::make_account))
+        .routes(routes!(account::log_in))
+        .routes(routes!(account::log_out))
+        .routes(routes!(account::log_out_everywhere))
+        .routes(routes!(account::change_password))
+        .routes(routes!(account::ask_to_develop))
+        .routes(routes!(account::list_tokens, account::make_token))
+        .routes(routes!(account::end_token))
+        .routes(submissions.layer(DefaultBodyLimit::disable()).layer(middleware::from_fn(upload::refuse_gently)))
+        .routes(routes!(plugins::show_plugin))
+        .routes(routes!(plugins::follow_plugin))
+        .routes(routes!(plugins::decide))
+        .routes(routes!(plugins::list_curation))
+        .routes(routes!(people::list_accounts))
+        .routes(routes!(people::change_role))
         .routes(routes!(service::show_status))
         .routes(routes!(service::show_document));
     OpenApiRouter::with_openapi(Document::openapi()).nest(PREFIX, routes)
@@ -79,5 +102,6 @@ pub fn document() -> utoipa::openapi::OpenApi {
 /// The whole service: API, progress stream and pages.
 pub fn router(app: App) -> Router {
     let (router, _) = api().split_for_parts();
-    layers::wrap(router.fallback(pages::serve).method_not_allowed_fallback(service::wrong_method)).with_state(app)
+    let router = router.fallback(pages::serve).method_not_allowed_fallback(service::wrong_method);
+    layers::wrap(router, &app).with_state(app)
 }

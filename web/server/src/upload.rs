@@ -10,6 +10,8 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use futures::StreamExt;
+use ocb_engine::MAX_PLUGIN_BYTES;
+use ocb_engine::model::Manifest;
 use tokio::sync::Mutex;
 
 use crate::problem::{Problem, Result};
@@ -19,6 +21,9 @@ pub(crate) const MAX_BYTES: usize = ocb_core::mesh::obj::MAX_BYTES;
 
 /// The most that a body with such a file may have: boundaries, names and headers come on top.
 pub(crate) const MAX_BODY_BYTES: u64 = MAX_BYTES as u64 + (1 << 20);
+
+/// The most that a manifest may have.
+const MANIFEST_BYTES: usize = 64 << 10;
 
 /// How much and for how long a refused body is read on.
 const DRAIN_BYTES: u64 = 4 << 30;
@@ -46,7 +51,7 @@ pub(crate) async fn refuse_gently(request: Request, next: Next) -> Response {
         if !waits {
             drain(&rest).await;
         }
-        return Problem::too_large().into_response();
+        return Problem::too_large(MAX_BYTES).into_response();
     }
     let shared = rest.clone();
     let stream = futures::stream::unfold(shared, |body| async move {
@@ -89,18 +94,54 @@ impl<S: Send + Sync> FromRequest<S> for Upload {
         while let Some(field) = form.next_field().await.map_err(broken)? {
             if field.name() == Some("file") {
                 let name = clean_name(field.file_name().unwrap_or_default());
-                return Ok(Self { name, bytes: read(field).await? });
+                return Ok(Self { name, bytes: read(field, MAX_BYTES).await? });
             }
         }
         Err(Problem::bad_request("The form has no field named \"file\"."))
     }
 }
 
-async fn read(mut field: Field<'_>) -> Result<Vec<u8>> {
+/// A submitted plugin.
+pub(crate) struct Submission {
+    /// Name of the file, without folder and control characters.
+    pub name: String,
+    /// Its content.
+    pub bytes: Vec<u8>,
+    /// What its author says of it.
+    pub manifest: Manifest,
+}
+
+impl Submission {
+    /// From a form with the manifest first and the file behind it.
+    pub(crate) async fn read<S: Send + Sync>(request: Request, state: &S) -> Result<Self> {
+        let explained = "Send multipart/form-data with \"manifest\" (JSON), then \"file\" (the shared library).";
+        let mut form = Multipart::from_request(request, state).await.map_err(|_| Problem::bad_request(explained))?;
+        let mut manifest = None;
+        while let Some(field) = form.next_field().await.map_err(broken)? {
+            match (field.name().unwrap_or_default(), manifest.take()) {
+                ("manifest", _) => {
+                    let text = read(field, MANIFEST_BYTES).await?;
+                    let parsed = serde_json::from_slice(&text).map_err(|e| {
+                        Problem::new(StatusCode::UNPROCESSABLE_ENTITY, format!("The manifest cannot be read: {e}."))
+                    })?;
+                    manifest = Some(parsed);
+                }
+                ("file", Some(manifest)) => {
+                    let name = clean_name(field.file_name().unwrap_or_default());
+                    return Ok(Self { name, bytes: read(field, MAX_PLUGIN_BYTES).await?, manifest });
+                }
+                (_, kept) => manifest = kept,
+            }
+        }
+        Err(Problem::bad_request(explained))
+    }
+}
+
+async fn read(mut field: Field<'_>, most: usize) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     while let Some(chunk) = field.chunk().await.map_err(broken)? {
-        if bytes.len() + chunk.len() > MAX_BYTES {
-            return Err(Problem::too_large());
+        if bytes.len() + chunk.len() > most {
+            return Err(Problem::too_large(most));
         }
         bytes.extend_from_slice(&chunk);
     }
@@ -109,7 +150,7 @@ async fn read(mut field: Field<'_>) -> Result<Vec<u8>> {
 
 fn broken(error: axum::extract::multipart::MultipartError) -> Problem {
     if error.status() == StatusCode::PAYLOAD_TOO_LARGE {
-        return Problem::too_large();
+        return Problem::too_large(MAX_BYTES);
     }
     Problem::bad_request("The upload ended early or is no well-formed multipart/form-data; send it again.")
 }

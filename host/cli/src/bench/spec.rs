@@ -69,7 +69,8 @@ impl Inputs {
             Placing::Method(method) => method.clone(),
             Placing::File(_) => Method::Sphere { sampling: Sampling::Count { count: 1 }, seed: 0 },
         };
-        engine.estimate(&spec(args, self.query, method, name(&self.a), self.b.as_ref().map(name))).await?;
+        let spec = spec(args, self.query, method, name(&self.a), self.b.as_ref().map(name));
+        engine.estimate(&spec, Some(crate::open::OWNER)).await?;
         Ok(())
     }
 }

@@ -15,7 +15,7 @@ const BUDGET_SECONDS: f64 = 6.0;
 impl Engine {
     /// Queues the quick run when it is wanted and there is none.
     pub(super) async fn feature_a_run(&self) -> Result<()> {
-        let algorithms = self.inner.registry.algorithms();
+        let algorithms = self.inner.registry.algorithms(None);
         if !self.inner.config.featured || self.inner.store.featured_count().await? > 0 {
             return Ok(());
         }

@@ -26,12 +26,13 @@ impl Engine {
         priority: i64,
         featured: bool,
     ) -> Result<RunInfo> {
-        let checked = self.check(&spec).await?;
+        let checked = self.check(&spec, owner).await?;
         let expected = estimate::estimate(&self.inner, &checked).await?;
         let row = RunRow {
             id: uuid::Uuid::now_v7().to_string(),
             owner: owner.map(str::to_owned),
             featured,
+            private: checked.contestants.iter().any(|c| self.inner.registry.is_private(c)),
             priority,
             state: State::Queued,
             attempts: 0,
@@ -57,6 +58,12 @@ impl Engine {
     pub async fn run(&self, id: &str, viewer: Option<&str>) -> Result<RunInfo> {
         let row = self.inner.run_row(id).await?;
         self.info(row, viewer).await
+    }
+
+    /// May this viewer know of the run? What is not there may be looked for by everybody.
+    pub async fn may_see_run(&self, id: &str, viewer: &str) -> Result<bool> {
+        let row = self.inner.store.run(id).await?;
+        Ok(row.is_none_or(|row| !row.private || row.owner.as_deref() == Some(viewer)))
     }
 
     /// The owner's runs, newest first (at most 200).

@@ -1,6 +1,7 @@
 //! Algorithms, and what the check of a plugin finds.
 
 use ocb_core::query::Query;
+use ocb_core::record::Verdict;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -86,6 +87,36 @@ pub struct CheckLine {
     pub evidence: String,
     /// How to mend it, when it did not pass.
     pub hint: Option<String>,
+    /// The smallest question found that is answered wrongly.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub repro: Option<Box<Repro>>,
+}
+
+/// One question that is answered wrongly; `ocb plugin check FILE.so --repro FILE.json` asks it again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Repro {
+    /// Algorithm id.
+    pub algorithm: String,
+    /// The question.
+    pub query: Query,
+    /// Object A as OBJ text, reduced to as few triangles as still fail.
+    pub object_a: String,
+    /// Object B.
+    pub object_b: String,
+    /// Pose of A, a row-major 4x4 matrix.
+    pub pose_a: [f64; 16],
+    /// Pose of B.
+    pub pose_b: [f64; 16],
+    /// Triangles of A and of B.
+    pub triangles: [u32; 2],
+    /// What the oracle says.
+    pub expected: String,
+    /// What the plugin answered.
+    pub got: String,
+    /// What is wrong with it.
+    pub verdict: Verdict,
+    /// It fails also when it is the only question. If not, answers depend on the questions before, and nothing was reduced.
+    pub alone: bool,
 }
 
 /// How one check ended.

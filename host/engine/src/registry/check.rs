@@ -1,5 +1,13 @@
 //! Checking one plugin file: the report that an author sees before anybody else runs the plugin.
 
+mod conduct;
+mod manifest;
+mod reference;
+mod repro;
+mod suite;
+
+pub use manifest::{check_manifest, is_free};
+
 use std::path::Path;
 use std::sync::Arc;
 
@@ -18,7 +26,7 @@ use ocb_sandbox::{Launcher, Outcome, Policy, Profile, Trial};
 use super::{built_here, info, read_plugin};
 use crate::blobs::sha256_hex;
 use crate::measure::precision;
-use crate::model::{AlgorithmInfo, CheckLine, CheckVerdict, PluginReport};
+use crate::model::{AlgorithmInfo, CheckLine, CheckVerdict, Manifest, PluginReport, Repro};
 use crate::{EngineError, Result};
 
 /// Placements per relative distance.
@@ -28,75 +36,136 @@ const TRIANGLES: u32 = 500;
 /// Apart, close, and in the place of A, where everything touches everything.
 const DISTANCES: [f64; 3] = [0.2, 0.01, 0.0];
 
-/// Makes the report. Blocks, so it wants a thread of its own.
-pub fn check_plugin(runner: &Path, file: &Path, profile: Profile) -> Result<PluginReport> {
-    let mut report = PluginReport {
+/// How much is checked.
+#[derive(Clone, Debug, Default)]
+pub struct Extent {
+    /// Only what takes a second: no comparison with the reference beyond the smoke configurations.
+    pub quick: bool,
+    /// What the author says of the plugin.
+    pub manifest: Option<Manifest>,
+    /// Nothing but this question.
+    pub repro: Option<Repro>,
+}
+
+/// One check under way.
+struct Checking<'c> {
+    report: PluginReport,
+    /// Hears every line as it is found; says whether to go on.
+    tell: &'c mut dyn FnMut(&CheckLine) -> bool,
+    stopped: bool,
+}
+
+/// Makes the report. Blocks, so it wants a thread of its own. `tell` hears every line as it is found, and gives false when
+/// nobody wants to know any more.
+pub fn check_plugin(
+    runner: &Path,
+    file: &Path,
+    profile: Profile,
+    extent: &Extent,
+    tell: &mut dyn FnMut(&CheckLine) -> bool,
+) -> Result<PluginReport> {
+    if !file.exists() {
+        return Err(EngineError::Invalid(format!("There is no file {}.", file.display())));
+    }
+    let empty = PluginReport {
         file: file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
         sha256: None,
         passed: false,
         lines: Vec::new(),
         algorithms: Vec::new(),
     };
-    if !file.exists() {
-        return Err(EngineError::Invalid(format!("There is no file {}.", file.display())));
-    }
-    match read_plugin(file) {
-        Ok(bytes) => {
-            report.line("file format", CheckVerdict::Pass, format!("An ELF file of {} bytes.", bytes.len()), None);
-            report.sha256 = Some(sha256_hex(&bytes));
-        }
-        Err(e) => {
-            let hint = "Build a shared library, e.g. cc -shared -fPIC plugin.c -o plugin.so.";
-            report.line("file format", CheckVerdict::Fail, e.to_string(), Some(hint));
-            return Ok(report);
-        }
-    }
-    // Our time limits for strangers' first try: a smoke query takes microseconds.
-    let trusted = built_here(runner, file);
-    let limits = Policy { build_seconds: 20.0, query_seconds: 5.0, trial_seconds: 60.0, ..Policy::default() };
-    let policy = Policy { profile, trusted, ..limits };
-    let launcher = Launcher::new(runner.to_owned(), policy);
-    if !report.gate(&launcher, file)? {
-        return Ok(report);
-    }
-    match launcher.describe(file) {
-        Ok(descriptors) => {
-            let hash = report.sha256.clone().unwrap_or_default();
-            report.algorithms = descriptors.into_iter().map(|d| info(d, &hash)).collect();
-            let names: Vec<&str> = report.algorithms.iter().map(|a| a.id.as_str()).collect();
-            let evidence = format!("Loads in the jail and describes {}.", names.join(", "));
-            report.line("load and describe", CheckVerdict::Pass, evidence, None);
-        }
-        Err(ending) if ending.outcome.ours() => return Err(EngineError::Fault(ending.to_string())),
-        Err(ending) => {
-            let hint = hint_for(&ending.outcome);
-            report.line(
-                "load and describe",
-                CheckVerdict::Fail,
-                with_output(&ending.to_string(), &ending.stderr),
-                hint,
-            );
-            return Ok(report);
-        }
-    }
-    for algorithm in report.algorithms.clone() {
-        report.descriptor(&algorithm);
-        for query in [Query::CollisionFirst, Query::CollisionAll, Query::Proximity] {
-            if algorithm.queries.contains(&query) {
-                report.smoke(&launcher, file, &algorithm, query, Semantics::Surface)?;
-                if algorithm.solid && query != Query::CollisionAll {
-                    report.smoke(&launcher, file, &algorithm, query, Semantics::Solid)?;
-                }
-            }
-        }
-    }
-    report.passed = report.lines.iter().all(|line| line.verdict != CheckVerdict::Fail);
+    let mut checking = Checking { report: empty, tell, stopped: false };
+    let through = checking.all(runner, file, profile, extent)?;
+    let mut report = checking.report;
+    report.passed = through && report.lines.iter().all(|line| line.verdict != CheckVerdict::Fail);
     Ok(report)
 }
 
-impl PluginReport {
+impl Checking<'_> {
+    /// Every check in order; false when one of them ended it.
+    fn all(&mut self, runner: &Path, file: &Path, profile: Profile, extent: &Extent) -> Result<bool> {
+        match read_plugin(file) {
+            Ok(bytes) => {
+                self.line("file format", CheckVerdict::Pass, format!("An ELF file of {} bytes.", bytes.len()), None);
+                self.report.sha256 = Some(sha256_hex(&bytes));
+            }
+            Err(e) => {
+                let hint = "Build a shared library, e.g. cc -shared -fPIC plugin.c -o plugin.so.";
+                self.line("file format", CheckVerdict::Fail, e.to_string(), Some(hint));
+                return Ok(false);
+            }
+        }
+        // Our time limits for strangers' first try: a smoke query takes microseconds.
+        let trusted = built_here(runner, file);
+        let limits = Policy { build_seconds: 20.0, query_seconds: 5.0, trial_seconds: 60.0, ..Policy::default() };
+        let policy = Policy { profile, trusted, ..limits };
+        let launcher = Launcher::new(runner.to_owned(), policy);
+        if !self.gate(&launcher, file)? || !self.load(&launcher, file)? {
+            return Ok(false);
+        }
+        if let Some(repro) = &extent.repro {
+            self.ask_again(&launcher, file, repro)?;
+            return Ok(true);
+        }
+        if let Some(manifest) = &extent.manifest {
+            self.manifest(manifest);
+        }
+        for algorithm in self.report.algorithms.clone() {
+            self.descriptor(&algorithm);
+            for query in [Query::CollisionFirst, Query::CollisionAll, Query::Proximity] {
+                if algorithm.queries.contains(&query) {
+                    self.smoke(&launcher, file, &algorithm, query, Semantics::Surface)?;
+                    if algorithm.solid && query != Query::CollisionAll {
+                        self.smoke(&launcher, file, &algorithm, query, Semantics::Solid)?;
+                    }
+                }
+            }
+        }
+        // What fails already is not worth half a minute more.
+        if extent.quick || self.has_failed() {
+            return Ok(true);
+        }
+        for algorithm in self.report.algorithms.clone() {
+            self.against_the_reference(&launcher, file, &algorithm)?;
+            if !self.has_failed() {
+                self.conduct(&launcher, file, &algorithm)?;
+            }
+        }
+        Ok(true)
+    }
+
+    /// What the file says of itself, from inside the jail. False when that ends the check.
+    fn load(&mut self, launcher: &Launcher, file: &Path) -> Result<bool> {
+        match launcher.describe(file) {
+            Ok(descriptors) => {
+                let hash = self.report.sha256.clone().unwrap_or_default();
+                self.report.algorithms = descriptors.into_iter().map(|d| info(d, &hash)).collect();
+                let names: Vec<&str> = self.report.algorithms.iter().map(|a| a.id.as_str()).collect();
+                let evidence = format!("Loads in the jail and describes {}.", names.join(", "));
+                self.line("load and describe", CheckVerdict::Pass, evidence, None);
+                Ok(true)
+            }
+            Err(ending) if ending.outcome.ours() => Err(EngineError::Fault(ending.to_string())),
+            Err(ending) => {
+                let hint = hint_for(&ending.outcome);
+                let evidence = with_output(&ending.to_string(), &ending.stderr);
+                self.line("load and describe", CheckVerdict::Fail, evidence, hint);
+                Ok(false)
+            }
+        }
+    }
+
     fn line(&mut self, check: impl Into<String>, verdict: CheckVerdict, evidence: String, hint: Option<&str>) {
-        self.lines.push(CheckLine { check: check.into(), verdict, evidence, hint: hint.map(str::to_owned) });
+        self.add(CheckLine { check: check.into(), verdict, evidence, hint: hint.map(str::to_owned), repro: None });
+    }
+
+    fn has_failed(&self) -> bool {
+        self.report.lines.iter().any(|line| line.verdict == CheckVerdict::Fail)
+    }
+
+    fn add(&mut self, line: CheckLine) {
+        self.stopped |= !(self.tell)(&line);
+        self.report.lines.push(line);
     }
 
     /// What the file is, read in the jail before anybody loads it. False when that ends the check.

@@ -16,6 +16,8 @@ pub struct RunRow {
     pub owner: Option<String>,
     /// May be shown on the start page.
     pub featured: bool,
+    /// Only its owner sees it: it has a plugin that was not public.
+    pub private: bool,
     /// Smaller is served first.
     pub priority: i64,
     /// State.
@@ -50,7 +52,7 @@ pub struct RunRow {
 macro_rules! select_runs {
     ($rest:literal) => {
         concat!(
-            "SELECT id, owner, featured, priority, state, attempts, message, spec, object_a_name, object_b_name, ",
+            "SELECT id, owner, featured, private, priority, state, attempts, message, spec, object_a_name, object_b_name, ",
             "set_info, set_blob, environment, secret, expected_seconds, created_us, finished_us FROM runs ",
             $rest
         )
@@ -63,7 +65,8 @@ impl Store {
         let mut transaction = self.pool.begin().await?;
         sqlx::query(
             "INSERT INTO runs (id, owner, featured, priority, state, attempts, spec, object_a_name, object_b_name, \
-             secret, expected_seconds, created_us) VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11)",
+             secret, expected_seconds, created_us, private) \
+             VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11, $12)",
         )
         .bind(&run.id)
         .bind(run.owner.as_deref())
@@ -76,6 +79,7 @@ impl Store {
         .bind(run.secret.as_deref())
         .bind(run.expected_seconds)
         .bind(run.created_us)
+        .bind(i64::from(run.private))
         .execute(&mut *transaction)
         .await?;
         for (position, stage) in stages.iter().enumerate() {
@@ -225,6 +229,7 @@ fn read_run(row: &AnyRow) -> Result<RunRow> {
         id: row.try_get("id")?,
         owner: row.try_get("owner")?,
         featured: row.try_get::<i64, _>("featured")? != 0,
+        private: row.try_get::<i64, _>("private")? != 0,
         priority: row.try_get("priority")?,
         state: named_state(row.try_get("state")?)?,
         attempts: row.try_get::<i64, _>("attempts")? as u32,

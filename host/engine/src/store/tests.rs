@@ -3,6 +3,8 @@
 use ocb_core::configuration::Class;
 use ocb_core::query::Query;
 
+mod people;
+
 use super::*;
 use crate::blobs::tests::from_harness;
 use crate::model::{
@@ -75,6 +77,9 @@ on_both!(
     results_replace_those_of_an_earlier_attempt,
     the_newest_finished_featured_run_is_shown,
     two_workers_never_claim_the_same_run,
+    accounts_have_one_name_and_keys_of_their_own,
+    the_log_shows_what_was_changed_by_hand,
+    a_submission_is_checked_three_times_at_most,
 );
 
 fn object(id: &str) -> ObjectInfo {
@@ -106,6 +111,7 @@ fn run(id: &str, owner: Option<&str>, priority: i64, created_us: i64) -> RunRow 
         id: id.into(),
         owner: owner.map(str::to_owned),
         featured: false,
+        private: false,
         priority,
         state: State::Queued,
         attempts: 0,
@@ -177,6 +183,7 @@ async fn add(store: &Store, run: RunRow) {
 }
 
 mod contract {
+    pub use super::people::*;
     use super::*;
 
     pub async fn blobs_are_noted_once(store: Store) {

@@ -54,3 +54,8 @@ pub fn files(folder: &Path) -> usize {
     let Ok(entries) = fs::read_dir(folder) else { return 0 };
     entries.flatten().map(|e| if e.path().is_dir() { files(&e.path()) } else { 1 }).sum()
 }
+
+/// A check of a second.
+pub fn quick() -> ocb_engine::Extent {
+    ocb_engine::Extent { quick: true, ..ocb_engine::Extent::default() }
+}

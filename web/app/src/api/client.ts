@@ -5,14 +5,24 @@ import type {
   Accuracy, AlgorithmInfo, Board, Chart, ChartKind, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, RunInfo, RunSpec,
 } from './types'
 
-const http = createClient<paths>({ baseUrl: '/' })
+export const http = createClient<paths>({ baseUrl: '/' })
 
 /** Unwraps an answer; anything but success becomes an `ApiError` with one sentence. */
-async function answer<T>(call: Promise<{ data?: T; error?: unknown; response: Response }>): Promise<T> {
+export async function answer<T>(call: Promise<{ data?: T; error?: unknown; response: Response }>): Promise<T> {
   try {
     const { data, error, response } = await call
     if (!response.ok || data === undefined) throw fromResponse(response.status, error)
     return data
+  } catch (thrown) {
+    throw asApiError(thrown)
+  }
+}
+
+/** As `answer`, where success says nothing more. */
+export async function nothing(call: Promise<{ error?: unknown; response: Response }>): Promise<void> {
+  try {
+    const { error, response } = await call
+    if (!response.ok) throw fromResponse(response.status, error)
   } catch (thrown) {
     throw asApiError(thrown)
   }

@@ -5,9 +5,10 @@ use axum::extract::State;
 use ocb_engine::model::AlgorithmInfo;
 
 use crate::App;
+use crate::guest::Guest;
 
-/// All algorithms.
+/// The installed and the public algorithms, and the visitor's own.
 #[utoipa::path(get, path = "/algorithms", tag = "algorithms", responses((status = 200, body = Vec<AlgorithmInfo>)))]
-pub(crate) async fn list_algorithms(State(app): State<App>) -> Json<Vec<AlgorithmInfo>> {
-    Json(app.engine.algorithms())
+pub(crate) async fn list_algorithms(State(app): State<App>, Guest(guest): Guest) -> Json<Vec<AlgorithmInfo>> {
+    Json(app.engine.algorithms(Some(&guest)))
 }

@@ -30,8 +30,12 @@ fn example() -> serde_json::Value {
         (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "The spec cannot be run", body = Problem, content_type = "application/problem+json"),
     ))]
-pub(crate) async fn estimate_run(State(app): State<App>, Json(spec): Json<RunSpec>) -> Result<Answer<Estimate>> {
-    Ok(Answer(app.engine.estimate(&spec).await?))
+pub(crate) async fn estimate_run(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Json(spec): Json<RunSpec>,
+) -> Result<Answer<Estimate>> {
+    Ok(Answer(app.engine.estimate(&spec, Some(&guest)).await?))
 }
 
 /// Asks for a run.

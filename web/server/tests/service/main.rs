@@ -6,6 +6,8 @@
 mod errors;
 mod objects;
 mod pages;
+mod people;
+mod publishing;
 mod runs;
 mod stream;
 mod support;

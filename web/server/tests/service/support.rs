@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use ocb_engine::{Engine, EngineConfig};
+use ocb_engine::{Engine, EngineConfig, Profile};
 use reqwest::{Client, RequestBuilder, Response, StatusCode};
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -13,19 +13,29 @@ use tokio::task::JoinHandle;
 /// A running service.
 pub struct Service {
     pub url: String,
-    engine: Engine,
+    pub engine: Engine,
     stop: oneshot::Sender<()>,
     served: JoinHandle<std::io::Result<()>>,
     _data: TempDir,
 }
 
 impl Service {
+    /// With every plugin of ours.
     pub async fn start() -> Self {
-        let built = built();
+        Self::open(vec![built()]).await
+    }
+
+    /// With these plugins of ours alone. What is sent to it is run with whatever jail this machine has.
+    pub async fn start_with(plugins: &[&str]) -> Self {
+        Self::open(plugins.iter().map(|name| built().join(name)).collect()).await
+    }
+
+    async fn open(plugins: Vec<PathBuf>) -> Self {
         let data = tempfile::tempdir().expect("a temporary folder");
         let mut config = EngineConfig::beside_executable(data.path());
-        config.runner = built.join("ocb-runner");
-        config.plugins = vec![built];
+        config.runner = built().join("ocb-runner");
+        config.plugins = plugins;
+        config.profile = Profile::Dev;
         let engine = Engine::open(config).await.expect("the engine opens");
         let listener = ocb_server::bind(([127, 0, 0, 1], 0).into()).await.expect("a free port");
         let url = format!("http://{}", listener.local_addr().expect("an address"));
@@ -51,7 +61,7 @@ impl Service {
 }
 
 /// The folder of the built runner and plugins: above that of this test program.
-fn built() -> PathBuf {
+pub fn built() -> PathBuf {
     let program = std::env::current_exe().expect("a path");
     let folder = program.parent().and_then(|deps| deps.parent()).expect("target/<profile>/deps").to_path_buf();
     for file in ["ocb-runner", "libocb_box_tree.so", "libocb_brute_force.so"] {

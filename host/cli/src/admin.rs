@@ -1,0 +1,53 @@
+//! `ocb admin`: what only whoever has the data folder may do.
+
+use std::io::{BufRead, IsTerminal};
+use std::process::ExitCode;
+
+use ocb_engine::Engine;
+use ocb_engine::model::Role;
+
+use crate::args::{AdminCommand, Store};
+use crate::failure::{Failure, Result};
+use crate::open::{self, Purpose};
+use crate::output;
+
+/// Makes an account of any role, or looks whether the audit log is whole.
+pub async fn admin(store: &Store, command: &AdminCommand, json: bool) -> Result<ExitCode> {
+    let engine = open::open(store, Purpose::Look).await?;
+    let done = match command {
+        AdminCommand::Create { name, role } => create(&engine, name, role, json).await,
+        AdminCommand::Audit => audit(&engine, json).await,
+    };
+    engine.shutdown().await;
+    done.map(|()| ExitCode::SUCCESS)
+}
+
+async fn create(engine: &Engine, name: &str, role: &str, json: bool) -> Result<()> {
+    let role = Role::named(role).ok_or_else(|| Failure::Input(format!("There is no role {role:?}.")))?;
+    let account = engine.add_account(name, &password()?, role).await?;
+    if json {
+        return output::print_json(&account);
+    }
+    output::print(&format!("{} is now {}.", account.name, role.name()))
+}
+
+/// From the environment, or the first line of the input: on the command line everybody on the machine would see it.
+fn password() -> Result<String> {
+    if let Ok(password) = std::env::var("OCB_PASSWORD") {
+        return Ok(password);
+    }
+    if std::io::stdin().is_terminal() {
+        eprintln!("Password (it is shown while you type; OCB_PASSWORD or a pipe hide it):");
+    }
+    let mut line = String::new();
+    std::io::stdin().lock().read_line(&mut line).map_err(|e| Failure::Input(format!("No password was read: {e}.")))?;
+    Ok(line.trim_end_matches(['\r', '\n']).to_owned())
+}
+
+async fn audit(engine: &Engine, json: bool) -> Result<()> {
+    match engine.broken_audit().await? {
+        Some(seq) => Err(Failure::Fault(format!("the audit log was changed by hand at entry {seq}."))),
+        None if json => output::print_json(&serde_json::json!({ "whole": true })),
+        None => output::print("The audit log is whole."),
+    }
+}

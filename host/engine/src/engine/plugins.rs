@@ -1,0 +1,317 @@
+//! Plugins that developers bring: sending, looking, deciding.
+
+use super::Engine;
+use super::people::said;
+use crate::blobs::sha256_hex;
+use crate::model::{AccountInfo, Action, CheckLine, CheckVerdict, Decision, Manifest, PluginInfo, PluginState, Role};
+use crate::registry::{brought, check_manifest, is_free};
+use crate::store::{SubmissionRow, now_us};
+use crate::{EngineError, Result};
+
+/// Largest plugin file that may be sent, and bytes of all that one account keeps.
+pub const MAX_PLUGIN_BYTES: usize = 64 << 20;
+const QUOTA: u64 = 1 << 30;
+/// Checks of one account that wait at a time.
+const MAX_WAITING: usize = 5;
+
+impl Engine {
+    /// Is this a developer?
+    pub fn may_submit(&self, account: &AccountInfo) -> Result<()> {
+        if account.role < Role::Developer {
+            return Err(EngineError::Forbidden(
+                "Only developers submit plugins; ask to be one on the account page.".into(),
+            ));
+        }
+        Ok(())
+    }
+
+    /// Takes a plugin file; true when these bytes are new. The same bytes of one account are one.
+    pub async fn submit_plugin(
+        &self,
+        account: &AccountInfo,
+        file: &str,
+        bytes: Vec<u8>,
+        manifest: Manifest,
+    ) -> Result<(PluginInfo, bool)> {
+        self.may_submit(account)?;
+        check_manifest(&manifest)?;
+        if bytes.len() > MAX_PLUGIN_BYTES {
+            return Err(EngineError::Invalid(format!("A plugin has at most {} MiB.", MAX_PLUGIN_BYTES >> 20)));
+        }
+        if !bytes.starts_with(b"\x7fELF") {
+            return Err(EngineError::Invalid(format!(
+                "{file:?} is no plugin: it is no ELF file; build a shared library (.so) for Linux."
+            )));
+        }
+        let store = &self.inner.store;
+        let blob = sha256_hex(&bytes);
+        if let Some(known) = store.submission_of(&account.id, &blob).await? {
+            return Ok((self.plugin(&known.id, Some(account)).await?, false));
+        }
+        self.has_room(account, bytes.len() as u64).await?;
+        let length = bytes.len();
+        self.inner.blobs.put(bytes).await?;
+        store.add_blob(&blob, length, "application/octet-stream").await?;
+        let now = now_us();
+        let row = SubmissionRow {
+            id: uuid::Uuid::now_v7().to_string(),
+            account: account.id.clone(),
+            blob,
+            file: file.to_owned(),
+            bytes: length as u64,
+            manifest,
+            state: PluginState::Uploaded,
+            reason: String::new(),
+            hardware_class: None,
+            algorithms: Vec::new(),
+            created_us: now,
+            changed_us: now,
+        };
+        // Two uploads of the same bytes at once: the first stands.
+        let new = store.add_submission(&row).await?;
+        let missing = || EngineError::Fault("A plugin was lost while it was stored.".into());
+        let kept = store.submission_of(&account.id, &row.blob).await?.ok_or_else(missing)?;
+        if new {
+            store.note(&account.name, "submitted", &kept.id, &kept.manifest.version).await?;
+            self.inner.wake.notify_one();
+        }
+        Ok((self.plugin(&kept.id, Some(account)).await?, new))
+    }
+
+    /// What failed counts for nothing.
+    async fn has_room(&self, account: &AccountInfo, bytes: u64) -> Result<()> {
+        let all = self.inner.store.submissions().await?;
+        let mine = || all.iter().filter(|row| row.account == account.id && row.state != PluginState::Failed);
+        if mine().map(|row| row.bytes).sum::<u64>() + bytes > QUOTA {
+            return Err(EngineError::Busy(format!("Your plugins would have more than {} MiB.", QUOTA >> 20)));
+        }
+        if mine().filter(|row| row.state.is_checking()).count() >= MAX_WAITING {
+            return Err(EngineError::Busy(format!(
+                "{MAX_WAITING} plugins of yours wait for their check; send this one when one of them is through."
+            )));
+        }
+        Ok(())
+    }
+
+    /// The public plugins and those of the viewer, newest first; without reports and history.
+    pub async fn plugins(&self, viewer: Option<&AccountInfo>) -> Result<Vec<PluginInfo>> {
+        self.listed(viewer, |row| row.state.is_shown() || viewer.is_some_and(|v| v.id == row.account)).await
+    }
+
+    /// What waits for a curator, oldest first; without reports and history.
+    pub async fn curation(&self, curator: &AccountInfo) -> Result<Vec<PluginInfo>> {
+        let waits = |row: &SubmissionRow| matches!(row.state, PluginState::Awaiting | PluginState::Asked);
+        let mut all = self.listed(Some(curator), waits).await?;
+        all.sort_by_key(|plugin| plugin.changed_us);
+        Ok(all)
+    }
+
+    async fn listed(
+        &self,
+        viewer: Option<&AccountInfo>,
+        which: impl Fn(&SubmissionRow) -> bool,
+    ) -> Result<Vec<PluginInfo>> {
+        let all = self.inner.store.submissions().await?;
+        let mut infos = Vec::new();
+        for row in all.iter().filter(|row| which(row)) {
+            let lines = self.inner.store.lines(&row.id).await?;
+            let mut info = self.shown(row, lines, &all, viewer).await?;
+            info.lines.clear();
+            infos.push(info);
+        }
+        Ok(infos)
+    }
+
+    /// One plugin with its report. To who may not see it, it is not there.
+    pub async fn plugin(&self, id: &str, viewer: Option<&AccountInfo>) -> Result<PluginInfo> {
+        let row = self.visible(id, viewer).await?;
+        let all = self.inner.store.submissions().await?;
+        let lines = self.inner.store.lines(id).await?;
+        let mut info = self.shown(&row, lines, &all, viewer).await?;
+        info.history = self.inner.store.notes_on(id).await?;
+        Ok(info)
+    }
+
+    async fn visible(&self, id: &str, viewer: Option<&AccountInfo>) -> Result<SubmissionRow> {
+        let may = |row: &SubmissionRow| {
+            row.state.is_shown() || viewer.is_some_and(|v| v.id == row.account || v.role >= Role::Curator)
+        };
+        let row = self.inner.store.submission(id).await?.filter(may);
+        row.ok_or_else(|| EngineError::NotFound(format!("There is no plugin {id:?}; check the link.")))
+    }
+
+    async fn shown(
+        &self,
+        row: &SubmissionRow,
+        lines: Vec<CheckLine>,
+        all: &[SubmissionRow],
+        viewer: Option<&AccountInfo>,
+    ) -> Result<PluginInfo> {
+        let owner = self.inner.store.account(&row.account).await?;
+        let mine = viewer.is_some_and(|v| v.id == row.account);
+        let close = mine || viewer.is_some_and(|v| v.role >= Role::Curator);
+        let previous = all.iter().find(|other| is_version_before(other, row)).map(|other| other.id.clone());
+        let before = match &previous {
+            Some(id) if close => self.inner.store.lines(id).await?,
+            _ => Vec::new(),
+        };
+        Ok(PluginInfo {
+            id: row.id.clone(),
+            sha256: row.blob.clone(),
+            bytes: row.bytes,
+            file: row.file.clone(),
+            owner: owner.map_or_else(String::new, |account| account.name),
+            mine,
+            manifest: row.manifest.clone(),
+            state: row.state,
+            reason: row.reason.clone(),
+            hardware_class: row.hardware_class.clone(),
+            flags: if close { flags(row, &lines, &before, all) } else { Vec::new() },
+            lines,
+            algorithms: row.algorithms.clone(),
+            previous,
+            created_us: row.created_us,
+            changed_us: row.changed_us,
+            history: Vec::new(),
+        })
+    }
+
+    /// Takes a step on a plugin's way.
+    pub async fn decide(&self, id: &str, by: &AccountInfo, decision: Decision) -> Result<PluginInfo> {
+        let row = self.visible(id, Some(by)).await?;
+        let Decision { action, reason } = decision;
+        let mine = row.account == by.id;
+        let step = step(action);
+        if step.by_author && !mine {
+            return Err(EngineError::Forbidden("Only who sent this plugin may do that.".into()));
+        }
+        if !step.by_author && by.role < Role::Curator {
+            return Err(EngineError::Forbidden("Only curators may do that.".into()));
+        }
+        if !step.by_author && mine {
+            return Err(EngineError::Forbidden(
+                "Nobody decides about a plugin of their own; another curator has to.".into(),
+            ));
+        }
+        let reason = if step.wants_reason {
+            said(&reason, "say why, for the author and for the log")?
+        } else {
+            reason.trim().chars().take(2000).collect()
+        };
+        if !step.from.contains(&row.state) {
+            return Err(EngineError::Busy(format!(
+                "This plugin is {}, so that step cannot be taken now.",
+                row.state.name()
+            )));
+        }
+        if step.to == PluginState::Public {
+            self.is_free_to_publish(&row).await?;
+        }
+        let store = &self.inner.store;
+        if !store.move_submission(id, row.state, step.to, &reason).await? {
+            return Err(EngineError::Busy("Somebody else has just decided about this plugin; look again.".into()));
+        }
+        store.note(&by.name, step.word, id, &reason).await?;
+        self.inner.renew_plugins().await?;
+        self.plugin(id, Some(by)).await
+    }
+
+    /// The ids of its algorithms belong to nobody else.
+    async fn is_free_to_publish(&self, row: &SubmissionRow) -> Result<()> {
+        let all = self.inner.store.submissions().await?;
+        match taken(row, &all) {
+            Some(id) => Err(EngineError::Busy(format!("The algorithm id {id:?} belongs to another author's plugin."))),
+            None => Ok(()),
+        }
+    }
+}
+
+impl super::Inner {
+    /// Offers what may be benchmarked now.
+    pub async fn renew_plugins(&self) -> Result<()> {
+        let all = brought::brought(&self.store, &self.blobs, &self.config.data).await?;
+        self.registry.offer(all);
+        Ok(())
+    }
+}
+
+/// What a step needs and does.
+struct Step {
+    by_author: bool,
+    wants_reason: bool,
+    from: &'static [PluginState],
+    to: PluginState,
+    word: &'static str,
+}
+
+fn step(action: Action) -> Step {
+    use PluginState::*;
+    let (by_author, wants_reason, from, to, word): (_, _, &'static [PluginState], _, _) = match action {
+        Action::Offer => (true, false, &[Validated], Awaiting, "offered"),
+        Action::Answer => (true, true, &[Asked], Awaiting, "answered"),
+        Action::Withdraw => (true, false, &[Public, Suspended, Excluded], Withdrawn, "withdrew"),
+        Action::Approve => (false, false, &[Awaiting], Public, "approved"),
+        Action::Ask => (false, true, &[Awaiting], Asked, "asked"),
+        Action::Reject => (false, true, &[Awaiting, Asked], Rejected, "rejected"),
+        Action::Suspend => (false, true, &[Public], Suspended, "suspended"),
+        Action::Exclude => (false, true, &[Public], Excluded, "excluded"),
+        Action::Reinstate => (false, true, &[Suspended, Excluded, Rejected], Public, "reinstated"),
+    };
+    Step { by_author, wants_reason, from, to, word }
+}
+
+fn ids(row: &SubmissionRow) -> impl Iterator<Item = &str> {
+    row.algorithms.iter().map(|a| a.id.as_str())
+}
+
+/// An algorithm id of this plugin that another account's plugin, which is or was public, has as well.
+fn taken(row: &SubmissionRow, all: &[SubmissionRow]) -> Option<String> {
+    let others = || all.iter().filter(|other| other.account != row.account && other.state.is_shown());
+    ids(row).find(|id| others().any(|other| ids(other).any(|known| known == *id))).map(str::to_owned)
+}
+
+/// A public version of the same author that offers one of the same algorithms and came before.
+fn is_version_before(other: &SubmissionRow, row: &SubmissionRow) -> bool {
+    let same = ids(row).any(|id| ids(other).any(|known| known == id));
+    other.account == row.account && other.state.is_shown() && same && other.created_us < row.created_us
+}
+
+/// Why a finished check must not count: names that are taken, or a version that is there already.
+pub fn conflict(row: &SubmissionRow, all: &[SubmissionRow], installed: impl Fn(&str) -> bool) -> Option<String> {
+    if let Some(id) = ids(row).find(|id| installed(id)) {
+        return Some(format!("The algorithm id {id:?} belongs to this service's own plugin; give yours another."));
+    }
+    if let Some(id) = taken(row, all) {
+        return Some(format!("The algorithm id {id:?} belongs to another author's plugin; give yours another."));
+    }
+    let version = &row.manifest.version;
+    let again = |other: &&SubmissionRow| {
+        let same = ids(row).any(|id| ids(other).any(|known| known == id));
+        let kept = !matches!(other.state, PluginState::Failed | PluginState::Rejected);
+        other.id != row.id && other.account == row.account && kept && same && other.manifest.version == *version
+    };
+    all.iter()
+        .find(again)
+        .map(|_| format!("There is a version {version} of this plugin already; give this one another."))
+}
+
+/// What a curator should look at.
+fn flags(row: &SubmissionRow, lines: &[CheckLine], before: &[CheckLine], all: &[SubmissionRow]) -> Vec<String> {
+    let mut flags = Vec::new();
+    if !is_free(&row.manifest.license) {
+        flags.push(format!("The licence {} is not known as a free one.", row.manifest.license));
+    }
+    if row.manifest.source.is_empty() {
+        flags.push("It does not say where its source is.".to_owned());
+    }
+    let noted = lines.iter().filter(|line| line.verdict == CheckVerdict::Note);
+    flags.extend(noted.map(|line| format!("{}: {}", line.check, line.evidence)));
+    let worse = |line: &&CheckLine| {
+        let passed = |old: &CheckLine| old.check == line.check && old.verdict == CheckVerdict::Pass;
+        line.verdict != CheckVerdict::Pass && before.iter().any(passed)
+    };
+    flags.extend(lines.iter().filter(worse).map(|line| format!("{}: the version before passed.", line.check)));
+    let twins = all.iter().filter(|other| other.account != row.account && other.blob == row.blob);
+    flags.extend(twins.map(|_| "Another account sent the same file.".to_owned()));
+    flags
+}

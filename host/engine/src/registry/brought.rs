@@ -1,0 +1,68 @@
+//! Plugins that developers brought, as far as somebody may benchmark them.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::Contestant;
+use crate::blobs::Blobs;
+use crate::model::{AlgorithmInfo, PluginState};
+use crate::store::{Store, SubmissionRow};
+use crate::{EngineError, Result};
+
+/// An algorithm of a plugin that somebody brought.
+pub struct Brought {
+    /// Under the name by which it is asked for: the newest public version under its id, others as `id@version`.
+    pub contestant: Arc<Contestant>,
+    /// Who brought it.
+    pub owner: String,
+    /// Everybody may ask for it.
+    pub public: bool,
+}
+
+impl Brought {
+    /// May this viewer ask for it?
+    pub fn is_for(&self, viewer: Option<&str>) -> bool {
+        self.public || viewer == Some(self.owner.as_str())
+    }
+}
+
+/// Every algorithm that may be asked for, with its file on the disk of this machine.
+pub async fn brought(store: &Store, blobs: &Blobs, data: &Path) -> Result<Vec<Brought>> {
+    let mut all: Vec<Brought> = Vec::new();
+    let rows = store.submissions().await?;
+    for row in rows.iter().filter(|row| row.state.is_usable()) {
+        let file = plugin_file(blobs, data, &row.blob).await?;
+        for info in &row.algorithms {
+            let public = row.state == PluginState::Public;
+            let newest = public && all.iter().all(|b| !b.public || b.contestant.info.id != info.id);
+            all.push(one(row, info, &file, public, newest));
+        }
+    }
+    Ok(all)
+}
+
+fn one(row: &SubmissionRow, info: &AlgorithmInfo, file: &Path, public: bool, newest: bool) -> Brought {
+    let mut contestant = Contestant::plain(info.clone(), file.to_owned(), false);
+    if !newest {
+        contestant.info.id = format!("{}@{}", info.id, row.manifest.version);
+        contestant.info.name = format!("{} {}", info.name, row.manifest.version);
+    }
+    // One's own is measured without being named; everybody's would make every run longer.
+    contestant.info.usual = !public;
+    Brought { contestant: Arc::new(contestant), owner: format!("account:{}", row.account), public }
+}
+
+/// The file of a plugin on this disk, under its hash; the jail needs a path.
+pub async fn plugin_file(blobs: &Blobs, data: &Path, sha256: &str) -> Result<PathBuf> {
+    let folder = data.join("plugins");
+    let file = folder.join(format!("{sha256}.so"));
+    if !file.is_file() {
+        let bytes = blobs.get(sha256).await?;
+        let fault = |e: std::io::Error| EngineError::fault("Writing a plugin file failed", e);
+        std::fs::create_dir_all(&folder).map_err(fault)?;
+        // Whole under its name or not at all.
+        let draft = folder.join(format!("{sha256}.{}", uuid::Uuid::new_v4().simple()));
+        std::fs::write(&draft, bytes).and_then(|()| std::fs::rename(&draft, &file)).map_err(fault)?;
+    }
+    Ok(file)
+}

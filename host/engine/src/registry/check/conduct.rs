@@ -1,0 +1,161 @@
+//! How a plugin behaves beside its answers: determinism, counters, limits, timing.
+
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::time::Duration;
+
+use ocb_core::instance::Presented;
+use ocb_core::query::{Answer, Counters, Query, Semantics};
+use ocb_sandbox::{Ending, Launcher, Outcome, PassPlan, Session, Trial, integrity};
+
+use super::suite::{Scene, suite};
+use super::{Checking, hint_for, with_output};
+use crate::model::{AlgorithmInfo, CheckVerdict};
+use crate::{EngineError, Result};
+
+/// Time for the timed pass.
+const PASS: Duration = Duration::from_millis(1500);
+/// So often each configuration is in the order of the timed pass.
+const ROUNDS: u32 = 30;
+
+/// All that one process said about a scene.
+struct Heard {
+    answers: Vec<(Answer, Option<Counters>)>,
+    build_ns: f64,
+    memory: Option<u64>,
+}
+
+impl Checking<'_> {
+    /// The first scene in two fresh processes, then timed.
+    pub(super) fn conduct(&mut self, launcher: &Launcher, file: &Path, algorithm: &AlgorithmInfo) -> Result<()> {
+        let Some(&query) = algorithm.queries.first().filter(|_| !self.stopped) else { return Ok(()) };
+        let scene = &suite()?.scenes[0];
+        let id = &algorithm.id;
+        let trial = Trial {
+            plugin: file,
+            algorithm: id,
+            mesh_a: &scene.mesh_a,
+            mesh_b: None,
+            parameters: &[],
+            semantics: Semantics::Surface,
+        };
+        let mut heard = Vec::new();
+        for _ in 0..2 {
+            match hear(launcher, &trial, query, scene) {
+                Ok(once) => heard.push(once),
+                Err(ending) if ending.outcome.ours() => return Err(EngineError::Fault(ending.to_string())),
+                Err(ending) => {
+                    let evidence = with_output(&ending.to_string(), &ending.stderr);
+                    self.line(format!("{id}: determinism"), CheckVerdict::Fail, evidence, hint_for(&ending.outcome));
+                    return Ok(());
+                }
+            }
+        }
+        self.determinism(id, &heard);
+        self.counters(algorithm, &heard[0], scene);
+        let memory = heard.iter().filter_map(|once| once.memory).max();
+        let memory = memory.map_or_else(|| "an unknown amount".into(), |bytes| format!("{} KiB", bytes >> 10));
+        let build = heard.iter().map(|once| once.build_ns).fold(0.0, f64::max) / 1e6;
+        let evidence = format!("Builds an object in {build:.2} ms and takes {memory} of memory at most.");
+        self.line(format!("{id}: limits"), CheckVerdict::Pass, evidence, None);
+        self.timing(launcher, &trial, query, scene)
+    }
+
+    fn determinism(&mut self, id: &str, heard: &[Heard]) {
+        let check = format!("{id}: determinism");
+        let same = heard[0].answers.iter().zip(&heard[1].answers).filter(|(x, y)| x.0 == y.0).count();
+        let all = heard[0].answers.len();
+        if same == all {
+            let evidence = format!("Two fresh processes give the same {all} answers.");
+            self.line(check, CheckVerdict::Pass, evidence, None);
+        } else {
+            let evidence = format!("Two fresh processes answer {} of {all} questions differently.", all - same);
+            let hint = "Look for memory that is read before it is written, addresses as keys, and random numbers.";
+            self.line(check, CheckVerdict::Fail, evidence, Some(hint));
+        }
+    }
+
+    /// A hit is found by a test between primitives, and there are only so many pairs of them.
+    fn counters(&mut self, algorithm: &AlgorithmInfo, heard: &Heard, scene: &Scene) {
+        if !algorithm.counters {
+            return;
+        }
+        let check = format!("{}: counters", algorithm.id);
+        let pairs = scene.a.triangles().len() as u64 * scene.b.triangles().len() as u64;
+        let hit = |answer: &Answer| match answer {
+            Answer::Collision { hit, .. } => *hit,
+            Answer::Contacts { total, .. } => *total > 0,
+            Answer::Distance { distance, .. } => *distance == 0.0,
+            Answer::GaveUp | Answer::Unsupported => false,
+        };
+        let odd = heard.answers.iter().filter(|(answer, counters)| match counters {
+            Some(c) => c.primitive_tests > pairs || (hit(answer) && c.primitive_tests == 0),
+            None => true,
+        });
+        let odd = odd.count();
+        if odd == 0 {
+            self.line(check, CheckVerdict::Pass, "The counters are plausible.".into(), None);
+        } else {
+            let evidence = format!(
+                "{odd} of {} counts are missing, or cannot be: a hit without a test, or more tests than pairs.",
+                heard.answers.len()
+            );
+            self.line(check, CheckVerdict::Note, evidence, Some("Count each test between two triangles once."));
+        }
+    }
+
+    /// What the clock shows from outside fits together.
+    fn timing(&mut self, launcher: &Launcher, trial: &Trial, query: Query, scene: &Scene) -> Result<()> {
+        let check = format!("{}: timing integrity", trial.algorithm);
+        let mut session = match launcher.start(trial) {
+            Ok(session) => session,
+            Err(ending) if ending.outcome.ours() => return Err(EngineError::Fault(ending.to_string())),
+            Err(ending) => {
+                self.line(check, CheckVerdict::Fail, ending.to_string(), hint_for(&ending.outcome));
+                return Ok(());
+            }
+        };
+        let n = scene.placed.len() as u32;
+        let order: Vec<u32> = (0..n * ROUNDS).map(|i| i % n).collect();
+        let plan = PassPlan { query, order: &order, coherent: false, seed: 1, allowance: PASS };
+        let present =
+            |number: u32, _| Presented { configuration: scene.placed[number as usize].configuration, swapped: false };
+        let (facts, _) = session.pass(&plan, &present, &mut |_| ControlFlow::Continue(()));
+        let ending = session.finish();
+        if ending.outcome != Outcome::Completed {
+            self.line(check, CheckVerdict::Fail, ending.to_string(), hint_for(&ending.outcome));
+            return Ok(());
+        }
+        let facts = [facts];
+        match integrity::violated(&facts) {
+            None => {
+                let looked = integrity::measured(&facts).len();
+                let evidence = format!("{} timed answers, {looked} checks of the clock, nothing odd.", facts[0].timed);
+                self.line(check, CheckVerdict::Pass, evidence, None);
+            }
+            Some(finding) => {
+                let hint = "A busy machine can cause it; a curator looks at it, and every run checks it again.";
+                self.line(check, CheckVerdict::Note, format!("{finding}."), Some(hint));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Asks one fresh process the whole scene, with counters.
+fn hear(launcher: &Launcher, trial: &Trial, query: Query, scene: &Scene) -> std::result::Result<Heard, Ending> {
+    let mut session: Session = launcher.start(trial)?;
+    let build_ns = session.build_ns();
+    let mut answers = Vec::with_capacity(scene.placed.len());
+    for placed in &scene.placed {
+        match session.count(query, &placed.configuration) {
+            Ok(answer) => answers.push(answer),
+            Err(_) => break,
+        }
+    }
+    let ending = session.finish();
+    if ending.outcome != Outcome::Completed {
+        return Err(ending);
+    }
+    Ok(Heard { answers, build_ns, memory: ending.memory_peak_bytes })
+}

@@ -1,0 +1,171 @@
+//! Accounts and the keys that open them: sessions of browsers, tokens of programs.
+
+use super::{Store, from_json, now_us, to_json};
+use crate::model::{AccountInfo, Role, Scope, TokenInfo};
+use crate::{EngineError, Result};
+
+/// Columns of an account: id, name, role, wish, when it was made.
+type AccountRow = (String, String, String, Option<String>, i64);
+
+fn account((id, name, role, wish, created_us): AccountRow) -> Result<AccountInfo> {
+    let unknown = || EngineError::Fault(format!("The database holds an account of the unknown role {role:?}."));
+    Ok(AccountInfo { id, name, role: Role::named(&role).ok_or_else(unknown)?, wish, created_us })
+}
+
+impl Store {
+    /// Adds an account; false when the name is taken.
+    pub async fn add_account(&self, account: &AccountInfo, password: &str) -> Result<bool> {
+        let added = sqlx::query(
+            "INSERT INTO accounts (id, name, folded, password, role, created_us) VALUES ($1, $2, $3, $4, $5, $6) \
+             ON CONFLICT (folded) DO NOTHING",
+        )
+        .bind(&account.id)
+        .bind(&account.name)
+        .bind(account.name.to_lowercase())
+        .bind(password)
+        .bind(account.role.name())
+        .bind(account.created_us)
+        .execute(&self.pool)
+        .await?;
+        Ok(added.rows_affected() == 1)
+    }
+
+    /// All accounts by name.
+    pub async fn accounts(&self) -> Result<Vec<AccountInfo>> {
+        let rows: Vec<AccountRow> =
+            sqlx::query_as("SELECT id, name, role, wish, created_us FROM accounts ORDER BY folded")
+                .fetch_all(&self.pool)
+                .await?;
+        rows.into_iter().map(account).collect()
+    }
+
+    /// The account with this id.
+    pub async fn account(&self, id: &str) -> Result<Option<AccountInfo>> {
+        let row: Option<AccountRow> =
+            sqlx::query_as("SELECT id, name, role, wish, created_us FROM accounts WHERE id = $1")
+                .bind(id)
+                .fetch_optional(&self.pool)
+                .await?;
+        row.map(account).transpose()
+    }
+
+    /// Id and hashed password of the account with this name.
+    pub async fn password_of(&self, name: &str) -> Result<Option<(String, String)>> {
+        Ok(sqlx::query_as("SELECT id, password FROM accounts WHERE folded = $1")
+            .bind(name.to_lowercase())
+            .fetch_optional(&self.pool)
+            .await?)
+    }
+
+    /// Replaces the hashed password.
+    pub async fn set_password(&self, id: &str, password: &str) -> Result<()> {
+        sqlx::query("UPDATE accounts SET password = $1 WHERE id = $2")
+            .bind(password)
+            .bind(id)
+            .execute(&self.pool)
+            .await?;
+        Ok(())
+    }
+
+    /// Gives the account a role and settles its wish; false when there is no such account.
+    pub async fn set_role(&self, id: &str, role: Role) -> Result<bool> {
+        let done = sqlx::query("UPDATE accounts SET role = $1, wish = NULL WHERE id = $2")
+            .bind(role.name())
+            .bind(id)
+            .execute(&self.pool)
+            .await?;
+        Ok(done.rows_affected() == 1)
+    }
+
+    /// Notes why the account's owner wants to be a developer.
+    pub async fn set_wish(&self, id: &str, wish: &str) -> Result<()> {
+        sqlx::query("UPDATE accounts SET wish = $1 WHERE id = $2").bind(wish).bind(id).execute(&self.pool).await?;
+        Ok(())
+    }
+
+    /// Adds a key by the hash of its secret. A session has no name.
+    pub async fn add_key(&self, sha256: &str, account: &str, key: &TokenInfo, session: bool) -> Result<()> {
+        sqlx::query(
+            "INSERT INTO keys (sha256, id, account, name, scopes, created_us, expires_us) \
+             VALUES ($1, $2, $3, $4, $5, $6, $7)",
+        )
+        .bind(sha256)
+        .bind(&key.id)
+        .bind(account)
+        .bind(Some(&key.name).filter(|_| !session))
+        .bind(to_json(&key.scopes)?)
+        .bind(key.created_us)
+        .bind(key.expires_us)
+        .execute(&self.pool)
+        .await?;
+        Ok(())
+    }
+
+    /// The account that a key opens and the scopes of the key; sessions and tokens do not stand for each other.
+    pub async fn opened_by(&self, sha256: &str, session: bool) -> Result<Option<(AccountInfo, Vec<Scope>)>> {
+        let row: Option<(String, String)> = sqlx::query_as(
+            "SELECT account, scopes FROM keys WHERE sha256 = $1 AND expires_us > $2 \
+             AND (CASE WHEN name IS NULL THEN 1 ELSE 0 END) = $3",
+        )
+        .bind(sha256)
+        .bind(now_us())
+        .bind(i64::from(session))
+        .fetch_optional(&self.pool)
+        .await?;
+        let Some((id, scopes)) = row else { return Ok(None) };
+        Ok(self.account(&id).await?.map(|account| Ok::<_, EngineError>((account, from_json(&scopes)?))).transpose()?)
+    }
+
+    /// The account's tokens, newest first.
+    pub async fn tokens(&self, account: &str) -> Result<Vec<TokenInfo>> {
+        let rows: Vec<(String, String, String, i64, i64)> = sqlx::query_as(
+            "SELECT id, name, scopes, created_us, expires_us FROM keys WHERE account = $1 AND name IS NOT NULL \
+             ORDER BY created_us DESC, id",
+        )
+        .bind(account)
+        .fetch_all(&self.pool)
+        .await?;
+        let token = |(id, name, scopes, created_us, expires_us): (String, String, String, i64, i64)| {
+            Ok(TokenInfo { id, name, scopes: from_json(&scopes)?, created_us, expires_us })
+        };
+        rows.into_iter().map(token).collect()
+    }
+
+    /// Ends one token of the account; false when there is none of that id.
+    pub async fn end_token(&self, account: &str, id: &str) -> Result<bool> {
+        let done = sqlx::query("DELETE FROM keys WHERE account = $1 AND id = $2 AND name IS NOT NULL")
+            .bind(account)
+            .bind(id)
+            .execute(&self.pool)
+            .await?;
+        Ok(done.rows_affected() == 1)
+    }
+
+    /// Ends the session with this hash.
+    pub async fn end_session(&self, sha256: &str) -> Result<()> {
+        sqlx::query("DELETE FROM keys WHERE sha256 = $1").bind(sha256).execute(&self.pool).await?;
+        Ok(())
+    }
+
+    /// Ends all sessions of the account.
+    pub async fn end_sessions(&self, account: &str) -> Result<()> {
+        sqlx::query("DELETE FROM keys WHERE account = $1 AND name IS NULL").bind(account).execute(&self.pool).await?;
+        Ok(())
+    }
+
+    /// Forgets keys that have ended.
+    pub async fn forget_ended_keys(&self) -> Result<()> {
+        sqlx::query("DELETE FROM keys WHERE expires_us <= $1").bind(now_us()).execute(&self.pool).await?;
+        Ok(())
+    }
+
+    /// Moves runs and objects from one owner to another.
+    pub async fn move_things(&self, from: &str, to: &str) -> Result<()> {
+        let mut transaction = self.pool.begin().await?;
+        for text in ["UPDATE runs SET owner = $1 WHERE owner = $2", "UPDATE objects SET owner = $1 WHERE owner = $2"] {
+            sqlx::query(text).bind(to).bind(from).execute(&mut *transaction).await?;
+        }
+        transaction.commit().await?;
+        Ok(())
+    }
+}

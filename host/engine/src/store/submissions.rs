@@ -1,0 +1,198 @@
+//! Plugins that developers bring, and their reports.
+
+use sqlx::Row;
+use sqlx::any::AnyRow;
+
+use super::{Store, from_json, now_us, to_json};
+use crate::model::{AlgorithmInfo, CheckLine, Manifest, PluginState};
+use crate::{EngineError, Result};
+
+/// One row of the table of submissions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SubmissionRow {
+    /// UUIDv7.
+    pub id: String,
+    /// Id of the account that sent it.
+    pub account: String,
+    /// SHA-256 of the file.
+    pub blob: String,
+    /// Name of the file.
+    pub file: String,
+    /// Size of the file.
+    pub bytes: u64,
+    /// What its author says of it.
+    pub manifest: Manifest,
+    /// Where it is on its way.
+    pub state: PluginState,
+    /// Why.
+    pub reason: String,
+    /// The hardware class on which it was checked.
+    pub hardware_class: Option<String>,
+    /// What it describes.
+    pub algorithms: Vec<AlgorithmInfo>,
+    /// When it was sent.
+    pub created_us: i64,
+    /// When its state changed last.
+    pub changed_us: i64,
+}
+
+macro_rules! select_submissions {
+    ($rest:literal) => {
+        concat!(
+            "SELECT id, account, blob, file, bytes, manifest, state, reason, hardware_class, algorithms, created_us, ",
+            "changed_us FROM submissions ",
+            $rest
+        )
+    };
+}
+
+impl Store {
+    /// Adds a submission; false when the account has sent these bytes before.
+    pub async fn add_submission(&self, row: &SubmissionRow) -> Result<bool> {
+        let added = sqlx::query(
+            "INSERT INTO submissions (id, account, blob, file, bytes, manifest, state, reason, algorithms, attempts, \
+             created_us, changed_us) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, 0, $10, $11) \
+             ON CONFLICT (account, blob) DO NOTHING",
+        )
+        .bind(&row.id)
+        .bind(&row.account)
+        .bind(&row.blob)
+        .bind(&row.file)
+        .bind(row.bytes as i64)
+        .bind(to_json(&row.manifest)?)
+        .bind(row.state.name())
+        .bind(&row.reason)
+        .bind(to_json(&row.algorithms)?)
+        .bind(row.created_us)
+        .bind(row.changed_us)
+        .execute(&self.pool)
+        .await?;
+        Ok(added.rows_affected() == 1)
+    }
+
+    /// One submission.
+    pub async fn submission(&self, id: &str) -> Result<Option<SubmissionRow>> {
+        let row = sqlx::query(select_submissions!("WHERE id = $1")).bind(id).fetch_optional(&self.pool).await?;
+        row.as_ref().map(read).transpose()
+    }
+
+    /// The account's submission of these bytes.
+    pub async fn submission_of(&self, account: &str, blob: &str) -> Result<Option<SubmissionRow>> {
+        let row = sqlx::query(select_submissions!("WHERE account = $1 AND blob = $2"))
+            .bind(account)
+            .bind(blob)
+            .fetch_optional(&self.pool)
+            .await?;
+        row.as_ref().map(read).transpose()
+    }
+
+    /// All submissions, newest first.
+    pub async fn submissions(&self) -> Result<Vec<SubmissionRow>> {
+        let rows = sqlx::query(select_submissions!("ORDER BY created_us DESC, id DESC")).fetch_all(&self.pool).await?;
+        rows.iter().map(read).collect()
+    }
+
+    /// Moves a submission from one state to another; false when it was not in the first.
+    pub async fn move_submission(&self, id: &str, from: PluginState, to: PluginState, reason: &str) -> Result<bool> {
+        let done =
+            sqlx::query("UPDATE submissions SET state = $1, reason = $2, changed_us = $3 WHERE id = $4 AND state = $5")
+                .bind(to.name())
+                .bind(reason)
+                .bind(now_us())
+                .bind(id)
+                .bind(from.name())
+                .execute(&self.pool)
+                .await?;
+        Ok(done.rows_affected() == 1)
+    }
+
+    /// Notes what a check found out beside its lines.
+    pub async fn describe_submission(&self, id: &str, algorithms: &[AlgorithmInfo], class: &str) -> Result<()> {
+        sqlx::query("UPDATE submissions SET algorithms = $1, hardware_class = $2 WHERE id = $3")
+            .bind(to_json(&algorithms)?)
+            .bind(class)
+            .bind(id)
+            .execute(&self.pool)
+            .await?;
+        Ok(())
+    }
+
+    /// Takes the submission that waits longest for its check and forgets the lines of an earlier attempt; one that was
+    /// begun `most` times is not begun again.
+    pub async fn claim_check(&self, most: i64) -> Result<Option<SubmissionRow>> {
+        let id: Option<String> = sqlx::query_scalar(
+            "UPDATE submissions SET attempts = attempts + 1 WHERE id = (SELECT id FROM submissions \
+             WHERE state = 'uploaded' AND attempts < $1 ORDER BY created_us, id LIMIT 1) RETURNING id",
+        )
+        .bind(most)
+        .fetch_optional(&self.pool)
+        .await?;
+        let Some(id) = id else { return Ok(None) };
+        sqlx::query("DELETE FROM submission_lines WHERE submission = $1").bind(&id).execute(&self.pool).await?;
+        self.submission(&id).await
+    }
+
+    /// Checks that an ended process left behind wait again; those begun `most` times fail.
+    pub async fn recover_checks(&self, most: i64) -> Result<()> {
+        sqlx::query("UPDATE submissions SET state = 'uploaded' WHERE state = 'vetted'").execute(&self.pool).await?;
+        sqlx::query(
+            "UPDATE submissions SET state = 'failed', reason = $1, changed_us = $2 \
+             WHERE state = 'uploaded' AND attempts >= $3",
+        )
+        .bind(format!("The service ended {most} times in the middle of this check, so it is not tried again."))
+        .bind(now_us())
+        .bind(most)
+        .execute(&self.pool)
+        .await?;
+        Ok(())
+    }
+
+    /// A check that was stopped with the service counts as no attempt.
+    pub async fn put_back_check(&self, id: &str) -> Result<()> {
+        sqlx::query("UPDATE submissions SET state = 'uploaded', attempts = attempts - 1 WHERE id = $1")
+            .bind(id)
+            .execute(&self.pool)
+            .await?;
+        Ok(())
+    }
+
+    /// Adds a line to the report.
+    pub async fn add_line(&self, id: &str, seq: i64, line: &CheckLine) -> Result<()> {
+        sqlx::query("INSERT INTO submission_lines (submission, seq, line) VALUES ($1, $2, $3)")
+            .bind(id)
+            .bind(seq)
+            .bind(to_json(line)?)
+            .execute(&self.pool)
+            .await?;
+        Ok(())
+    }
+
+    /// The report so far.
+    pub async fn lines(&self, id: &str) -> Result<Vec<CheckLine>> {
+        let rows: Vec<String> =
+            sqlx::query_scalar("SELECT line FROM submission_lines WHERE submission = $1 ORDER BY seq")
+                .bind(id)
+                .fetch_all(&self.pool)
+                .await?;
+        rows.iter().map(|line| from_json(line)).collect()
+    }
+}
+
+fn read(row: &AnyRow) -> Result<SubmissionRow> {
+    let state: &str = row.try_get("state")?;
+    let unknown = || EngineError::Fault(format!("The database holds a plugin in the unknown state {state:?}."));
+    Ok(SubmissionRow {
+        id: row.try_get("id")?,
+        account: row.try_get("account")?,
+        blob: row.try_get("blob")?,
+        file: row.try_get("file")?,
+        bytes: row.try_get::<i64, _>("bytes")? as u64,
+        manifest: from_json(row.try_get("manifest")?)?,
+        state: PluginState::named(state).ok_or_else(unknown)?,
+        reason: row.try_get("reason")?,
+        hardware_class: row.try_get("hardware_class")?,
+        algorithms: from_json(row.try_get("algorithms")?)?,
+        created_us: row.try_get("created_us")?,
+        changed_us: row.try_get("changed_us")?,
+    })
+}

@@ -1,0 +1,70 @@
+import type { Action, PluginInfo, PluginState, Role } from '../api/types'
+
+/** A state in words. */
+export const PLUGIN_STATE: Record<PluginState, string> = {
+  uploaded: 'waits for its check',
+  vetted: 'being checked',
+  failed: 'did not pass',
+  validated: 'validated, private',
+  awaiting: 'awaits a curator',
+  asked: 'a curator asks',
+  rejected: 'rejected',
+  public: 'public',
+  suspended: 'suspended',
+  excluded: 'excluded here',
+  withdrawn: 'withdrawn',
+}
+
+export const isChecking = (state: PluginState): boolean => state === 'uploaded' || state === 'vetted'
+
+export const ROLE: Record<Role, string> = {
+  user: 'user',
+  developer: 'developer',
+  curator: 'curator',
+  administrator: 'administrator',
+}
+
+const RANK: Role[] = ['user', 'developer', 'curator', 'administrator']
+
+export const isAtLeast = (role: Role | undefined, least: Role): boolean =>
+  role !== undefined && RANK.indexOf(role) >= RANK.indexOf(least)
+
+export interface Step {
+  action: Action
+  text: string
+  /** What the reason is for; without it none is asked. */
+  reason?: string
+}
+
+const OFFER: Step = { action: 'offer', text: 'Offer to the public' }
+const ANSWER: Step = { action: 'answer', text: 'Answer', reason: 'Your answer to the curator' }
+const WITHDRAW: Step = { action: 'withdraw', text: 'Withdraw' }
+const APPROVE: Step = { action: 'approve', text: 'Approve' }
+const ASK: Step = { action: 'ask', text: 'Ask', reason: 'Your question to the author' }
+const REJECT: Step = { action: 'reject', text: 'Reject', reason: 'Why, for the author' }
+const SUSPEND: Step = { action: 'suspend', text: 'Suspend', reason: 'Why, for everybody to read' }
+const EXCLUDE: Step = { action: 'exclude', text: 'Exclude on this hardware class', reason: 'Why, for everybody to read' }
+const REINSTATE: Step = { action: 'reinstate', text: 'Make public after all', reason: 'Why, for the log' }
+
+const AUTHORS: Partial<Record<PluginState, Step[]>> = {
+  validated: [OFFER], asked: [ANSWER], public: [WITHDRAW], suspended: [WITHDRAW], excluded: [WITHDRAW],
+}
+const CURATORS: Partial<Record<PluginState, Step[]>> = {
+  awaiting: [APPROVE, ASK, REJECT], asked: [REJECT], public: [SUSPEND, EXCLUDE], suspended: [REINSTATE],
+  excluded: [REINSTATE], rejected: [REINSTATE],
+}
+
+/** What this viewer may do with the plugin now; nobody decides about their own. */
+export function steps(plugin: Pick<PluginInfo, 'mine' | 'state'>, role: Role | undefined): Step[] {
+  if (plugin.mine) return AUTHORS[plugin.state] ?? []
+  return isAtLeast(role, 'curator') ? (CURATORS[plugin.state] ?? []) : []
+}
+
+/** How long ago, in the largest unit that is at least one. */
+export function age(us: number, now = Date.now()): string {
+  const minutes = Math.max(0, Math.floor((now - us / 1000) / 60_000))
+  if (minutes < 1) return 'just now'
+  if (minutes < 60) return `${minutes} min ago`
+  const hours = Math.floor(minutes / 60)
+  return hours < 48 ? `${hours} h ago` : `${Math.floor(hours / 24)} days ago`
+}

@@ -1,0 +1,182 @@
+//! One's own account: making, entering and leaving it; tokens for programs.
+
+use axum::Json as Answer;
+use axum::extract::State;
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{AppendHeaders, IntoResponse, Response};
+use axum_extra::extract::CookieJar;
+use ocb_engine::model::{
+    AccountInfo, Credentials, Identity, NewPassword, NewToken, Role, TokenInfo, TokenRequest, Wish,
+};
+
+use crate::App;
+use crate::extract::{Json, Path};
+use crate::guest::{Browser, Member, SESSION, cookie, is_secure};
+use crate::limits::{Address, LOG_IN, MAKE_ACCOUNT};
+use crate::problem::{Problem, Result};
+
+/// Who is logged in; a guest has no account.
+#[utoipa::path(get, path = "/account", tag = "account", responses((status = 200, body = Identity)))]
+pub(crate) async fn show_account(member: Option<axum::Extension<Member>>) -> Answer<Identity> {
+    Answer(Identity { account: member.map(|member| member.0.0) })
+}
+
+/// Makes an account and enters it. A name that is taken gets 409: names stand beside plugins, so they are no secret.
+#[utoipa::path(post, path = "/account", tag = "account", request_body = Credentials,
+    responses(
+        (status = 201, description = "Made and entered", body = Identity),
+        (status = 409, description = "The name is taken", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No name or no password", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many accounts", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn make_account(
+    State(app): State<App>,
+    Address(address): Address,
+    Browser(guest): Browser,
+    headers: HeaderMap,
+    Json(asked): Json<Credentials>,
+) -> Result<Response> {
+    app.limits.count(MAKE_ACCOUNT, &address)?;
+    let account = app.engine.add_account(&asked.name, &asked.password, Role::User).await?;
+    let entered = enter(&app, &guest, &headers, account, asked.keep).await?;
+    Ok((StatusCode::CREATED, entered).into_response())
+}
+
+/// Enters an account. A wrong name and a wrong password get the same answer, in the same time.
+#[utoipa::path(post, path = "/account/login", tag = "account", request_body = Credentials,
+    responses(
+        (status = 200, description = "Entered", body = Identity),
+        (status = 403, description = "Name and password do not belong together", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "Something is missing", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many tries", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn log_in(
+    State(app): State<App>,
+    Address(address): Address,
+    Browser(guest): Browser,
+    headers: HeaderMap,
+    Json(asked): Json<Credentials>,
+) -> Result<Response> {
+    app.limits.count(LOG_IN, &address)?;
+    app.limits.count(LOG_IN, &asked.name)?;
+    let account = app.engine.account_with(&asked.name, &asked.password).await?;
+    enter(&app, &guest, &headers, account, asked.keep).await
+}
+
+async fn enter(app: &App, guest: &str, headers: &HeaderMap, account: AccountInfo, keep: bool) -> Result<Response> {
+    if keep {
+        app.engine.keep_things(guest, &account).await?;
+    }
+    let secret = app.engine.add_session(&account).await?;
+    let session = cookie(SESSION, &secret, ocb_engine::SESSION.as_secs(), is_secure(headers));
+    let identity = Identity { account: Some(account) };
+    Ok((AppendHeaders([(header::SET_COOKIE, session)]), Answer(identity)).into_response())
+}
+
+/// Leaves the account in this browser.
+#[utoipa::path(post, path = "/account/logout", tag = "account", responses((status = 204, description = "Left")))]
+pub(crate) async fn log_out(State(app): State<App>, headers: HeaderMap) -> Result<Response> {
+    if let Some(session) = CookieJar::from_headers(&headers).get(SESSION) {
+        app.engine.end_session(session.value()).await?;
+    }
+    Ok(left(&headers))
+}
+
+/// Leaves the account in every browser; tokens stay.
+#[utoipa::path(post, path = "/account/logout-everywhere", tag = "account",
+    responses(
+        (status = 204, description = "Left everywhere"),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn log_out_everywhere(
+    State(app): State<App>,
+    Member(account): Member,
+    headers: HeaderMap,
+) -> Result<Response> {
+    app.engine.end_sessions(&account).await?;
+    Ok(left(&headers))
+}
+
+fn left(headers: &HeaderMap) -> Response {
+    let gone = cookie(SESSION, "", 0, is_secure(headers));
+    (StatusCode::NO_CONTENT, AppendHeaders([(header::SET_COOKIE, gone)])).into_response()
+}
+
+/// Changes the password and leaves the account in every browser.
+#[utoipa::path(post, path = "/account/password", tag = "account", request_body = NewPassword,
+    responses(
+        (status = 204, description = "Changed; log in again"),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "The old password is another one", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The new one is too short", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn change_password(
+    State(app): State<App>,
+    Member(account): Member,
+    headers: HeaderMap,
+    Json(asked): Json<NewPassword>,
+) -> Result<Response> {
+    app.limits.count(LOG_IN, &account.name)?;
+    app.engine.change_password(&account, &asked.old, &asked.new).await?;
+    Ok(left(&headers))
+}
+
+/// Asks the curators to be made a developer, who submits plugins.
+#[utoipa::path(post, path = "/account/developer", tag = "account", request_body = Wish,
+    responses(
+        (status = 204, description = "Asked"),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Is one already", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No reason given", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn ask_to_develop(
+    State(app): State<App>,
+    Member(account): Member,
+    Json(wish): Json<Wish>,
+) -> Result<StatusCode> {
+    app.engine.wish_to_develop(&account, &wish.reason).await?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// Tokens for programs, without their secrets.
+#[utoipa::path(get, path = "/account/tokens", tag = "account",
+    responses(
+        (status = 200, body = Vec<TokenInfo>),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn list_tokens(State(app): State<App>, Member(account): Member) -> Result<Answer<Vec<TokenInfo>>> {
+    Ok(Answer(app.engine.tokens(&account).await?))
+}
+
+/// Makes a token; its secret is in this answer and nowhere else.
+#[utoipa::path(post, path = "/account/tokens", tag = "account", request_body = TokenRequest,
+    responses(
+        (status = 201, body = NewToken),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Too many tokens", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No name or no scope", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn make_token(
+    State(app): State<App>,
+    Member(account): Member,
+    Json(asked): Json<TokenRequest>,
+) -> Result<Response> {
+    Ok((StatusCode::CREATED, Answer(app.engine.add_token(&account, asked).await?)).into_response())
+}
+
+/// Ends a token.
+#[utoipa::path(delete, path = "/account/tokens/{id}", tag = "account",
+    params(("id" = String, Path, description = "Token id")),
+    responses(
+        (status = 204, description = "It opens nothing any more"),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such token", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn end_token(
+    State(app): State<App>,
+    Member(account): Member,
+    Path(id): Path<String>,
+) -> Result<StatusCode> {
+    app.engine.end_token(&account, &id).await?;
+    Ok(StatusCode::NO_CONTENT)
+}

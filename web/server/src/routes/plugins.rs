@@ -1,0 +1,180 @@
+//! Plugins that developers bring: sending, looking, following their check, deciding.
+
+use std::collections::VecDeque;
+use std::convert::Infallible;
+use std::time::Duration;
+
+use axum::Extension;
+use axum::Json as Answer;
+use axum::extract::State;
+use axum::http::{StatusCode, header};
+use axum::response::sse::Event;
+use axum::response::{IntoResponse, Response};
+use futures::stream;
+use ocb_engine::Engine;
+use ocb_engine::model::{AccountInfo, Decision, PluginInfo};
+use utoipa::ToSchema;
+
+use crate::App;
+use crate::events::{sse, stopped};
+use crate::extract::{Json, Path};
+use crate::guest::{Curator, Member};
+use crate::limits::SUBMIT;
+use crate::problem::{Problem, Result};
+use crate::upload::Submission;
+
+/// How often a report under way is looked at.
+const LOOK: Duration = Duration::from_millis(300);
+
+/// Whoever is logged in, if anybody is.
+type Viewer = Option<Extension<Member>>;
+
+fn account(viewer: &Viewer) -> Option<&AccountInfo> {
+    viewer.as_ref().map(|Extension(Member(account))| account)
+}
+
+/// The public plugins and those of the visitor, newest first; each one's report and history stand on its own page.
+#[utoipa::path(get, path = "/plugins", tag = "plugins", responses((status = 200, body = Vec<PluginInfo>)))]
+pub(crate) async fn list_plugins(State(app): State<App>, viewer: Viewer) -> Result<Answer<Vec<PluginInfo>>> {
+    Ok(Answer(app.engine.plugins(account(&viewer)).await?))
+}
+
+/// The form of a submission.
+#[derive(ToSchema)]
+#[expect(dead_code, reason = "only described; the form is read as a stream")]
+struct SubmissionForm {
+    /// A `Manifest` as JSON; it comes before the file.
+    manifest: String,
+    /// A shared library of at most 64 MiB.
+    #[schema(value_type = String, format = Binary)]
+    file: Vec<u8>,
+}
+
+/// Sends a plugin, which is then checked. The same bytes twice are one.
+#[utoipa::path(post, path = "/plugins", tag = "plugins",
+    request_body(content = inline(SubmissionForm), content_type = "multipart/form-data"),
+    responses(
+        (status = 201, description = "Stored; its check waits in the queue", body = PluginInfo),
+        (status = 200, description = "Was there already", body = PluginInfo),
+        (status = 400, description = "No such form", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "No developer", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Too many plugins wait, or the quota is used up", body = Problem, content_type = "application/problem+json"),
+        (status = 413, description = "Too large", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No plugin, or no manifest", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many uploads", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn submit_plugin(
+    State(app): State<App>,
+    Member(account): Member,
+    request: axum::extract::Request,
+) -> Result<Response> {
+    app.limits.count(SUBMIT, &account.name)?;
+    // Before anything is read: who may not submit need not send 64 MiB to hear it.
+    app.engine.may_submit(&account)?;
+    let _turn = app.uploads.acquire().await.map_err(Problem::fault)?;
+    let Submission { name, bytes, manifest } = Submission::read(request, &app).await?;
+    let (plugin, new) = app.engine.submit_plugin(&account, &name, bytes, manifest).await?;
+    let status = if new { StatusCode::CREATED } else { StatusCode::OK };
+    let location = format!("/api/v1/plugins/{}", plugin.id);
+    Ok((status, [(header::LOCATION, location)], Answer(plugin)).into_response())
+}
+
+/// One plugin with its report and its history. One that was never public is shown to its author and to curators; to others
+/// it is not there.
+#[utoipa::path(get, path = "/plugins/{id}", tag = "plugins",
+    params(("id" = String, Path, description = "Plugin id")),
+    responses(
+        (status = 200, body = PluginInfo),
+        (status = 404, description = "No such plugin", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn show_plugin(
+    State(app): State<App>,
+    viewer: Viewer,
+    Path(id): Path<String>,
+) -> Result<Answer<PluginInfo>> {
+    Ok(Answer(app.engine.plugin(&id, account(&viewer)).await?))
+}
+
+/// The plugin after every line of its report, as server-sent events; ends with the check.
+#[utoipa::path(get, path = "/plugins/{id}/events", tag = "plugins",
+    params(("id" = String, Path, description = "Plugin id")),
+    responses(
+        (status = 200, description = "The events", body = PluginInfo, content_type = "text/event-stream"),
+        (status = 204, description = "The check is through"),
+        (status = 404, description = "No such plugin", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn follow_plugin(State(app): State<App>, viewer: Viewer, Path(id): Path<String>) -> Result<Response> {
+    let viewer = account(&viewer).cloned();
+    let first = app.engine.plugin(&id, viewer.as_ref()).await?;
+    if !first.state.is_checking() {
+        return Ok(StatusCode::NO_CONTENT.into_response());
+    }
+    let follower = Follower { engine: app.engine.clone(), viewer, id, told: None, ready: VecDeque::from([first]) };
+    let events = stream::unfold(follower, async |mut follower| Some((follower.next().await?, follower)));
+    let events = futures::StreamExt::take_until(events, stopped(app.stopping.clone()));
+    Ok(sse(futures::StreamExt::map(events, Ok::<_, Infallible>)).into_response())
+}
+
+struct Follower {
+    engine: Engine,
+    viewer: Option<AccountInfo>,
+    id: String,
+    /// Lines and state that were told last.
+    told: Option<PluginInfo>,
+    ready: VecDeque<PluginInfo>,
+}
+
+impl Follower {
+    async fn next(&mut self) -> Option<Event> {
+        while self.ready.is_empty() {
+            if self.told.as_ref().is_some_and(|told| !told.state.is_checking()) {
+                return None;
+            }
+            tokio::time::sleep(LOOK).await;
+            // Who may not see it any more hears nothing more.
+            let now = self.engine.plugin(&self.id, self.viewer.as_ref()).await.ok()?;
+            if self.told.as_ref().is_none_or(|told| told.lines.len() != now.lines.len() || told.state != now.state) {
+                self.ready.push_back(now);
+            }
+        }
+        let info = self.ready.pop_front()?;
+        let event = Event::default().id(info.lines.len().to_string()).json_data(&info).ok()?;
+        self.told = Some(info);
+        Some(event)
+    }
+}
+
+/// Takes a step on a plugin's way. The author offers, answers and withdraws; curators decide, but not about their own.
+#[utoipa::path(post, path = "/plugins/{id}/decisions", tag = "plugins", request_body = Decision,
+    params(("id" = String, Path, description = "Plugin id")),
+    responses(
+        (status = 200, description = "The plugin as it is now", body = PluginInfo),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "Somebody else's to decide", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such plugin", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Not a step from where it is", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No such step, or no reason", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn decide(
+    State(app): State<App>,
+    Member(account): Member,
+    Path(id): Path<String>,
+    Json(decision): Json<Decision>,
+) -> Result<Answer<PluginInfo>> {
+    Ok(Answer(app.engine.decide(&id, &account, decision).await?))
+}
+
+/// What waits for a curator, oldest first.
+#[utoipa::path(get, path = "/curation", tag = "curation",
+    responses(
+        (status = 200, body = Vec<PluginInfo>),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "No curator", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn list_curation(
+    State(app): State<App>,
+    Curator(curator): Curator,
+) -> Result<Answer<Vec<PluginInfo>>> {
+    Ok(Answer(app.engine.curation(&curator).await?))
+}

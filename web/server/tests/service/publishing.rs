@@ -1,0 +1,178 @@
+//! A plugin from its upload to the public benchmark, and who sees it on the way.
+
+use ocb_engine::model::Role;
+use reqwest::multipart::{Form, Part};
+use reqwest::{Response, StatusCode};
+use serde_json::{Value, json};
+
+use crate::people::member;
+use crate::stream::follow;
+use crate::support::{Guest, Service, built, problem, small_spec};
+
+/// One of our plugins that this service has not installed: a stranger's, as far as it knows.
+const PLUGIN: &str = "libocb_sphere_tree.so";
+
+fn manifest(version: &str) -> Value {
+    json!({
+        "name": "Sphere tree", "version": version, "authors": "Somebody", "license": "MIT OR Apache-2.0",
+        "queries": ["collision_first", "collision_all", "proximity"],
+    })
+}
+
+async fn submit(guest: &Guest, manifest: &Value, bytes: Vec<u8>) -> Response {
+    let file = Part::bytes(bytes).file_name("tree.so");
+    let form = Form::new().text("manifest", manifest.to_string()).part("file", file);
+    guest.post("/api/v1/plugins").multipart(form).send().await.expect("an answer")
+}
+
+async fn decide(guest: &Guest, id: &str, action: &str, reason: &str) -> Response {
+    let path = format!("/api/v1/plugins/{id}/decisions");
+    guest.post(&path).json(&json!({ "action": action, "reason": reason })).send().await.expect("an answer")
+}
+
+async fn well(response: Response) -> Value {
+    let status = response.status();
+    let body: Value = response.json().await.expect("JSON");
+    assert!(status.is_success(), "{status}: {body:#}");
+    body
+}
+
+async fn offered(guest: &Guest) -> Vec<String> {
+    let all = guest.json("/api/v1/algorithms").await;
+    all.as_array().expect("a list").iter().map(|a| a["id"].as_str().expect("an id").to_owned()).collect()
+}
+
+#[tokio::test]
+async fn a_plugin_is_private_until_a_curator_publishes_it() {
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
+    let author = member(&service, "author", Role::Developer).await;
+    let curator = member(&service, "curator", Role::Curator).await;
+    let (stranger, other) = (service.guest(), member(&service, "other", Role::Developer).await);
+    let bytes = std::fs::read(built().join(PLUGIN)).expect("the plugin is built");
+
+    let response = submit(&author, &manifest("1.0"), bytes.clone()).await;
+    assert_eq!(response.status(), StatusCode::CREATED);
+    let sent = well(response).await;
+    let id = sent["id"].as_str().expect("an id").to_owned();
+    let again = submit(&author, &manifest("1.0"), bytes).await;
+    assert_eq!(again.status(), StatusCode::OK);
+    assert_eq!(well(again).await["id"], id);
+
+    // The stream gives the report line by line and ends with the check.
+    let stream = author.get(&format!("/api/v1/plugins/{id}/events")).send().await.expect("an answer");
+    let text = stream.text().await.expect("the stream ends");
+    let last: Value = serde_json::from_str(text.rsplit("data: ").next().expect("an event").trim()).expect("JSON");
+    assert_eq!(last["state"], "validated", "{last:#}");
+    assert!(text.matches("data: ").count() > 3, "{text}");
+    let lines = last["lines"].as_array().expect("lines");
+    assert!(lines.len() > 15 && lines.iter().all(|line| line["verdict"] != "fail"), "{last:#}");
+    let many = lines.iter().find(|line| line["check"] == "sphere-tree: first contact, many times").expect("a line");
+    println!("{}", many["evidence"]);
+
+    // Its author may benchmark it; nobody else knows of it, nor of the run.
+    let own = "sphere-tree@1.0";
+    assert!(offered(&author).await.iter().any(|a| a == own));
+    for nobody in [&stranger, &other] {
+        assert!(!offered(nobody).await.iter().any(|a| a.starts_with("sphere-tree")));
+        for path in [format!("/api/v1/plugins/{id}"), format!("/api/v1/plugins/{id}/events")] {
+            problem(nobody.get(&path).send().await.expect("an answer"), 404).await;
+        }
+        problem(decide(nobody, &id, "withdraw", "x").await, if std::ptr::eq(nobody, &stranger) { 401 } else { 404 })
+            .await;
+        assert_eq!(nobody.json("/api/v1/plugins").await, json!([]));
+    }
+    let mut spec = small_spec();
+    spec["algorithms"] = json!(["box-tree", own]);
+    let response = stranger.post("/api/v1/runs").json(&spec).send().await.expect("an answer");
+    assert!(problem(response, 422).await.contains("There is no algorithm"));
+    let run = author.start(&spec).await;
+    follow(&author, &run, 0).await;
+    assert_eq!(author.json(&format!("/api/v1/runs/{run}")).await["state"], "done");
+    let below =
+        ["", "/events", "/ecdf?algorithm=box-tree", "/records.csv?algorithm=box-tree", "/configurations.parquet"];
+    for nobody in [&stranger, &other, &curator] {
+        for rest in below {
+            let hidden =
+                problem(nobody.get(&format!("/api/v1/runs/{run}{rest}")).send().await.expect("an answer"), 404).await;
+            assert_eq!(hidden, format!("There is no run {run:?}; check the link."));
+        }
+        let cancelled = nobody.post(&format!("/api/v1/runs/{run}/cancel")).send().await.expect("an answer");
+        problem(cancelled, 404).await;
+    }
+
+    // Steps in their order, each by who may take it.
+    problem(decide(&curator, &id, "approve", "").await, 409).await;
+    problem(decide(&curator, &id, "offer", "").await, 403).await;
+    well(decide(&author, &id, "offer", "").await).await;
+    assert_eq!(curator.json("/api/v1/curation").await[0]["id"], id);
+    problem(decide(&author, &id, "approve", "").await, 403).await;
+    problem(decide(&curator, &id, "ask", " ").await, 422).await;
+    well(decide(&curator, &id, "ask", "Where is the source?").await).await;
+    assert_eq!(author.json(&format!("/api/v1/plugins/{id}")).await["reason"], "Where is the source?");
+    well(decide(&author, &id, "answer", "In this repository.").await).await;
+    well(decide(&curator, &id, "approve", "").await).await;
+
+    // Now it is everybody's, under its plain name.
+    assert!(offered(&stranger).await.iter().any(|a| a == "sphere-tree"));
+    let shown = stranger.json(&format!("/api/v1/plugins/{id}")).await;
+    assert_eq!((&shown["state"], &shown["owner"], &shown["flags"]), (&json!("public"), &json!("author"), &json!([])));
+    let words: Vec<&str> =
+        shown["history"].as_array().expect("a history").iter().filter_map(|e| e["action"].as_str()).collect();
+    assert_eq!(words, ["submitted", "validated", "offered", "asked", "answered", "approved"]);
+    spec["algorithms"] = json!(["box-tree", "sphere-tree"]);
+    let run = stranger.start(&spec).await;
+    follow(&stranger, &run, 0).await;
+    let results = stranger.json(&format!("/api/v1/runs/{run}")).await["results"].clone();
+    assert_eq!(results[1]["wrong"], 0, "{results:#}");
+    assert_eq!(other.json(&format!("/api/v1/runs/{run}")).await["state"], "done");
+
+    // Another version of it must say so, and nobody decides about their own.
+    problem(decide(&author, &id, "suspend", "x").await, 403).await;
+    well(decide(&curator, &id, "suspend", "It crashes on new objects.").await).await;
+    assert!(!offered(&stranger).await.iter().any(|a| a == "sphere-tree"));
+    well(decide(&author, &id, "withdraw", "").await).await;
+    assert_eq!(stranger.json(&format!("/api/v1/plugins/{id}")).await["state"], "withdrawn");
+    assert_eq!(service.engine.broken_audit().await.expect("a log"), None);
+    service.stop().await;
+}
+
+#[tokio::test]
+async fn what_is_no_plugin_is_refused_before_anything_is_kept() {
+    let service = Service::start_with(&["libocb_box_tree.so"]).await;
+    let author = member(&service, "author", Role::Developer).await;
+    let elf = || b"\x7fELF and nothing behind it".to_vec();
+    let told = problem(submit(&author, &manifest("1.0"), b"hello".to_vec()).await, 422).await;
+    assert!(told.contains("no ELF file"), "{told}");
+    for (field, value, expected) in [
+        ("license", json!("free as in beer"), "SPDX"),
+        ("version", json!("one two"), "version"),
+        ("source", json!("javascript:alert(1)"), "https://"),
+        ("queries", json!([]), "queries"),
+        ("queries", json!(["telepathy"]), "telepathy"),
+        ("colour", json!("red"), "colour"),
+    ] {
+        let mut manifest = manifest("1.0");
+        manifest[field] = value;
+        let told = problem(submit(&author, &manifest, elf()).await, 422).await;
+        assert!(told.contains(expected), "{field}: {told}");
+    }
+    let file = Form::new().part("file", Part::bytes(elf()).file_name("x.so"));
+    let sent = author.post("/api/v1/plugins").multipart(file).send().await.expect("an answer");
+    assert!(problem(sent, 400).await.contains("manifest"));
+    assert_eq!(author.json("/api/v1/plugins").await, json!([]));
+
+    // An ELF file that is no plugin fails its check.
+    let sent = well(submit(&author, &manifest("1.0"), elf()).await).await;
+    let sent = failed(&author, &sent).await;
+    assert!(sent["reason"].as_str().expect("a reason").contains("ELF gate"), "{sent:#}");
+    service.stop().await;
+}
+
+async fn failed(guest: &Guest, sent: &Value) -> Value {
+    let path = format!("/api/v1/plugins/{}", sent["id"].as_str().expect("an id"));
+    let stream = guest.get(&format!("{path}/events")).send().await.expect("an answer");
+    stream.text().await.expect("the stream ends");
+    let now = guest.json(&path).await;
+    assert_eq!(now["state"], "failed", "{now:#}");
+    now
+}
