@@ -14,9 +14,11 @@ mod output;
 mod placing;
 mod plugin;
 mod run;
+mod select;
 mod serve;
 mod truth;
 mod units;
+mod worst;
 
 use std::process::ExitCode;
 
@@ -53,5 +55,7 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Run { command } => run::run(&store, &command, json).await,
         Command::Doctor => doctor::doctor(&store, json),
         Command::Heatmap(args) => heatmap::heatmap(&store, &args, json).await,
+        Command::Worst(args) => worst::worst(&store, &args, json).await,
+        Command::Select(args) => select::select(&store, &args, json).await,
     }
 }

@@ -3,6 +3,7 @@
 //! The meaning of each column, its unit and its frame stand in `host/README.md`; the file itself carries the schema
 //! version, the run, the hardware class and the plugin's hash as key-value metadata.
 
+mod ipc;
 mod records;
 mod sets;
 mod truths;
@@ -12,7 +13,8 @@ use std::collections::HashMap;
 use std::fmt::Write;
 use std::sync::Arc;
 
-use arrow::array::{ArrayRef, RecordBatch};
+use arrow::array::{ArrayRef, BooleanArray, RecordBatch, UInt32Array};
+use arrow::compute::{concat_batches, filter_record_batch};
 use arrow::datatypes::Schema;
 use arrow::util::display::{ArrayFormatter, FormatOptions};
 use parquet::arrow::ArrowWriter;
@@ -22,6 +24,7 @@ use parquet::file::properties::WriterProperties;
 
 use crate::{EngineError, Result};
 
+pub use ipc::{Numbers, stream};
 pub use records::{RecordColumns, RecordsOf, read_records, records_parquet};
 pub use sets::{SetOf, read_poses, read_set, set_parquet};
 pub use truths::{contacts_parquet, truths_parquet};
@@ -63,6 +66,17 @@ pub fn csv(parquet: &[u8]) -> Result<Vec<u8>> {
         }
     }
     Ok(text.into_bytes())
+}
+
+/// The rows of a file of records whose configuration is chosen.
+pub fn select(parquet: &[u8], chosen: &[bool]) -> Result<Vec<u8>> {
+    let fault = |e: String| EngineError::Fault(format!("Selecting records failed: {e}."));
+    let (schema, batches) = from_parquet(parquet).map_err(fault)?;
+    let all = concat_batches(&schema, &batches).map_err(|e| fault(e.to_string()))?;
+    let configurations = column::<UInt32Array>(&all, "configuration").map_err(fault)?.values();
+    let mask: BooleanArray =
+        configurations.iter().map(|&i| Some(chosen.get(i as usize).copied().unwrap_or(false))).collect();
+    to_parquet(&filter_record_batch(&all, &mask).map_err(|e| fault(e.to_string()))?)
 }
 
 /// As RFC 4180 has it.

@@ -3,6 +3,7 @@
 mod featured;
 mod follow;
 mod runs;
+mod selecting;
 mod sets;
 
 pub use sets::SetJob;
@@ -17,6 +18,7 @@ use ocb_core::colormap::{Colormap, Scale};
 use ocb_core::configuration::{ConfigurationSet, Method};
 use ocb_core::heatmap::VertexMap;
 use ocb_core::mesh::Mesh;
+use ocb_core::oracle::Shape;
 use tokio::sync::Notify;
 use tokio::task::JoinHandle;
 
@@ -63,6 +65,7 @@ pub struct Inner {
     pub sets: Cache<ConfigurationSet>,
     pub records: Cache<RecordColumns>,
     pub maps: Cache<VertexMap>,
+    pub shapes: Cache<Shape>,
     closing: AtomicBool,
     dispatcher: Mutex<VecDeque<JoinHandle<()>>>,
     /// Held as long as this process uses the folder.
@@ -99,6 +102,7 @@ impl Engine {
             sets: Cache::new(4),
             records: Cache::new(16),
             maps: Cache::new(8),
+            shapes: Cache::new(4),
             closing: AtomicBool::new(false),
             dispatcher: Mutex::new(VecDeque::new()),
             _lock: lock,

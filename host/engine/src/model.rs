@@ -5,6 +5,7 @@
 mod contract;
 mod heatmap;
 mod plugin;
+mod selecting;
 mod timing;
 mod truth;
 
@@ -18,6 +19,7 @@ use utoipa::ToSchema;
 pub use contract::{ContractClass, Delivered, Order};
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
 pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport};
+pub use selecting::{Meeting, Selected, SelectedOf, WorstBy, WorstCase, WorstRequest};
 pub use timing::{Draw, Reference, Timing, TimingCheck};
 pub use truth::{ContactRow, TruthRow};
 

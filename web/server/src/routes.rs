@@ -5,6 +5,7 @@ mod heatmaps;
 mod objects;
 mod records;
 mod runs;
+mod selecting;
 mod service;
 
 use axum::Router;
@@ -58,6 +59,11 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(records::records_parquet))
         .routes(routes!(records::records_csv))
         .routes(routes!(records::configurations_parquet))
+        .routes(routes!(selecting::show_selection))
+        .routes(routes!(selecting::list_worst))
+        .routes(routes!(selecting::show_meeting))
+        .routes(routes!(selecting::columns_arrow))
+        .routes(routes!(selecting::witnesses_arrow))
         .routes(routes!(runs::featured_run))
         .routes(routes!(service::show_status))
         .routes(routes!(service::show_document));

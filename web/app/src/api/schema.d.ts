@@ -178,6 +178,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{id}/columns.arrow": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Every column that selections know of one algorithm, one value per configuration of the set (NaN where there is none),
+         *     as an Arrow IPC stream. Columns that cannot be had are left out.
+         */
+        get: operations["columns_arrow"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{id}/configurations.parquet": {
         parameters: {
             query?: never;
@@ -187,6 +207,23 @@ export interface paths {
         };
         /** The run's configurations with their truth as Parquet; `ocb bench --configurations` reads it again. */
         get: operations["configurations_parquet"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{id}/configurations/{configuration}/contacts": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** All pairs of triangles that meet in one configuration, by the oracle. */
+        get: operations["show_meeting"];
         put?: never;
         post?: never;
         delete?: never;
@@ -319,6 +356,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{id}/selection": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** How many configurations a selection holds, and what they cost each algorithm. */
+        get: operations["show_selection"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{id}/vertices/{vertex}": {
         parameters: {
             query?: never;
@@ -328,6 +382,43 @@ export interface paths {
         };
         /** The value at one vertex, as the heatmap has it. */
         get: operations["show_vertex"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{id}/witnesses.arrow": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Where every configuration has its witness points, in the objects' own frames, the triangles that hold them, and the
+         *     certified distance, as an Arrow IPC stream.
+         */
+        get: operations["witnesses_arrow"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{id}/worst": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The worst configurations of an algorithm: wrong answers first, missed collisions before all. */
+        get: operations["list_worst"];
         put?: never;
         post?: never;
         delete?: never;
@@ -685,36 +776,57 @@ export interface components {
             dropped: number[];
             /**
              * Format: int32
-             * @description Configurations that went in.
+             * @description Configurations that went in; of a difference, those of the map that has fewer.
              */
             n: number;
             /** @description Smallest and largest value; absent when no vertex has one. */
             range?: number[] | null;
-            /** @description What was asked. */
+            /** @description What is shown: what was asked, but for what the measure leaves no choice of. */
             request: components["schemas"]["HeatmapRequest"];
-            /** @description Unit of the values (`ns`, `tests`, `configurations`). */
+            /** @description Unit of the values (`ns`, `tests`, `configurations`, `share`, `u S`). */
             unit: string;
             /** @description One per vertex, in the object's vertex order; null where there is none. */
             values: (number | null)[];
         };
         /** @description Which map; the query string of every heatmap route. */
         HeatmapRequest: {
+            /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
+            against?: string | null;
+            /** @description Subtract the values of another run on the same object; of the same algorithm unless `against` names another one. */
+            against_run?: string | null;
             /** @description Algorithm id (ignored for density). */
             algorithm: string;
             /** @description What to show. */
             measure: components["schemas"]["Measure"];
-            /** @description What to do with outliers. */
+            /** @description What to do with outliers. Of failures none is dropped. */
             outliers: components["schemas"]["Outliers"];
             /** @description Which object. */
             side?: components["schemas"]["Side"];
             /** @description Which statistic. */
             statistic: components["schemas"]["Statistic"];
+            /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
+            where?: string | null;
         };
         /**
          * @description What to colour an object by.
          * @enum {string}
          */
-        Measure: "time" | "bv_tests" | "primitive_tests" | "density";
+        Measure: "time" | "bv_tests" | "primitive_tests" | "density" | "wrong" | "missed" | "false_alarms" | "distance_error" | "flips" | "disagreement";
+        /** @description All pairs of triangles that meet in one configuration. */
+        Meeting: {
+            /**
+             * Format: int32
+             * @description Index of the configuration in the set.
+             */
+            configuration: number;
+            /** @description The pairs (triangle of A, triangle of B), at most 100,000. */
+            pairs: number[][];
+            /**
+             * Format: int32
+             * @description Pairs that meet.
+             */
+            total: number;
+        };
         /** @description How the configurations of a set were found. */
         Method: {
             /** @enum {string} */
@@ -1045,6 +1157,53 @@ export interface components {
             /** @enum {string} */
             kind: "count";
         };
+        /** @description How many configurations a selection holds, and what they cost. */
+        Selected: {
+            /** @description Every algorithm of the run that has records. */
+            algorithms: components["schemas"]["SelectedOf"][];
+            /**
+             * Format: int32
+             * @description Configurations in it.
+             */
+            n: number;
+            /**
+             * Format: int32
+             * @description Configurations in the set.
+             */
+            of: number;
+            /** @description The selection as it was understood. */
+            where: string;
+        };
+        /** @description The selected configurations of one algorithm. */
+        SelectedOf: {
+            /** @description Algorithm id. */
+            algorithm: string;
+            /**
+             * Format: double
+             * @description Largest time.
+             */
+            max_ns?: number | null;
+            /**
+             * Format: double
+             * @description Median time, nanoseconds; absent without any.
+             */
+            median_ns?: number | null;
+            /**
+             * Format: int32
+             * @description Selected configurations on which it was measured.
+             */
+            n: number;
+            /**
+             * Format: double
+             * @description 99th percentile of the time.
+             */
+            p99_ns?: number | null;
+            /**
+             * Format: int32
+             * @description Wrong answers among them.
+             */
+            wrong: number;
+        };
         /**
          * @description What counts as an object.
          * @enum {string}
@@ -1291,7 +1450,7 @@ export interface components {
              * @description Values that outlier removal took from it.
              */
             dropped: number;
-            /** @description Unit of the value (`ns`, `tests`, `configurations`). */
+            /** @description Unit of the value, as in the heatmap. */
             unit: string;
             /**
              * Format: double
@@ -1303,6 +1462,55 @@ export interface components {
              * @description Vertex index, from 0, in the object's order.
              */
             vertex: number;
+        };
+        /** @description One of the worst configurations of an algorithm. */
+        WorstCase: {
+            /**
+             * Format: int32
+             * @description Index of the configuration in the set.
+             */
+            configuration: number;
+            /**
+             * Format: double
+             * @description The answer: how far apart.
+             */
+            distance?: number | null;
+            /**
+             * Format: double
+             * @description How far that lies outside the certified interval, in u S.
+             */
+            error?: number | null;
+            /**
+             * Format: int32
+             * @description Answers to equivalent instances that contradict the first one; absent in old records.
+             */
+            flips?: number | null;
+            /** @description The answer: do they collide; absent when a distance was asked, or nothing answered. */
+            hit?: boolean | null;
+            /**
+             * Format: double
+             * @description How far every vertex may move and the crossing still holds.
+             */
+            margin: number;
+            /** @description Certified witness points in the world, on A and on B; a common point twice when they collide. */
+            points: number[][];
+            /** @description Pose of A: object to world, row-major 4x4. */
+            pose_a: number[];
+            /** @description Pose of B. */
+            pose_b: number[];
+            /**
+             * Format: double
+             * @description Time of the query, nanoseconds.
+             */
+            time_ns: number;
+            /** @description The triangles of A and B that hold them. */
+            triangles: number[];
+            /** @description The truth: certified bounds of the distance. */
+            true_distance: number[];
+            /** @description The truth: do they collide. */
+            true_hit: boolean;
+            /** @description What the answer is worth. */
+            verdict: components["schemas"]["Verdict"];
         };
     };
     responses: never;
@@ -1745,6 +1953,41 @@ export interface operations {
             };
         };
     };
+    columns_arrow: {
+        parameters: {
+            query: {
+                /** @description Algorithm id. */
+                algorithm: string;
+            };
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The columns by their names in selections */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.apache.arrow.stream": number[];
+                };
+            };
+            /** @description No such run, or no records of this algorithm */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     configurations_parquet: {
         parameters: {
             query?: never;
@@ -1767,6 +2010,39 @@ export interface operations {
                 };
             };
             /** @description No such run, or no configurations yet */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_meeting: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+                /** @description Index in the set, from 0 */
+                configuration: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Meeting"];
+                };
+            };
+            /** @description No such run or configuration */
             404: {
                 headers: {
                     [name: string]: unknown;
@@ -1873,8 +2149,14 @@ export interface operations {
                 measure: components["schemas"]["Measure"];
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
-                /** @description What to do with outliers. */
+                /** @description What to do with outliers. Of failures none is dropped. */
                 outliers: components["schemas"]["Outliers"];
+                /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
+                against?: string;
+                /** @description Subtract the values of another run on the same object; of the same algorithm unless `against` names another one. */
+                against_run?: string;
+                /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
+                where?: string;
             };
             header?: never;
             path: {
@@ -1911,6 +2193,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description No such values: errors of a run that asked no distances, another object, ... */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     heatmap_glb: {
@@ -1924,10 +2215,16 @@ export interface operations {
                 measure: components["schemas"]["Measure"];
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
-                /** @description What to do with outliers. */
+                /** @description What to do with outliers. Of failures none is dropped. */
                 outliers: components["schemas"]["Outliers"];
+                /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
+                against?: string;
+                /** @description Subtract the values of another run on the same object; of the same algorithm unless `against` names another one. */
+                against_run?: string;
+                /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
+                where?: string;
                 /** @description Colormap. */
-                colormap?: "turbo" | "viridis" | "cividis";
+                colormap?: "turbo" | "viridis" | "cividis" | "purple_orange";
                 /** @description Scale. */
                 scale?: "linear" | "log";
             };
@@ -1980,10 +2277,16 @@ export interface operations {
                 measure: components["schemas"]["Measure"];
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
-                /** @description What to do with outliers. */
+                /** @description What to do with outliers. Of failures none is dropped. */
                 outliers: components["schemas"]["Outliers"];
+                /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
+                against?: string;
+                /** @description Subtract the values of another run on the same object; of the same algorithm unless `against` names another one. */
+                against_run?: string;
+                /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
+                where?: string;
                 /** @description Colormap. */
-                colormap?: "turbo" | "viridis" | "cividis";
+                colormap?: "turbo" | "viridis" | "cividis" | "purple_orange";
                 /** @description Scale. */
                 scale?: "linear" | "log";
             };
@@ -2030,6 +2333,8 @@ export interface operations {
             query: {
                 /** @description Algorithm id. */
                 algorithm: string;
+                /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
+                where?: string;
             };
             header?: never;
             path: {
@@ -2058,6 +2363,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The selection cannot be read or applied */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     records_parquet: {
@@ -2065,6 +2379,8 @@ export interface operations {
             query: {
                 /** @description Algorithm id. */
                 algorithm: string;
+                /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
+                where?: string;
             };
             header?: never;
             path: {
@@ -2093,6 +2409,60 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The selection cannot be read or applied */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_selection: {
+        parameters: {
+            query: {
+                /** @description Algorithm whose columns are meant where the selection names none. */
+                algorithm: string;
+                /** @description The selection, e.g. `time in [500us, 15ms] & bv of parry in [1200, 35000] & near(vertex 8367, 0.05)`. */
+                where: string;
+            };
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Selected"];
+                };
+            };
+            /** @description No such run, or no records of an algorithm */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The selection cannot be read or applied */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     show_vertex: {
@@ -2106,8 +2476,14 @@ export interface operations {
                 measure: components["schemas"]["Measure"];
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
-                /** @description What to do with outliers. */
+                /** @description What to do with outliers. Of failures none is dropped. */
                 outliers: components["schemas"]["Outliers"];
+                /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
+                against?: string;
+                /** @description Subtract the values of another run on the same object; of the same algorithm unless `against` names another one. */
+                against_run?: string;
+                /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
+                where?: string;
             };
             header?: never;
             path: {
@@ -2139,6 +2515,96 @@ export interface operations {
             };
             /** @description No such run, values or vertex */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such values: errors of a run that asked no distances, another object, ... */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    witnesses_arrow: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description distance, triangle_a, triangle_b, a_x .. b_z */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.apache.arrow.stream": number[];
+                };
+            };
+            /** @description No such run, or no configurations yet */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_worst: {
+        parameters: {
+            query: {
+                /** @description Algorithm id. */
+                algorithm: string;
+                /** @description What counts as worse, after wrong answers, which always come first. */
+                by?: "time" | "error";
+                /** @description How many at most, 1 to 1000 [default: 100]. */
+                limit?: number;
+                /** @description Only among the configurations of this selection. */
+                where?: string;
+            };
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WorstCase"][];
+                };
+            };
+            /** @description No such run, or no records of this algorithm */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such list: errors of a run that asked no distances, a selection that cannot be read */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };
