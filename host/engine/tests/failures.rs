@@ -81,13 +81,9 @@ async fn failures_of_collision_answers_are_shown_where_they_are() {
     assert_eq!(turned.range.unwrap()[0], -bad.range.unwrap()[1]);
     let again = engine.heatmap(&run.id, &minus(None, Some(&run.id), "parry-f32")).await.unwrap();
     assert!(values(&again).iter().all(|x| *x == 0.0) && values(&again).len() == times);
-    let glb = engine.heatmap_glb(
-        &run.id,
-        &minus(Some("box-tree"), None, "parry-f32"),
-        Default::default(),
-        Default::default(),
-    );
-    let glb = String::from_utf8_lossy(&glb.await.unwrap()).into_owned();
+    let subtracted = minus(Some("box-tree"), None, "parry-f32");
+    let glb = engine.heatmap_glb(&run.id, &subtracted, Default::default(), Default::default()).await.unwrap();
+    let glb = String::from_utf8_lossy(&glb).into_owned();
     assert!(glb.contains(r#""against":"box-tree""#) && glb.contains(r#""colormap":"purple_orange""#));
 
     // What a collision run cannot show is told.

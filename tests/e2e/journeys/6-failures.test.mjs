@@ -3,9 +3,9 @@ import assert from 'node:assert/strict'
 import { test } from 'node:test'
 import { until, visitor } from '../visitor.mjs'
 
-// Asked ten times nearer than parry in single precision can tell: some of its answers are really wrong.
+// So near that parry in single precision gets some answers wrong, though its arithmetic could tell.
 const SPEC = {
-  object_a: 'stock:torus-knot@2000', query: 'collision_first', step: 1e-5, passes: 1, budget_seconds: 10,
+  object_a: 'stock:torus-knot@2000', query: 'collision_first', step: 2e-4, passes: 1, budget_seconds: 10,
   algorithms: ['box-tree', 'parry-f32'],
   method: { kind: 'sphere', seed: 6, sampling: { kind: 'count', count: 400 } },
 }
@@ -36,9 +36,9 @@ test('failures stand on the object, zero as zero, and are subtracted, brushed, l
   const wrong = run.results.find(({ algorithm }) => algorithm === 'parry-f32').wrong
   assert.ok(wrong > 0 && wrong < run.set.configurations)
 
-  await v.go(`/r/${run.id}?m=wrong`)
+  await v.go(`/r/${run.id}?m=wrong&c=viridis`)
   await until('words', async () => (await v.at('failure-words').count()) && /parry.*above 0 at/i.test(await v.at('failure-words').textContent()))
-  assert.match(await v.at('failure-words').textContent(), /Box tree: 0 at all/i)
+  assert.match(await v.at('failure-words').textContent(), /BoxTree: 0 at all/)
   assert.match(await v.at('legend').textContent(), /Wrong answers, share.*n = /)
   // What is 0 everywhere is drawn in the colour of 0, not as missing.
   await until('the colour of zero', async () => (await v.colours(v.at('viewer-0'))).coloured > 500)
@@ -89,9 +89,10 @@ test('failures stand on the object, zero as zero, and are subtracted, brushed, l
   await until('no selection', async () => (await v.at('selection-name-0').count()) === 0)
 
   // A double click is a ball, too; renamed, it is still there after coming back by the link.
+  await v.page.evaluate(() => scrollTo(0, 0))
   const picture = await v.at('viewer-0').boundingBox()
   await until('a ball', async () => {
-    for (const [x, y] of [[0.5, 0.35], [0.4, 0.5], [0.6, 0.6], [0.5, 0.7]]) {
+    for (const [x, y] of [[0.2, 0.35], [0.5, 0.22], [0.75, 0.45], [0.5, 0.35], [0.4, 0.5]]) {
       await v.page.mouse.dblclick(picture.x + x * picture.width, picture.y + y * picture.height)
       await v.page.waitForTimeout(200)
       if (await v.at('selection-name-0').count()) return true

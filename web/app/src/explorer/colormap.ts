@@ -9,7 +9,7 @@ const INTERPOLATE: Record<Colormap, (t: number) => string> = {
   turbo: interpolateTurbo,
   viridis: interpolateViridis,
   cividis: interpolateCividis,
-  purple_orange: (t) => interpolatePuOr(1 - t),
+  purple_orange: interpolatePuOr,
 }
 
 /** Entries of the lookup table that the shader reads. */

@@ -36,8 +36,8 @@ export function useLegend(maps: ComputedRef<Heatmap[]>, state: ComputedRef<Explo
       n: Math.max(...maps.value.map(({ n }) => n)),
       range: [sorted.value[0] ?? 0, sorted.value.at(-1) ?? 0],
       bars: histogram(sorted.value, scale, BARS),
-      // The counts of a density are its values: few of them are no doubt about it.
-      coverage: state.value.measure === 'density' ? { ...covered.value, few: 0 } : covered.value,
+      // The counts of a density are its values, and of failures one counts: few of them are no doubt about it.
+      coverage: measure === 'density' || measure in FAILURE ? { ...covered.value, few: 0 } : covered.value,
     }
   })
 }

@@ -20,7 +20,7 @@ export interface ViewerEvents {
   /** The reader asked for the value at a place of pane number `pane`. */
   pick?: (hit: Hit, pane: number) => void
   /** The reader chose a region around a place: a double click, or B. */
-  region?: (hit: Hit) => void
+  region?: (vertex: number) => void
   /** The camera came to rest. */
   camera?: (view: number[]) => void
 }
@@ -179,11 +179,10 @@ export class HeatmapViewer {
     if (box) this.pickAt(box.left + box.width / 2, box.top + box.height / 2)
   }
 
-  /** Chooses the region around the place in the middle of a pane. */
-  regionCentre(pane: number): void {
+  /** The vertex in the middle of a pane; null where the surface is not. */
+  centre(pane: number): number | null {
     const box = this.panes[pane]?.element.getBoundingClientRect()
-    const found = box && this.hitAt(box.left + box.width / 2, box.top + box.height / 2)
-    if (found) this.events.region?.(found.hit)
+    return (box && this.hitAt(box.left + box.width / 2, box.top + box.height / 2)?.hit.vertex) ?? null
   }
 
   /** Draws before the next repaint, however often it is asked. */
@@ -265,7 +264,7 @@ export class HeatmapViewer {
 
   private readonly regionAt = (event: MouseEvent): void => {
     const found = this.hitAt(event.clientX, event.clientY)
-    if (found) this.events.region?.(found.hit)
+    if (found) this.events.region?.(found.hit.vertex)
   }
 
   private pickAt(clientX: number, clientY: number): void {

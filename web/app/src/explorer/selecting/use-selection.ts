@@ -7,8 +7,8 @@ import type { Answer, Question, SurfaceData } from './engine'
 import type { Column } from './language'
 import type { Message, Reply } from './worker'
 
-/** Cells of the chart: two pixels each at its usual size. */
-export const CELLS: [number, number] = [170, 110]
+/** Cells of the chart: two pixels each at its usual size, larger where single points would be lost. */
+const cells = (configurations: number): [number, number] => (configurations > 5000 ? [170, 110] : [85, 55])
 
 /**
  * The configurations behind the pictures: what the selections hold, for chart, surface and table. The work is a
@@ -47,7 +47,7 @@ export function useSelection(run: ComputedRef<RunInfo>, state: ComputedRef<Explo
           lookedAt: lookedAt.value,
           side: state.value.side,
           y: across.value,
-          cells: CELLS,
+          cells: cells(run.value.set?.configurations ?? 0),
           algorithms: measured(run.value).map(({ id }) => id),
         },
   )
