@@ -53,9 +53,10 @@ export class PairViewer {
       const material = new MeshLambertMaterial({
         color: this.colour(side === 0 ? '--series-0' : '--series-1'), side: DoubleSide, transparent: true, opacity: side === 0 ? 0.42 : 0.34, depthWrite: false,
       })
-      this.place(new Mesh(surface, material), pose)
-      surface.computeBoundingBox()
-      if (surface.boundingBox) box.union(surface.boundingBox.clone().applyMatrix4(pose))
+      const mesh = new Mesh(surface, material)
+      this.place(mesh, pose)
+      mesh.updateMatrixWorld(true)
+      box.expandByObject(mesh, true)
       const lit = triangles(surface, posed.triangles[side] ?? [])
       this.place(new Mesh(lit, new MeshBasicMaterial({ color: this.colour('--bad'), side: DoubleSide, depthTest: false })), pose)
     })
