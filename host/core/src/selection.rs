@@ -144,7 +144,7 @@ pub trait Columns {
     fn column(&self, column: Column, of: Option<&str>) -> Result<Cow<'_, [f64]>, Self::Error>;
 
     /// Distance of each witness point on the object from a vertex, as a share of the longest side of the object's box.
-    fn from_vertex(&self, body: Body, vertex: u32) -> Result<Vec<f64>, Self::Error>;
+    fn distance_from(&self, body: Body, vertex: u32) -> Result<Vec<f64>, Self::Error>;
 }
 
 impl Selection {
@@ -161,7 +161,7 @@ impl Selection {
             }
             Self::Flag { column, of } => columns.column(*column, of.as_deref())?.iter().map(|x| *x > 0.0).collect(),
             Self::Near { body, vertex, radius } => {
-                columns.from_vertex(*body, *vertex)?.iter().map(|x| x <= radius).collect()
+                columns.distance_from(*body, *vertex)?.iter().map(|x| x <= radius).collect()
             }
             Self::Not(one) => one.apply(columns)?.into_iter().map(|x| !x).collect(),
             Self::All(all) => many(all, |x, y| x && y)?,

@@ -26,7 +26,7 @@ impl Columns for Examples {
         self.get(&format!("{}{of}", column.name())).map(Cow::Owned)
     }
 
-    fn from_vertex(&self, body: Body, vertex: u32) -> Result<Vec<f64>, String> {
+    fn distance_from(&self, body: Body, vertex: u32) -> Result<Vec<f64>, String> {
         self.get(&format!("near {} {vertex}", format!("{body:?}").to_lowercase()))
     }
 }

@@ -154,7 +154,7 @@ impl Table {
 
     /// Share of the other algorithms that contradict this one, of those that answered.
     fn disputes(&self, lane: &Lane) -> Result<Vec<f64>> {
-        let mut said = self.said(lane);
+        let said = self.said(lane);
         let (mut against, mut others) = (vec![0.0; said.len()], vec![0.0; said.len()]);
         let grain = [self.grain(U32), self.grain(U64)];
         let tau = |lane: &Lane, i: usize| 32.0 * grain[usize::from(lane.bits != 32)][i];
@@ -172,7 +172,7 @@ impl Table {
             let sentence = "Disagreement needs a second algorithm that answered the same configurations.";
             return Err(EngineError::Invalid(sentence.into()));
         }
-        Ok(said.drain(..).zip(against.iter().zip(others)).map(|(_, (n, of))| n / of).collect())
+        Ok(against.into_iter().zip(others).map(|(n, of): (f64, f64)| n / of).collect())
     }
 
     /// What an algorithm answered to each configuration; nothing where it was silent or not measured.
@@ -226,7 +226,7 @@ impl Columns for Table {
         }))
     }
 
-    fn from_vertex(&self, body: Body, vertex: u32) -> Result<Vec<f64>> {
+    fn distance_from(&self, body: Body, vertex: u32) -> Result<Vec<f64>> {
         let mesh = &self.meshes[body as usize];
         let Some(middle) = mesh.positions().get(vertex as usize) else {
             let vertices = mesh.positions().len();
