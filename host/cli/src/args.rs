@@ -9,7 +9,7 @@ use ocb_engine::Profile;
 
 use crate::board::BoardArgs;
 use crate::chart::ChartArgs;
-use crate::choice::{ColormapArg, MeasureArg, OutliersArg, ScaleArg, SideArg, StatisticArg};
+use crate::choice::{ColormapArg, MeasureArg, OutliersArg, ScaleArg, SideArg, StatisticArg, WorstByArg};
 use crate::placing::PlacingArgs;
 
 /// Benchmarks of collision detection.
@@ -127,7 +127,20 @@ pub enum Command {
     Chart(ChartArgs),
     /// Write a heatmap of a run as .glb, .ply or .csv.
     Heatmap(HeatmapArgs),
+    /// List the configurations on which an algorithm was worst: wrong answers first, then by time or error.
+    #[command(after_help = SELECTIONS)]
+    Worst(WorstArgs),
+    /// Count the configurations of a selection and what they cost each algorithm, or write their records.
+    #[command(after_help = SELECTIONS)]
+    Select(SelectArgs),
 }
+
+const SELECTIONS: &str = "A selection is made of
+  COLUMN [of ALGORITHM] in [LOW, HIGH]   time (ns, us, ms, s), bv, primitives, error (u S), distance
+  FLAG [of ALGORITHM]                    wrong, missed, false_alarm, flipped, disputed
+  near([a|b] vertex N, R)                witness point within R times the object's longest side of vertex N
+joined by & (and), | (or), ! (not) and brackets, e.g.
+  'time in [500us, 15ms] & bv in [1200, 35000] & near(vertex 8367, 0.05)'";
 
 /// `ocb serve`
 #[derive(Debug, Args)]
@@ -369,7 +382,51 @@ pub struct HeatmapArgs {
     /// Colours.
     #[arg(long, value_enum, default_value_t = ColormapArg::Turbo)]
     pub colormap: ColormapArg,
+    /// Subtract the values of this algorithm; colours are purple (less), white (0) and orange (more).
+    #[arg(long, value_name = "ID")]
+    pub against: Option<String>,
+    /// Subtract the values of this run on the same object.
+    #[arg(long, value_name = "RUN")]
+    pub against_run: Option<String>,
+    /// Only the configurations of this selection (`ocb select --help` tells the language).
+    #[arg(long = "where", value_name = "SELECTION")]
+    pub selection: Option<String>,
     /// How values are spread over the colours.
     #[arg(long, value_enum, default_value_t = ScaleArg::Linear)]
     pub scale: ScaleArg,
+}
+
+/// `ocb worst`
+#[derive(Debug, Args)]
+pub struct WorstArgs {
+    /// Run id, or `latest`.
+    pub run: String,
+    /// Algorithm [default: the run's only one].
+    #[arg(long, value_name = "ID")]
+    pub algorithm: Option<String>,
+    /// What counts as worse.
+    #[arg(long, value_enum, default_value_t = WorstByArg::Time)]
+    pub by: WorstByArg,
+    /// How many at most.
+    #[arg(long, default_value_t = 100)]
+    pub limit: u32,
+    /// Only the configurations of this selection.
+    #[arg(long = "where", value_name = "SELECTION")]
+    pub selection: Option<String>,
+}
+
+/// `ocb select`
+#[derive(Debug, Args)]
+pub struct SelectArgs {
+    /// Run id, or `latest`.
+    pub run: String,
+    /// The selection.
+    #[arg(long = "where", value_name = "SELECTION")]
+    pub selection: String,
+    /// Algorithm whose columns are meant where the selection names none [default: the run's only one].
+    #[arg(long, value_name = "ID")]
+    pub algorithm: Option<String>,
+    /// File for the records of that algorithm: .parquet or .csv.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
 }

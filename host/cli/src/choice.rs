@@ -28,6 +28,27 @@ choice! {
         PrimitiveTests,
         /// Configurations with their witness point at a vertex.
         Density,
+        /// Share of wrong answers.
+        Wrong,
+        /// Share of missed collisions.
+        Missed,
+        /// Share of false alarms.
+        FalseAlarms,
+        /// Distance outside the certified interval, in u S.
+        DistanceError,
+        /// Share of configurations whose equivalent instances got contradicting answers.
+        Flips,
+        /// Share of the other algorithms that answer otherwise.
+        Disagreement,
+    }
+}
+choice! {
+    /// What counts as worse.
+    WorstByArg => ocb_engine::model::WorstBy {
+        /// The longer time.
+        Time,
+        /// The larger error of the distance.
+        Error,
     }
 }
 choice! {

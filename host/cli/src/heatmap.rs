@@ -38,6 +38,12 @@ async fn write(engine: &Engine, args: &HeatmapArgs, format: Format, json: bool) 
         measure: args.measure.into(),
         statistic: args.statistic.into(),
         outliers: args.outliers.into(),
+        against: args.against.clone(),
+        against_run: match &args.against_run {
+            Some(other) => Some(run::find(engine, other).await?.id),
+            None => None,
+        },
+        selection: args.selection.clone(),
     };
     let (colormap, scale) = (args.colormap.into(), args.scale.into());
     let bytes = match format {
@@ -61,7 +67,8 @@ fn format_of(path: &Path) -> Result<Format> {
     }
 }
 
-fn choose(run: &RunInfo, asked: Option<&str>) -> Result<String> {
+/// The algorithm that was asked for, or the only one.
+pub fn choose(run: &RunInfo, asked: Option<&str>) -> Result<String> {
     if let Some(algorithm) = asked {
         return Ok(algorithm.to_owned());
     }

@@ -17,10 +17,12 @@ mod output;
 mod placing;
 mod plugin;
 mod run;
+mod select;
 mod serve;
 mod submit;
 mod truth;
 mod units;
+mod worst;
 
 use std::process::ExitCode;
 
@@ -61,5 +63,7 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Board(args) => board::board(&store, &args, json).await,
         Command::Chart(args) => chart::chart(&store, &args, json).await,
         Command::Heatmap(args) => heatmap::heatmap(&store, &args, json).await,
+        Command::Worst(args) => worst::worst(&store, &args, json).await,
+        Command::Select(args) => select::select(&store, &args, json).await,
     }
 }

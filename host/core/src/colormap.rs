@@ -13,6 +13,9 @@ pub enum Colormap {
     Viridis,
     /// Cividis: reads the same with colour vision deficiency.
     Cividis,
+    /// ColorBrewer's purple and orange about white, for differences: tells their signs apart with colour vision
+    /// deficiency.
+    PurpleOrange,
 }
 
 /// How values are spread over the colours.
@@ -55,6 +58,7 @@ impl Colormap {
             Self::Turbo => colorous::TURBO,
             Self::Viridis => colorous::VIRIDIS,
             Self::Cividis => colorous::CIVIDIS,
+            Self::PurpleOrange => colorous::PURPLE_ORANGE,
         };
         gradient.eval_continuous(position.clamp(0.0, 1.0)).as_array()
     }

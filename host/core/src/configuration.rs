@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::oracle::U64;
 use crate::pose::Pose;
+use crate::query::Semantics;
 
 /// The poses of A and B for one query: a point of the pair's configuration space.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -89,6 +90,19 @@ pub struct Truth {
     pub witness: Witness,
     /// Whether exact arithmetic was needed.
     pub exact_used: bool,
+}
+
+impl Truth {
+    /// Does one body lie inside the other, in a scene that asks for solid ones?
+    pub fn is_inside(&self, semantics: Semantics) -> bool {
+        semantics == Semantics::Solid && !matches!(self.containment, None | Some(Containment::Apart))
+    }
+
+    /// By how much a distance misses the certified interval of what the scene asks; 0 inside it.
+    pub fn distance_error(&self, distance: f64, semantics: Semantics) -> f64 {
+        let [lo, hi] = if self.is_inside(semantics) { [0.0; 2] } else { [self.distance_lo, self.distance_hi] };
+        (lo - distance).max(distance - hi).max(0.0)
+    }
 }
 
 /// A configuration with its truth.

@@ -39,6 +39,17 @@ impl VertexValues {
             Some([lo, hi]) => Some([lo.min(x), hi.max(x)]),
         })
     }
+
+    /// These values minus those of another map of the same object. A vertex has a value where both have one; its count is
+    /// the smaller of the two. `None` when the other map has another number of vertices.
+    pub fn minus(&self, other: &Self) -> Option<Self> {
+        let both = |(x, y): (&Option<f64>, &Option<f64>)| x.zip(*y).map(|(x, y)| x - y);
+        (self.values.len() == other.values.len()).then(|| Self {
+            values: self.values.iter().zip(&other.values).map(both).collect(),
+            counts: self.counts.iter().zip(&other.counts).map(|(x, y)| *x.min(y)).collect(),
+            dropped: self.dropped.iter().zip(&other.dropped).map(|(x, y)| x + y).collect(),
+        })
+    }
 }
 
 impl VertexMap {
@@ -111,10 +122,12 @@ impl VertexMap {
         result
     }
 
-    /// Density: how many configurations have their witness point on a triangle of the vertex. 0 is a value here, so
-    /// every vertex has one; nothing is dropped.
-    pub fn density(&self) -> VertexValues {
-        let counts: Vec<u32> = self.starts.windows(2).map(|w| w[1] - w[0]).collect();
+    /// Density: how many of the chosen configurations (of all, where nothing is chosen) have their witness point on a
+    /// triangle of the vertex. 0 is a value here, so every vertex has one; nothing is dropped.
+    pub fn density(&self, chosen: Option<&[bool]>) -> VertexValues {
+        let counted = |i: &&u32| chosen.is_none_or(|chosen| chosen[**i as usize]);
+        let count = |v| self.configurations_of(v).iter().filter(counted).count() as u32;
+        let counts: Vec<u32> = (0..self.vertices()).map(count).collect();
         VertexValues {
             values: counts.iter().map(|&c| Some(f64::from(c))).collect(),
             dropped: vec![0; counts.len()],

@@ -8,6 +8,7 @@
 #[cfg(test)]
 extern crate self as ocb_core;
 
+pub mod agreement;
 pub mod bvh;
 pub mod colormap;
 pub mod comparison;
@@ -24,6 +25,7 @@ pub mod record;
 pub mod reduce;
 pub mod resolution;
 pub mod sampling;
+pub mod selection;
 pub mod statistics;
 pub mod stock;
 pub mod validation;

@@ -69,6 +69,12 @@ impl Pose {
         ]
     }
 
+    /// Where a point of the world lies in the object's own frame, rounded likewise; `None` when the pose flattens.
+    pub fn locate(&self, p: &Point3<f64>) -> Option<Point3<f64>> {
+        let back = self.linear.try_inverse()?;
+        Some(Point3::from(back * (p.coords - self.translation)))
+    }
+
     /// The point in the world, rounded as f64 arithmetic rounds.
     pub fn apply(&self, p: &Point3<f64>) -> Point3<f64> {
         Point3::from(self.linear * p.coords + self.translation)

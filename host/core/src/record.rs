@@ -117,4 +117,6 @@ pub struct Record {
     pub verdict: Verdict,
     /// For a list of contacts.
     pub contacts: Option<ContactScore>,
+    /// How many of its answers to equivalent instances contradict the first one.
+    pub flips: u32,
 }

@@ -54,6 +54,7 @@ impl Ladder {
             answer: answer(i),
             verdict: Verdict::Correct,
             contacts: None,
+            flips: 0,
         };
         let records: Vec<Record> = (0..HEIGHTS.len()).map(record).collect();
         let terms = Terms { query, semantics: Semantics::Surface, precision: Precision::Double };

@@ -5,6 +5,7 @@
 
 mod board;
 mod charts;
+mod ipc;
 mod records;
 mod sets;
 mod truths;
@@ -14,7 +15,8 @@ use std::collections::HashMap;
 use std::fmt::Write;
 use std::sync::Arc;
 
-use arrow::array::{ArrayRef, RecordBatch};
+use arrow::array::{ArrayRef, BooleanArray, RecordBatch, UInt32Array};
+use arrow::compute::{concat_batches, filter_record_batch};
 use arrow::datatypes::Schema;
 use arrow::util::display::{ArrayFormatter, FormatOptions};
 use parquet::arrow::ArrowWriter;
@@ -26,6 +28,7 @@ use crate::{EngineError, Result};
 
 pub use board::board_parquet;
 pub use charts::chart_parquet;
+pub use ipc::{Numbers, stream};
 pub use records::{RecordColumns, RecordsOf, read_records, records_parquet};
 pub use sets::{SetOf, read_poses, read_set, set_parquet};
 pub use truths::{contacts_parquet, truths_parquet};
@@ -67,6 +70,17 @@ pub fn csv(parquet: &[u8]) -> Result<Vec<u8>> {
         }
     }
     Ok(text.into_bytes())
+}
+
+/// The rows of a file of records whose configuration is chosen.
+pub fn select(parquet: &[u8], chosen: &[bool]) -> Result<Vec<u8>> {
+    let fault = |e: String| EngineError::Fault(format!("Selecting records failed: {e}."));
+    let (schema, batches) = from_parquet(parquet).map_err(fault)?;
+    let all = concat_batches(&schema, &batches).map_err(|e| fault(e.to_string()))?;
+    let configurations = column::<UInt32Array>(&all, "configuration").map_err(fault)?.values();
+    let mask: BooleanArray =
+        configurations.iter().map(|&i| Some(chosen.get(i as usize).copied().unwrap_or(false))).collect();
+    to_parquet(&filter_record_batch(&all, &mask).map_err(|e| fault(e.to_string()))?)
 }
 
 /// As RFC 4180 has it.

@@ -6,6 +6,7 @@ mod follow;
 mod people;
 mod plugins;
 mod runs;
+mod selecting;
 mod sets;
 
 pub use charts::{board_csv, chart_csv, chart_parquet};
@@ -23,6 +24,7 @@ use ocb_core::colormap::{Colormap, Scale};
 use ocb_core::configuration::{ConfigurationSet, Method};
 use ocb_core::heatmap::VertexMap;
 use ocb_core::mesh::Mesh;
+use ocb_core::oracle::Shape;
 use tokio::sync::Notify;
 use tokio::task::JoinHandle;
 
@@ -69,6 +71,7 @@ pub struct Inner {
     pub sets: Cache<ConfigurationSet>,
     pub records: Cache<RecordColumns>,
     pub maps: Cache<VertexMap>,
+    pub shapes: Cache<Shape>,
     closing: AtomicBool,
     dispatcher: Mutex<VecDeque<JoinHandle<()>>>,
     /// Held as long as this process uses the folder.
@@ -105,6 +108,7 @@ impl Engine {
             sets: Cache::new(4),
             records: Cache::new(16),
             maps: Cache::new(8),
+            shapes: Cache::new(4),
             closing: AtomicBool::new(false),
             dispatcher: Mutex::new(VecDeque::new()),
             _lock: lock,

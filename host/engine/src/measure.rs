@@ -16,7 +16,7 @@ use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use ocb_core::configuration::{ConfigurationSet, Method};
+use ocb_core::configuration::{ConfigurationSet, Method, Placed};
 use ocb_core::instance::{Instance, Presentation};
 use ocb_core::mesh::Mesh;
 use ocb_core::numbers::Numbers;
@@ -131,7 +131,7 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
     let _quiet = machine.keep_off();
     let apart = task.reference.filter(|r| task.contestants.iter().all(|c| c.info.id != r.info.id));
     let all = task.contestants.iter().chain(apart);
-    let mut lanes: Vec<Lane> = all.map(|c| Lane::new(c.clone(), task.set.placed.len())).collect();
+    let mut lanes: Vec<Lane> = all.map(|c| Lane::new(c.clone(), &task.slack(c))).collect();
     let n = task.set.placed.len() as u32;
     let base = if task.coherent() { (0..n).collect() } else { order::shuffled(n, task.seed) };
     let mut steady = true;
@@ -161,6 +161,13 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
 }
 
 impl Task<'_> {
+    /// Two right distances may lie so far apart: both may miss the certified interval by tau.
+    fn slack(&self, contestant: &Contestant) -> Vec<f64> {
+        let (pair, unit) = (Pair::new(self.a, self.b), precision(&contestant.info).unit_roundoff());
+        let of = |p: &Placed| 2.0 * pair.tau(&p.configuration, unit) + (p.truth.distance_hi - p.truth.distance_lo);
+        self.set.placed.iter().map(of).collect()
+    }
+
     fn second(&self) -> Option<&Mesh> {
         (!self.same).then_some(self.mesh_b)
     }

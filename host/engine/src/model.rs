@@ -8,6 +8,7 @@ mod contract;
 mod heatmap;
 mod people;
 mod plugin;
+mod selecting;
 mod submission;
 mod timing;
 mod truth;
@@ -28,6 +29,7 @@ pub use people::{
     TokenRequest, Wish,
 };
 pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport, Repro};
+pub use selecting::{Meeting, Selected, SelectedOf, WorstBy, WorstCase, WorstRequest};
 pub use submission::{Action, Decision, Manifest, PluginInfo, PluginState};
 pub use timing::{Draw, Reference, Timing, TimingCheck};
 pub use truth::{ContactRow, TruthRow};

@@ -1,5 +1,8 @@
 //! From stored records to heatmaps, charts and files.
 
+mod selected;
+mod table;
+
 use std::sync::Arc;
 
 use ocb_core::colormap::{Colormap, Scale};
@@ -7,6 +10,7 @@ use ocb_core::configuration::ConfigurationSet;
 use ocb_core::export::{Legend, glb, ply};
 use ocb_core::heatmap::{VertexMap, VertexValues};
 use ocb_core::mesh::Mesh;
+use ocb_core::selection::{Column, Columns};
 use ocb_core::statistics::{self, Outliers, Statistic};
 
 use crate::columns::{self, RecordColumns};
@@ -21,13 +25,7 @@ const ECDF_POINTS: usize = 512;
 
 /// What the explorer shows first.
 pub fn first_look(algorithm: &str) -> HeatmapRequest {
-    HeatmapRequest {
-        algorithm: algorithm.to_owned(),
-        side: Side::A,
-        measure: Measure::Time,
-        statistic: Statistic::Mean,
-        outliers: Outliers::Keep,
-    }
+    HeatmapRequest::new(algorithm, Measure::Time, Statistic::Mean, Outliers::Keep)
 }
 
 impl Inner {
@@ -48,26 +46,63 @@ impl Inner {
     }
 
     async fn values(&self, run: &str, request: &HeatmapRequest) -> Result<(Heatmap, Arc<Mesh>)> {
+        let request = request.settled();
+        let (mut heatmap, mesh) = self.map_of(run, &request.algorithm, &request).await?;
+        if let Some((other_run, other)) = request.subtrahend() {
+            if request.measure == Measure::Density && other_run.is_none() {
+                let sentence = "The density is that of the set, so two algorithms of one run do not differ in it.";
+                return Err(EngineError::Invalid(sentence.into()));
+            }
+            let other_run = other_run.unwrap_or(run);
+            let (subtracted, other_mesh) = self.map_of(other_run, other, &request).await?;
+            if !Arc::ptr_eq(&mesh, &other_mesh) && mesh.sha256() != other_mesh.sha256() {
+                return Err(EngineError::Invalid(format!(
+                    "The runs {run} and {other_run} have different objects there; a difference needs the same one."
+                )));
+            }
+            heatmap.subtract(&subtracted);
+        }
+        Ok((heatmap, mesh))
+    }
+
+    /// The map of one algorithm, before anything is subtracted.
+    async fn map_of(&self, run: &str, algorithm: &str, request: &HeatmapRequest) -> Result<(Heatmap, Arc<Mesh>)> {
         let row = self.run_row(run).await?;
         let set_blob = row.set_blob.clone().ok_or_else(|| not_yet(run))?;
         let (mesh, map) = self.vertex_map(&row, &set_blob, request.side).await?;
-        let configurations = self.set(&set_blob).await?.placed.len();
-        let values = match request.measure {
-            Measure::Density => None,
-            _ => Some(self.measured(run, request, configurations).await?),
+        let selection = request.selection.as_deref().map(selected::read).transpose()?;
+        let column = request.measure.column();
+        let table = match (column, &selection) {
+            (None, None) => None,
+            _ => {
+                let all = column == Some(Column::Disputed);
+                Some(self.table(run, algorithm, selection.as_ref(), all).await?)
+            }
         };
+        let configurations = self.set(&set_blob).await?.placed.len();
         let request = request.clone();
-        let heatmap = blocking(move || Ok(aggregate(&map, values.as_deref(), request, configurations))).await?;
+        let heatmap = blocking(move || {
+            let chosen = match (&table, &selection) {
+                (Some(table), Some(selection)) => Some(table.choose(selection)?),
+                _ => None,
+            };
+            let mut values = match (&table, column) {
+                (Some(table), Some(column)) => Some(table.column(column, None)?.into_owned()),
+                _ => None,
+            };
+            if let (Some(values), Some(chosen)) = (&mut values, &chosen) {
+                values.iter_mut().zip(chosen).filter(|(_, is)| !**is).for_each(|(x, _)| *x = f64::NAN);
+            }
+            Ok(aggregate(&map, values.as_deref(), chosen.as_deref(), request, configurations))
+        })
+        .await?;
         Ok((heatmap, mesh))
     }
 
     /// Which configurations each vertex hears of.
     async fn vertex_map(&self, row: &RunRow, set_blob: &str, side: Side) -> Result<(Arc<Mesh>, Arc<VertexMap>)> {
-        let object = match (side, &row.spec.object_b) {
-            (Side::B, Some(b)) => b,
-            _ => &row.spec.object_a,
-        };
-        let mesh = self.objects.mesh(object).await?;
+        let [a, b] = self.both_meshes(row).await?;
+        let mesh = if side == Side::A { a } else { b };
         let key = format!("{set_blob} {side:?}");
         if let Some(map) = self.maps.get(&key) {
             return Ok((mesh, map));
@@ -83,30 +118,6 @@ impl Inner {
         })
         .await?;
         Ok((mesh, self.maps.put(&key, map)))
-    }
-
-    /// One value per configuration of the set; NaN where it was not measured.
-    async fn measured(&self, run: &str, request: &HeatmapRequest, configurations: usize) -> Result<Vec<f64>> {
-        let (_, records) = self.records(run, &request.algorithm).await?;
-        let count = |tests: &Option<u64>| tests.map_or(f64::NAN, |n| n as f64);
-        let column: Vec<f64> = match request.measure {
-            Measure::Time | Measure::Density => records.time_ns.clone(),
-            Measure::BvTests => records.bv_tests.iter().map(count).collect(),
-            Measure::PrimitiveTests => records.primitive_tests.iter().map(count).collect(),
-        };
-        if column.iter().all(|x| x.is_nan()) {
-            return Err(EngineError::Invalid(format!(
-                "The algorithm {:?} does not count its tests.",
-                request.algorithm
-            )));
-        }
-        let mut values = vec![f64::NAN; configurations];
-        for (i, value) in records.configuration.iter().zip(column) {
-            if let Some(slot) = values.get_mut(*i as usize) {
-                *slot = value;
-            }
-        }
-        Ok(values)
     }
 
     /// The columns of one algorithm's records that charts need, from memory when they were used lately.
@@ -177,6 +188,14 @@ impl Inner {
         format: Format,
     ) -> Result<Vec<u8>> {
         let (heatmap, mesh) = self.values(run, request).await?;
+        let request = &heatmap.request;
+        let against = request.subtrahend().map(|(other_run, algorithm)| {
+            other_run.map_or_else(|| algorithm.to_owned(), |run| format!("{run}/{algorithm}"))
+        });
+        let (colormap, scale) = match against {
+            Some(_) => (Colormap::PurpleOrange, Scale::Linear),
+            None => (colormap, scale),
+        };
         let legend = Legend {
             run: run.to_owned(),
             algorithm: if request.measure == Measure::Density { String::new() } else { request.algorithm.clone() },
@@ -184,7 +203,9 @@ impl Inner {
             statistic: name_of(&request.statistic),
             outliers: name_of(&request.outliers),
             unit: heatmap.unit.clone(),
-            range: heatmap.range.unwrap_or([0.0, 0.0]),
+            range: colour_range(&heatmap),
+            selection: request.selection.clone(),
+            against,
             scale,
             colormap,
             n: u64::from(heatmap.n),
@@ -220,24 +241,56 @@ pub enum Format {
     Ply,
 }
 
-fn aggregate(map: &VertexMap, values: Option<&[f64]>, request: HeatmapRequest, configurations: usize) -> Heatmap {
+fn aggregate(
+    map: &VertexMap,
+    values: Option<&[f64]>,
+    chosen: Option<&[bool]>,
+    request: HeatmapRequest,
+    configurations: usize,
+) -> Heatmap {
     let result = match values {
         Some(values) => map.aggregate(values, request.statistic, request.outliers),
-        None => map.density(),
+        None => map.density(chosen),
     };
-    let unit = match request.measure {
-        Measure::Time => "ns",
-        Measure::BvTests | Measure::PrimitiveTests => "tests",
-        Measure::Density => "configurations",
-    };
+    let counted = || chosen.map_or(configurations, |chosen| chosen.iter().filter(|is| **is).count());
     Heatmap {
         range: result.range(),
-        unit: unit.to_owned(),
-        n: values.map_or(configurations, |v| v.iter().filter(|x| x.is_finite()).count()) as u32,
+        unit: request.measure.unit().to_owned(),
+        n: values.map_or_else(counted, |v| v.iter().filter(|x| x.is_finite()).count()) as u32,
         values: result.values,
         counts: result.counts,
         dropped: result.dropped,
         request,
+    }
+}
+
+/// The values at the two ends of the colours: of a difference as far below 0 as above it, of failures from 0 on.
+fn colour_range(heatmap: &Heatmap) -> [f64; 2] {
+    let [lo, hi] = heatmap.range.unwrap_or([0.0, 0.0]);
+    let measure = heatmap.request.measure;
+    if heatmap.request.subtrahend().is_some() {
+        let reach = hi.abs().max(lo.abs());
+        [-reach, reach]
+    } else if measure.is_share() || measure == Measure::DistanceError {
+        [0.0, hi]
+    } else {
+        [lo, hi]
+    }
+}
+
+impl Heatmap {
+    /// These values minus those of another map of the same object.
+    fn subtract(&mut self, other: &Self) {
+        let of = |map: &Self| VertexValues {
+            values: map.values.clone(),
+            counts: map.counts.clone(),
+            dropped: map.dropped.clone(),
+        };
+        if let Some(difference) = of(self).minus(&of(other)) {
+            self.range = difference.range();
+            self.n = self.n.min(other.n);
+            (self.values, self.counts, self.dropped) = (difference.values, difference.counts, difference.dropped);
+        }
     }
 }
 

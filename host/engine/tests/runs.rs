@@ -4,11 +4,11 @@ mod common;
 
 use ocb_core::configuration::{Class, Method};
 use ocb_core::statistics::{Outliers, Statistic};
-use ocb_engine::model::{HeatmapRequest, Measure, RunSpec, Side, StageKind, State};
+use ocb_engine::model::{HeatmapRequest, Measure, RunSpec, StageKind, State};
 use ocb_engine::{Engine, EngineConfig, EngineError};
 
 fn request(algorithm: &str, measure: Measure, statistic: Statistic) -> HeatmapRequest {
-    HeatmapRequest { algorithm: algorithm.into(), side: Side::A, measure, statistic, outliers: Outliers::Keep }
+    HeatmapRequest::new(algorithm, measure, statistic, Outliers::Keep)
 }
 
 #[tokio::test(flavor = "multi_thread")]

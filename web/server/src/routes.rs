@@ -9,6 +9,7 @@ mod people;
 mod plugins;
 mod records;
 mod runs;
+mod selecting;
 mod service;
 
 use axum::Router;
@@ -73,6 +74,11 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(charts::show_chart))
         .routes(routes!(charts::chart_as_csv))
         .routes(routes!(charts::chart_as_parquet))
+        .routes(routes!(selecting::show_selection))
+        .routes(routes!(selecting::list_worst))
+        .routes(routes!(selecting::show_meeting))
+        .routes(routes!(selecting::columns_arrow))
+        .routes(routes!(selecting::witnesses_arrow))
         .routes(routes!(runs::featured_run))
         .routes(routes!(account::show_account, account::make_account))
         .routes(routes!(account::log_in))

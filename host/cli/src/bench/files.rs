@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use ocb_core::colormap::{Colormap, Scale};
 use ocb_core::statistics::{Outliers, Statistic};
 use ocb_engine::Engine;
-use ocb_engine::model::{AlgorithmResult, HeatmapRequest, Measure, RunInfo, Side};
+use ocb_engine::model::{AlgorithmResult, HeatmapRequest, Measure, RunInfo};
 
 use crate::failure::{Failure, Result};
 use crate::output;
@@ -27,13 +27,7 @@ pub async fn write(engine: &Engine, run: &RunInfo, folder: &Path) -> Result<Vec<
     for AlgorithmResult { algorithm, .. } in run.results.iter().filter(|result| result.n > 0) {
         keep(format!("{algorithm}.parquet"), engine.records_parquet(&run.id, algorithm).await?)?;
         keep(format!("{algorithm}.csv"), engine.records_csv(&run.id, algorithm).await?)?;
-        let request = HeatmapRequest {
-            algorithm: algorithm.clone(),
-            side: Side::A,
-            measure: Measure::Time,
-            statistic: Statistic::Median,
-            outliers: Outliers::PerVertex,
-        };
+        let request = HeatmapRequest::new(algorithm, Measure::Time, Statistic::Median, Outliers::PerVertex);
         let (colormap, scale) = (Colormap::default(), Scale::default());
         keep(format!("{algorithm}.glb"), engine.heatmap_glb(&run.id, &request, colormap, scale).await?)?;
         keep(format!("{algorithm}.ply"), engine.heatmap_ply(&run.id, &request, colormap, scale).await?)?;

@@ -39,11 +39,41 @@ fn objects_are_listed() {
 }
 
 #[test]
+fn configurations_are_selected_listed_and_subtracted_by_the_same_words() {
+    let desk = Desk::new();
+    let bench =
+        ["bench", "stock:torus-knot@600", "--algorithm", "box-tree,brute-force", "--count", "30", "--passes", "1"];
+    desk.json(&bench);
+    let selected = desk.json(&["select", "latest", "--algorithm", "box-tree", "--where", "near(vertex 0,0.4)&!wrong"]);
+    assert_eq!(selected["where"], "near(vertex 0, 0.4) & !wrong");
+    let n = selected["n"].as_u64().expect("a count");
+    assert!(0 < n && n < 30, "{selected:#}");
+    let (csv, chosen) = (desk.path("some.csv"), "near(vertex 0, 0.4)");
+    let file = csv.to_str().expect("text");
+    let text = desk.run(&["select", "latest", "--algorithm", "box-tree", "--where", chosen, "-o", file]).stdout;
+    assert!(text.starts_with(&format!("{n} of 30 configurations: {chosen}")), "{text}");
+    assert_eq!(std::fs::read_to_string(&csv).expect("a file").lines().count() as u64, n + 1);
+    let worst = desk.json(&["worst", "latest", "--algorithm", "box-tree", "--where", chosen]);
+    assert_eq!(worst.as_array().expect("a list").len() as u64, n);
+    let table = desk.run(&["worst", "latest", "--algorithm", "brute-force", "--limit", "2"]).stdout;
+    assert_eq!(table.lines().count(), 3, "{table}");
+
+    let map = desk.path("difference.csv");
+    let file = map.to_str().expect("text");
+    let against = ["--algorithm", "box-tree", "--against", "brute-force", "--measure", "wrong", "-o", file];
+    desk.json(&[&["heatmap", "latest"], &against[..]].concat());
+    let values = std::fs::read_to_string(&map).expect("a file");
+    assert!(values.starts_with("vertex,value_share,count,dropped\n") && values.contains(",0,"), "{values}");
+    let refused = desk.refused(&["select", "latest", "--algorithm", "box-tree", "--where", "tame"]);
+    assert!(refused.contains("at character 1"), "{refused}");
+}
+
+#[test]
 fn help_says_what_exit_codes_mean() {
     let desk = Desk::new();
     let ended = desk.run(&["--help"]);
     assert_eq!(ended.code, 0);
-    for word in ["bench", "plugin", "object", "heatmap", "serve", "Exit codes", "130"] {
+    for word in ["bench", "plugin", "object", "heatmap", "select", "worst", "serve", "Exit codes", "130"] {
         assert!(ended.stdout.contains(word), "{word}");
     }
     let version = desk.run(&["--version"]);

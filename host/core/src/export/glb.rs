@@ -23,8 +23,8 @@ pub fn geometry(mesh: &Mesh) -> Vec<u8> {
 /// Geometry with a heatmap on it.
 ///
 /// Besides [`geometry`]: `COLOR_0` (u16 normalised, **linear** light as glTF asks, grey where there is no value),
-/// `_VALUE` (f32, NaN-free: -1 where there is no value, which no measure can be) and `_COUNT` (f32, values that went
-/// in). `extras.ocb` of the mesh holds the legend.
+/// `_VALUE` (f32, NaN-free: see [`no_value`]) and `_COUNT` (f32, values that went in). `extras.ocb` of the mesh holds the
+/// legend.
 pub fn heatmap(mesh: &Mesh, values: &VertexValues, legend: &Legend) -> Vec<u8> {
     let mut file = File::new(mesh);
     file.positions(mesh);
@@ -39,22 +39,32 @@ pub fn heatmap(mesh: &Mesh, values: &VertexValues, legend: &Legend) -> Vec<u8> {
         .flat_map(u16::to_le_bytes)
         .collect();
     file.attribute(Semantic::Colors(0), Type::Vec4, ComponentType::U16, true, &colors);
-    let raw: Vec<u8> = values.values.iter().flat_map(|v| (v.unwrap_or(NO_VALUE) as f32).to_le_bytes()).collect();
+    let raw: Vec<u8> =
+        values.values.iter().flat_map(|v| (v.unwrap_or(no_value(legend)) as f32).to_le_bytes()).collect();
     file.attribute(Semantic::Extras("VALUE".into()), Type::Scalar, ComponentType::F32, false, &raw);
     let counts: Vec<u8> = values.counts.iter().flat_map(|&c| (c as f32).to_le_bytes()).collect();
     file.attribute(Semantic::Extras("COUNT".into()), Type::Scalar, ComponentType::F32, false, &counts);
     file.finish("OpenCollBench heatmap", Some(json!({ "ocb": legend_json(legend) })))
 }
 
-/// `_VALUE` of a vertex without a value. glTF forbids NaN, and no measure or statistic is negative.
-pub const NO_VALUE: f64 = -1.0;
+/// `_VALUE` of a vertex without a value; the legend says it. glTF forbids NaN; no measure or statistic is negative, and
+/// no difference is as low as the lowest number.
+fn no_value(legend: &Legend) -> f64 {
+    if legend.against.is_none() { -1.0 } else { f64::from(f32::MIN) }
+}
 
 fn legend_json(legend: &Legend) -> serde_json::Value {
-    json!({
+    let mut known = json!({
         "run": legend.run, "algorithm": legend.algorithm, "measure": legend.measure, "statistic": legend.statistic,
         "outliers": legend.outliers, "unit": legend.unit, "range": legend.range, "scale": legend.scale,
-        "colormap": legend.colormap, "n": legend.n, "no_value": NO_VALUE,
-    })
+        "colormap": legend.colormap, "n": legend.n, "no_value": no_value(legend),
+    });
+    for (key, value) in [("against", &legend.against), ("where", &legend.selection)] {
+        if let Some(value) = value {
+            known[key] = json!(value);
+        }
+    }
+    known
 }
 
 /// An sRGB component as linear light, 0 to 65535 (IEC 61966-2-1).

@@ -12,6 +12,10 @@ pub struct Legend {
     pub run: String,
     /// Algorithm id; empty for density.
     pub algorithm: String,
+    /// What was subtracted: an algorithm, or one of another run (`run/algorithm`); the values are differences then.
+    pub against: Option<String>,
+    /// The selection of configurations that went in; all of them when absent.
+    pub selection: Option<String>,
     /// Name of the measure, e.g. `time`.
     pub measure: String,
     /// Name of the statistic, e.g. `median`.

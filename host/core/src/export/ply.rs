@@ -35,6 +35,8 @@ fn header(mesh: &Mesh, legend: &Legend) -> String {
     for (key, value) in [
         ("run", legend.run.clone()),
         ("algorithm", legend.algorithm.clone()),
+        ("minus", legend.against.clone().unwrap_or_default()),
+        ("where", legend.selection.clone().unwrap_or_default()),
         ("measure", legend.measure.clone()),
         ("statistic", legend.statistic.clone()),
         ("outliers", legend.outliers.clone()),
@@ -45,6 +47,9 @@ fn header(mesh: &Mesh, legend: &Legend) -> String {
         ("configurations", legend.n.to_string()),
         ("no value", format!("quality nan, color {r} {g} {b}")),
     ] {
+        if value.is_empty() {
+            continue;
+        }
         // A line break in a name would end the comment and begin a header line of its own.
         let value: String = value.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         comments += &format!("comment {key}: {value}\n");

@@ -25,6 +25,8 @@ fn legend() -> Legend {
     Legend {
         run: "0199".into(),
         algorithm: "box-tree".into(),
+        against: None,
+        selection: None,
         measure: "time".into(),
         statistic: "median".into(),
         outliers: "keep".into(),
@@ -128,6 +130,26 @@ fn heatmap_holds_linear_colors_raw_values_and_the_legend() {
       }
     }
     "#);
+}
+
+#[test]
+fn a_difference_says_what_was_subtracted_and_marks_no_value_by_the_lowest_number() {
+    let difference = Legend {
+        against: Some("parry".into()),
+        selection: Some("wrong".into()),
+        range: [-7.0, 7.0],
+        colormap: Colormap::PurpleOrange,
+        ..legend()
+    };
+    let (root, bytes) = open(&glb::heatmap(&mesh(), &values(), &difference));
+    assert_eq!(floats(data(&root, &bytes, "_VALUE").1)[2..4], [f32::MIN; 2]);
+    let extras: serde_json::Value = serde_json::from_str(root.meshes[0].extras.as_ref().unwrap().get()).unwrap();
+    let [against, selection, none] = ["against", "where", "no_value"].map(|key| &extras["ocb"][key]);
+    assert_eq!((against, selection), (&"parry".into(), &"wrong".into()));
+    assert_eq!(none.as_f64(), Some(f64::from(f32::MIN)));
+    let file = ply::heatmap(&mesh(), &values(), &difference);
+    let header = String::from_utf8_lossy(&file);
+    assert!(header.contains("comment minus: parry\ncomment where: wrong\n"), "{header}");
 }
 
 #[test]

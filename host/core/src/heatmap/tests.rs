@@ -51,9 +51,11 @@ fn every_statistic_by_hand() {
 
 #[test]
 fn density_counts_configurations() {
-    let density = five().density();
+    let density = five().density(None);
     assert_eq!(density.values, [3.0, 5.0, 5.0, 2.0, 0.0].map(Some));
     assert_eq!(density.range(), Some([0.0, 5.0]));
+    let chosen = five().density(Some(&[true, false, true, false, true]));
+    assert_eq!(chosen.counts, [2, 3, 3, 1, 0]);
 }
 
 #[test]
@@ -93,12 +95,25 @@ fn what_was_not_measured_counts_nowhere() {
 }
 
 #[test]
+fn a_difference_has_a_value_where_both_maps_have_one() {
+    let map = five();
+    let a = map.aggregate(&VALUES, Statistic::Mean, Outliers::Keep);
+    let b = map.aggregate(&[1.0, f64::NAN, f64::NAN, f64::NAN, 3.0], Statistic::Mean, Outliers::Keep);
+    let difference = a.minus(&b).unwrap();
+    assert_eq!(difference.values, [Some(38.0), Some(38.0), Some(38.0), None, None]);
+    assert_eq!(difference.counts, [2, 2, 2, 0, 0]);
+    assert_eq!(b.minus(&a).unwrap().range(), Some([-38.0, -38.0]));
+    let short = VertexValues { values: vec![None], counts: vec![0], dropped: vec![0] };
+    assert_eq!(a.minus(&short), None);
+}
+
+#[test]
 fn a_vertex_named_twice_hears_once() {
     let mesh = strip();
     let mut triangles = mesh.triangles().to_vec();
     triangles.push([3, 3, 0]);
     let mesh = Mesh::new(mesh.positions().to_vec(), triangles).unwrap();
-    assert_eq!(VertexMap::new(&mesh, &[2, 2]).density().counts, [2, 0, 0, 2, 0]);
+    assert_eq!(VertexMap::new(&mesh, &[2, 2]).density(None).counts, [2, 0, 0, 2, 0]);
 }
 
 #[test]

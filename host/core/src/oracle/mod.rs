@@ -70,6 +70,17 @@ pub const U64: f64 = 1.0 / (1u64 << 53) as f64;
 /// Unit roundoff of f32.
 pub const U32: f64 = 1.0 / (1u64 << 24) as f64;
 
+/// Largest absolute coordinate of a vertex.
+pub fn largest_coordinate(positions: &[Point3<f64>]) -> f64 {
+    positions.iter().map(|p| p.coords.amax()).fold(0.0, f64::max)
+}
+
+/// [`Pair::scene_size`] for two objects of which only the largest coordinates are known.
+pub fn scene_size(largest: [f64; 2], configuration: &Configuration) -> f64 {
+    let translation = configuration.pose_a.translation.amax().max(configuration.pose_b.translation.amax());
+    largest[0] + largest[1] + translation
+}
+
 /// Triangles made ready for the oracle; built once per object.
 #[derive(Clone, Debug)]
 pub struct Shape {
@@ -107,7 +118,7 @@ impl Shape {
 
     fn of(soup: Soup) -> Self {
         let (positions, triangles) = soup.parts();
-        let largest = positions.iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
+        let largest = largest_coordinate(positions);
         let tree = Tree::new(positions, triangles);
         let topology = Topology::new(positions, triangles);
         Self { soup, tree, topology, largest }
@@ -187,8 +198,7 @@ impl<'a> Pair<'a> {
     /// S, the size of the scene's coordinates: the largest absolute coordinate of A, plus that of B, plus that of the
     /// translations. Rounding errors of an honest program are a few `u S`.
     pub fn scene_size(&self, configuration: &Configuration) -> f64 {
-        let translation = configuration.pose_a.translation.amax().max(configuration.pose_b.translation.amax());
-        self.a.largest + self.b.largest + translation
+        scene_size([self.a.largest, self.b.largest], configuration)
     }
 
     /// Half-width of the band in which an answer is not scored: `32 u S`.
@@ -265,8 +275,7 @@ impl<'a> Pair<'a> {
     /// The truth of what a scene asks. For solid bodies one of which is inside the other, the surfaces may be far apart
     /// and still the answer is a collision at distance 0, which holds until the surfaces meet: that is its margin.
     pub fn asked(&self, configuration: &Configuration, truth: &Truth, semantics: Semantics) -> Truth {
-        let apart = matches!(truth.containment, None | Some(Containment::Apart));
-        if semantics == Semantics::Surface || apart {
+        if !truth.is_inside(semantics) {
             return *truth;
         }
         // Every vertex may move, those of either surface by half the way between them.

@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use arrow::array::{BooleanArray, Float64Array, RecordBatch, StringArray, UInt32Array, UInt64Array};
 use nalgebra::Point3;
+use ocb_core::agreement::Said;
 use ocb_core::query::Answer;
-use ocb_core::record::{ContactScore, Record};
+use ocb_core::record::{ContactScore, Record, Verdict};
 
 use super::{SCHEMA_VERSION, batch, column, from_parquet, to_parquet};
 use crate::{EngineError, Result};
@@ -36,6 +37,12 @@ pub struct RecordColumns {
     pub bv_tests: Vec<Option<u64>>,
     /// Primitive tests, where counted.
     pub primitive_tests: Vec<Option<u64>>,
+    /// Comparison with the truth.
+    pub verdict: Vec<Verdict>,
+    /// What the answer came down to.
+    pub said: Vec<Said>,
+    /// Answers that contradict the first one; nothing in files of versions that did not count them.
+    pub flips: Vec<Option<u32>>,
 }
 
 /// The records as Parquet, one row per measured configuration.
@@ -88,6 +95,7 @@ pub fn records_parquet(of: &RecordsOf, records: &[Record]) -> Result<Vec<u8>> {
             ("point_b_x", points(1, 0)),
             ("point_b_y", points(1, 1)),
             ("point_b_z", points(1, 2)),
+            ("flips", Arc::new(records.iter().map(|r| r.flips).collect::<UInt32Array>())),
         ],
     )?)
 }
@@ -109,6 +117,21 @@ impl RecordColumns {
         self.time_ns.extend_from_slice(column::<Float64Array>(batch, "time_ns")?.values());
         self.bv_tests.extend(column::<UInt64Array>(batch, "bv_tests")?.iter());
         self.primitive_tests.extend(column::<UInt64Array>(batch, "primitive_tests")?.iter());
+        for name in column::<StringArray>(batch, "verdict")?.iter() {
+            let known = Verdict::NAMES.iter().find(|(_, known)| Some(*known) == name);
+            self.verdict.push(known.ok_or_else(|| format!("{name:?} is no verdict"))?.0);
+        }
+        let hits = column::<BooleanArray>(batch, "hit")?.iter();
+        let distances = column::<Float64Array>(batch, "distance")?.iter();
+        self.said.extend(hits.zip(distances).map(|(hit, distance)| match (hit, distance) {
+            (Some(hit), _) => Said::Decision(hit),
+            (None, Some(distance)) if distance.is_finite() => Said::Distance(distance),
+            _ => Said::Nothing,
+        }));
+        match column::<UInt32Array>(batch, "flips") {
+            Ok(flips) => self.flips.extend(flips.iter()),
+            Err(_) => self.flips.extend(std::iter::repeat_n(None, batch.num_rows())),
+        }
         Ok(())
     }
 }
@@ -145,7 +168,6 @@ mod tests {
     use super::*;
     use crate::columns::csv;
     use ocb_core::query::Counters;
-    use ocb_core::record::Verdict;
 
     fn record(configuration: u32, answer: Answer, counters: Option<Counters>) -> Record {
         Record {
@@ -161,6 +183,7 @@ mod tests {
                 robust: 4,
                 found: Some(1),
             }),
+            flips: configuration,
             answer,
         }
     }
@@ -184,13 +207,18 @@ mod tests {
         assert_eq!(columns.time_ns, [127.5, 121.5, 122.5, 123.5]);
         assert_eq!(columns.bv_tests, [Some(9), None, None, None]);
         assert_eq!(columns.primitive_tests, [Some(2), None, None, None]);
+        assert_eq!(columns.flips, [7, 1, 2, 3].map(Some));
+        assert_eq!(columns.said, [Said::Decision(true), Said::Distance(0.25), Said::Nothing, Said::Decision(true)]);
+        assert_eq!(columns.verdict, [Verdict::Correct; 4]);
+        let two = crate::columns::select(&file, &[false, true, false, true, true, true, true, false]).unwrap();
+        assert_eq!(read_records(&two).unwrap().configuration, [1, 3]);
         let csv = String::from_utf8(csv(&file).unwrap()).unwrap();
         let lines: Vec<&str> = csv.lines().collect();
         assert!(lines[0].starts_with("configuration,time_ns,below_resolution,passes,bv_tests"), "{}", lines[0]);
-        assert_eq!(lines[1], "7,127.5,false,3,9,2,correct,collision,true,,,,,3,4,,,,,,");
-        assert_eq!(lines[2], "1,121.5,true,3,,,correct,distance,,,,,0.25,,,,,,,,");
-        assert_eq!(lines[3], "2,122.5,false,3,,,correct,gave_up,,,,,,,,,,,,,");
-        assert_eq!(lines[4], "3,123.5,false,3,,,correct,contacts,true,2,0.5,0.25,,,,,,,,,");
+        assert_eq!(lines[1], "7,127.5,false,3,9,2,correct,collision,true,,,,,3,4,,,,,,,7");
+        assert_eq!(lines[2], "1,121.5,true,3,,,correct,distance,,,,,0.25,,,,,,,,,1");
+        assert_eq!(lines[3], "2,122.5,false,3,,,correct,gave_up,,,,,,,,,,,,,,2");
+        assert_eq!(lines[4], "3,123.5,false,3,,,correct,contacts,true,2,0.5,0.25,,,,,,,,,,3");
         assert_eq!(lines.len(), 5);
         let (schema, _) = from_parquet(&file).unwrap();
         assert_eq!(schema.metadata().get("opencollbench.run").map(String::as_str), Some("r"));

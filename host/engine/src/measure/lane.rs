@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use ocb_core::agreement::Said;
 use ocb_core::configuration::Placed;
 use ocb_core::oracle::Pair;
 use ocb_core::query::{Answer, Counters, Query, Semantics};
@@ -45,9 +46,18 @@ struct Cell {
     /// The first answer, or the first with a graver verdict.
     judged: Option<(Answer, Judged)>,
     counters: Option<Counters>,
+    /// What the first answer came down to, how far right distances may lie from it, and how many answers contradict it.
+    first: Option<Said>,
+    slack: f64,
+    flips: u32,
 }
 
 impl Cell {
+    fn said(&mut self, said: Said) {
+        let first = *self.first.get_or_insert(said);
+        self.flips += u32::from(first.contradicts(said, self.slack));
+    }
+
     fn keep(&mut self, answer: Answer, judged: Judged) {
         let graver = |(_, known): &(Answer, Judged)| judged.verdict.gravity() > known.verdict.gravity();
         if self.judged.as_ref().is_none_or(graver) {
@@ -90,14 +100,14 @@ pub struct Measured {
 }
 
 impl Lane {
-    /// Nothing measured yet of a set of so many configurations.
-    pub fn new(contestant: Arc<Contestant>, configurations: usize) -> Self {
+    /// Nothing measured yet. There is one `slack` for each configuration: how far two right distances may lie apart.
+    pub fn new(contestant: Arc<Contestant>, slack: &[f64]) -> Self {
         Self {
             contestant,
             reach: None,
             done: 0,
             spent: Duration::ZERO,
-            cells: std::iter::repeat_with(Cell::default).take(configurations).collect(),
+            cells: slack.iter().map(|&slack| Cell { slack, ..Cell::default() }).collect(),
             unjudged: Vec::new(),
             build_ns: Vec::new(),
             memory_bytes: None,
@@ -167,7 +177,9 @@ impl Lane {
 
     /// The answer that was judged in an earlier pass needs no second look; every other one does.
     fn answered(&mut self, configuration: u32, answer: Answer) {
-        let known = self.cells[configuration as usize].judged.as_ref();
+        let cell = &mut self.cells[configuration as usize];
+        cell.said(Said::of(&answer));
+        let known = cell.judged.as_ref();
         if known.is_none_or(|(known, _)| *known != answer) {
             self.unjudged.push((configuration, answer));
         }
@@ -208,6 +220,7 @@ impl Lane {
                     answer,
                     verdict,
                     contacts,
+                    flips: cell.flips,
                 });
             }
         }
@@ -232,6 +245,15 @@ impl Lane {
 mod tests {
     use super::*;
     use ocb_core::record::Verdict;
+
+    #[test]
+    fn answers_that_contradict_the_first_one_are_counted() {
+        let mut cell = Cell { slack: 0.5, ..Cell::default() };
+        for said in [Said::Distance(1.0), Said::Distance(1.25), Said::Distance(2.0), Said::Nothing] {
+            cell.said(said);
+        }
+        assert_eq!(cell.flips, 2);
+    }
 
     #[test]
     fn the_gravest_verdict_of_all_passes_stands_with_its_answer() {

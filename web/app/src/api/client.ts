@@ -2,7 +2,7 @@ import createClient from 'openapi-fetch'
 import { asApiError, fromResponse } from './errors'
 import type { paths } from './schema'
 import type {
-  Accuracy, AlgorithmInfo, Board, Chart, ChartKind, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, RunInfo, RunSpec,
+  Accuracy, AlgorithmInfo, Board, Chart, ChartKind, Ecdf, Estimate, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, WorstCase,
 } from './types'
 
 export const http = createClient<paths>({ baseUrl: '/' })
@@ -59,6 +59,15 @@ export const boardUrl = (file: string, query: BoardQuery): string => `/api/v1/${
 
 export const getHeatmap = (id: string, request: HeatmapRequest): Promise<Heatmap> =>
   answer(http.GET('/api/v1/runs/{id}/heatmap', { params: { path: { id }, query: request } }))
+
+/** The worst configurations of an algorithm. */
+export const getWorst = (
+  id: string, query: { algorithm: string; by: 'time' | 'error'; limit: number; where?: string },
+): Promise<WorstCase[]> => answer(http.GET('/api/v1/runs/{id}/worst', { params: { path: { id }, query } }))
+
+/** All pairs of triangles that meet in one configuration. */
+export const getMeeting = (id: string, configuration: number): Promise<Meeting> =>
+  answer(http.GET('/api/v1/runs/{id}/configurations/{configuration}/contacts', { params: { path: { id, configuration } } }))
 
 /** The run of the start page, or null while there is none. */
 export const getFeatured = (): Promise<RunInfo | null> => answer(http.GET('/api/v1/featured'))

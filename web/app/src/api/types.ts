@@ -1,4 +1,4 @@
-import type { components } from './schema'
+import type { components, paths } from './schema'
 
 /** The schemas of the API by their own names. What they mean stands in the generated file. */
 type Schemas = components['schemas']
@@ -22,8 +22,10 @@ export type Environment = Schemas['Environment']
 export type Estimate = Schemas['Estimate']
 export type Estimated = Schemas['Estimated']
 export type Heatmap = Schemas['Heatmap']
-export type HeatmapRequest = Schemas['HeatmapRequest']
+/** The query string of every heatmap route. */
+export type HeatmapRequest = paths['/api/v1/runs/{id}/heatmap']['get']['parameters']['query']
 export type Measure = Schemas['Measure']
+export type Meeting = Schemas['Meeting']
 export type Method = Schemas['Method']
 export type ObjectInfo = Schemas['ObjectInfo']
 export type Outliers = Schemas['Outliers']
@@ -52,3 +54,4 @@ export type PluginState = Schemas['PluginState']
 export type Role = Schemas['Role']
 export type Scope = Schemas['Scope']
 export type TokenInfo = Schemas['TokenInfo']
+export type WorstCase = Schemas['WorstCase']

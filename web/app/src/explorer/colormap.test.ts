@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import { COLORMAPS, colourAt, cssGradient, lut, LUT_SIZE } from './colormap'
+import { COLORMAPS, colourAt, cssGradient, DIVERGING, lut, LUT_SIZE } from './colormap'
 
 const texel = (table: Uint8Array, i: number) => [...table.subarray(i * 4, i * 4 + 4)]
 
@@ -10,6 +10,12 @@ describe('lut', () => {
     expect(texel(lut('viridis'), LUT_SIZE - 1)).toEqual([253, 231, 37, 255])
     expect(texel(lut('cividis'), 0)).toEqual([0, 32, 81, 255])
     expect(texel(lut('turbo'), 0)).toEqual([35, 23, 27, 255])
+  })
+
+  it('draws differences purple below 0 and orange above, as the exported files do', () => {
+    const [low, high] = [texel(lut(DIVERGING), 0), texel(lut(DIVERGING), LUT_SIZE - 1)]
+    expect(low[2]).toBeGreaterThan(low[0] ?? 255)
+    expect(high[0]).toBeGreaterThan(high[2] ?? 255)
   })
 
   it.each(COLORMAPS)('%s gives the shader the colours that the legend shows', (name) => {

@@ -1,12 +1,15 @@
-import { interpolateCividis, interpolateTurbo, interpolateViridis } from 'd3-scale-chromatic'
+import { interpolateCividis, interpolatePuOr, interpolateTurbo, interpolateViridis } from 'd3-scale-chromatic'
 
 export const COLORMAPS = ['turbo', 'viridis', 'cividis'] as const
-export type Colormap = (typeof COLORMAPS)[number]
+/** The map of differences: purple below 0, white at 0, orange above; told apart with colour vision deficiency, too. */
+export const DIVERGING = 'purple_orange'
+export type Colormap = (typeof COLORMAPS)[number] | typeof DIVERGING
 
 const INTERPOLATE: Record<Colormap, (t: number) => string> = {
   turbo: interpolateTurbo,
   viridis: interpolateViridis,
   cividis: interpolateCividis,
+  purple_orange: interpolatePuOr,
 }
 
 /** Entries of the lookup table that the shader reads. */

@@ -56,3 +56,20 @@ it('counts every value once in the histogram', () => {
 it('interpolates quantiles', () => {
   expect(quantile(Float64Array.of(1, 2, 4), 0.75)).toBe(3)
 })
+
+describe('scales of failures and differences', () => {
+  const values = (...all: number[]) => Float64Array.from(all)
+
+  it('begins at 0, so that 0 is drawn as 0, and ends at the largest failure however rare it is', () => {
+    expect(sharedScale(values(0, 0, 0, 0.25), false, 'p2-98', 'failures')).toEqual({ log: false, lo: 0, hi: 0.25 })
+    expect(sharedScale(values(0, 0), true, 'p2-98', 'failures')).toEqual({ log: false, lo: 0, hi: 1 })
+    expect(sharedScale(values(0, 1, 1e13), true, 'p2-98', 'failures')).toEqual({ log: true, lo: 1, hi: 1e13 })
+  })
+
+  it('has 0 in the middle of differences', () => {
+    expect(sharedScale(values(-1, 0, 3), true, 'full', 'differences')).toEqual({ log: false, lo: -3, hi: 3 })
+    expect(sharedScale(values(0, 0), true, 'p2-98', 'differences')).toEqual({ log: false, lo: -1, hi: 1 })
+    const rare = Float64Array.from([...Array.from({ length: 200 }, () => 0), 5])
+    expect(sharedScale(rare, false, 'p2-98', 'differences')).toEqual({ log: false, lo: -5, hi: 5 })
+  })
+})

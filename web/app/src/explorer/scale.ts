@@ -7,6 +7,9 @@ export interface ColourScale {
   hi: number
 }
 
+/** What is coloured: values, failures (which begin at 0), or differences (which have 0 in the middle). */
+export type ScaleKind = 'values' | 'failures' | 'differences'
+
 /** `full`: smallest to largest value. `p2-98`: 2nd to 98th percentile, so that single vertices do not take all colours. */
 export type RangeRule = 'full' | 'p2-98'
 
@@ -39,9 +42,18 @@ export function sortedValues(maps: readonly (readonly (number | null)[])[]): Flo
  *
  * A logarithmic scale starts at the smallest positive value; zeros are drawn in the lowest colour. Without any
  * positive value it falls back to linear. Equal ends are pulled apart a little, so that there is a middle.
+ *
+ * Failures are rare, so that percentiles would cut them off: their linear scale goes from 0 to the largest value, and
+ * from 0 to 1 when there is none. Differences have 0 in the middle and are linear.
  */
-export function sharedScale(sorted: Float64Array, wantLog: boolean, rule: RangeRule): ColourScale | null {
+export function sharedScale(
+  sorted: Float64Array, wantLog: boolean, rule: RangeRule, kind: ScaleKind = 'values',
+): ColourScale | null {
   if (sorted.length === 0) return null
+  if (kind === 'differences') return balanced(sorted, rule)
+  const largest = sorted.at(-1) ?? 0
+  if (kind === 'failures' && (!wantLog || largest <= 0)) return { log: false, lo: 0, hi: largest > 0 ? largest : 1 }
+  if (kind === 'failures') rule = 'full'
   const firstPositive = bisectRight(sorted, 0)
   const log = wantLog && firstPositive < sorted.length
   const used = log ? sorted.subarray(firstPositive) : sorted
@@ -51,6 +63,14 @@ export function sharedScale(sorted: Float64Array, wantLog: boolean, rule: RangeR
   if (hi > lo) return { log, lo, hi }
   const margin = log ? 1.05 : Math.max(Math.abs(lo) * 0.05, 1e-9)
   return log ? { log, lo: lo / margin, hi: hi * margin } : { log, lo: lo - margin, hi: hi + margin }
+}
+
+/** As far below 0 as above it. */
+function balanced(sorted: Float64Array, rule: RangeRule): ColourScale {
+  const ends = rule === 'full' ? [0, 1] : [0.02, 0.98]
+  const within = Math.max(...ends.map((q) => Math.abs(quantile(sorted, q))))
+  const reach = within || Math.max(Math.abs(sorted[0] ?? 0), Math.abs(sorted.at(-1) ?? 0)) || 1
+  return { log: false, lo: -reach, hi: reach }
 }
 
 /** Counts of values per slice of the scale, low end first: the histogram beside the legend. */

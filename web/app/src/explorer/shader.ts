@@ -9,6 +9,8 @@ import type { ColourScale } from './scale'
  */
 const VERTEX = /* glsl */ `
 attribute vec4 datum;
+attribute float lit;
+varying float vLit;
 varying vec3 vScalar;
 varying float vTrust;
 varying vec3 vNormal;
@@ -19,6 +21,7 @@ void main() {
   vNormal = normalMatrix * normal;
   vScalar = vec3(datum.x * datum.y, datum.y, datum.z);
   vTrust = datum.w * datum.y;
+  vLit = lit;
   gl_Position = projectionMatrix * view;
 }`
 
@@ -35,6 +38,8 @@ uniform bool coloured;
 uniform vec3 noData;
 uniform vec3 outside;
 uniform vec3 hatch;
+uniform bool selecting;
+varying float vLit;
 varying vec3 vScalar;
 varying float vTrust;
 varying vec3 vNormal;
@@ -57,6 +62,8 @@ void main() {
     float stripe = fract((gl_FragCoord.x + gl_FragCoord.y) / 7.0);
     base = stripe < 0.42 ? hatch : noData;
   }
+  // What is not selected steps back; its own colour still shows a little.
+  if (selecting && vLit < 0.5) base = mix(base, outside, 0.86);
   vec3 flatNormal = normalize(cross(dFdx(vView), dFdy(vView)));
   vec3 smoothNormal = normalize(vNormal);
   if (!gl_FrontFacing) smoothNormal = -smoothNormal;
@@ -86,6 +93,7 @@ export function heatmapMaterial(): ShaderMaterial {
       noData: { value: new Color() },
       outside: { value: new Color() },
       hatch: { value: new Color() },
+      selecting: { value: false },
     },
   })
 }
@@ -102,6 +110,11 @@ export function setScale(material: ShaderMaterial, scale: ColourScale | null, sh
   uniform<Vector2>(material, 'ends').set(scale.lo, scale.hi)
   uniform<Vector2>(material, 'shown').set(shown[0], shown[1])
   setUniform(material, 'logarithmic', scale.log)
+}
+
+/** Is there a selection, outside of which the surface steps back? */
+export function setSelecting(material: ShaderMaterial, selecting: boolean): void {
+  setUniform(material, 'selecting', selecting)
 }
 
 /** `colours` are CSS colours of the theme in force. */

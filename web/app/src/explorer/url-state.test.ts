@@ -13,6 +13,9 @@ const unusual: ExplorerState = {
   algorithms: ['box-tree', 'parry'],
   camera: [0.6, -0.5, 4.1, 0, 0.01, 0],
   vertex: 8367,
+  against: 'parry',
+  againstRun: '0199aa01-0000-7000-8000-000000000000',
+  selections: [{ name: 'slow', where: 'time in [500, 15000]', on: true }],
 }
 
 describe('the link', () => {
@@ -26,7 +29,7 @@ describe('the link', () => {
   })
 
   it('is short', () => {
-    expect(new URLSearchParams(writeState(unusual)).toString().length).toBeLessThan(150)
+    expect(new URLSearchParams(writeState(unusual)).toString().length).toBeLessThan(280)
   })
 
   it('names what it does not know and keeps the rest', () => {
@@ -37,6 +40,7 @@ describe('the link', () => {
 
   it.each([
     ['cam', '1,2,3'], ['cam', '1,2,3,4,5,x'], ['rg', '0.9,0.1'], ['rg', '-1,2'], ['v', '-3'], ['v', '1.5'], ['a', 'a,b,c,d,e'], ['a', ''],
+    ['vs', ''], ['vsrun', 'latest'], ['sel', 'slow'],
   ])('refuses %s=%s', (key, value) => {
     expect(readState({ [key]: value })).toEqual({ state: DEFAULTS, ignored: [key] })
   })

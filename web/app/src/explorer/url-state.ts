@@ -1,6 +1,7 @@
 import type { Measure, Outliers, Side, Statistic } from '../api/types'
 import { COLORMAPS, type Colormap } from './colormap'
 import type { RangeRule } from './scale'
+import { readSelections, writeSelections, type NamedSelection } from './selecting/list'
 
 /** Everything that a link to the explorer holds. */
 export interface ExplorerState {
@@ -19,6 +20,12 @@ export interface ExplorerState {
   camera: number[]
   /** The vertex that is read. */
   vertex: number | null
+  /** The algorithm whose values are subtracted; empty: none, or the same one of the other run. */
+  against: string
+  /** The run whose values are subtracted; empty: this one. */
+  againstRun: string
+  /** Named predicates over the configurations; those that are on hold together. */
+  selections: NamedSelection[]
 }
 
 export const MAX_PANES = 4
@@ -35,15 +42,25 @@ export const DEFAULTS: Readonly<ExplorerState> = {
   algorithms: [],
   camera: [],
   vertex: null,
+  against: '',
+  againstRun: '',
+  selections: [],
 }
 
 /** Short words in the link for the names of the API. */
-const MEASURES: Record<Measure, string> = { time: 't', bv_tests: 'bv', primitive_tests: 'prim', density: 'n' }
+const MEASURES: Record<Measure, string> = {
+  time: 't', bv_tests: 'bv', primitive_tests: 'prim', density: 'n', wrong: 'wrong',
+  missed: 'fn', false_alarms: 'fp', distance_error: 'err', flips: 'flip', disagreement: 'dis',
+}
 const STATISTICS: Record<Statistic, string> = {
   mean: 'mean', median: 'median', min: 'min', max: 'max', standard_deviation: 'sd', mad: 'mad',
 }
 const OUTLIERS: Record<Outliers, string> = { keep: 'keep', per_vertex: 'vertex', global: 'global' }
 const SIDES: Record<Side, string> = { a: 'a', b: 'b' }
+/** Are differences shown? Two algorithms of one run have the same density. */
+export const differs = ({ against, againstRun, measure }: ExplorerState): boolean =>
+  againstRun !== '' || (against !== '' && measure !== 'density')
+
 const RANGES: Record<RangeRule, string> = { 'p2-98': 'p', full: 'full' }
 
 export type Query = Record<string, string>
@@ -65,12 +82,15 @@ export function writeState(state: ExplorerState): Query {
   put('a', state.algorithms.join(','), '')
   put('cam', state.camera.join(','), '')
   put('v', state.vertex === null ? '' : String(state.vertex), '')
+  put('vs', state.against, '')
+  put('vsrun', state.againstRun, '')
+  put('sel', writeSelections(state.selections), '')
   return query
 }
 
 /** Reads a link. What it does not understand keeps its default and is named in `ignored`. */
 export function readState(query: Record<string, unknown>): { state: ExplorerState; ignored: string[] } {
-  const state: ExplorerState = { ...DEFAULTS, shown: [...DEFAULTS.shown], algorithms: [], camera: [] }
+  const state: ExplorerState = { ...DEFAULTS, shown: [...DEFAULTS.shown], algorithms: [], camera: [], selections: [] }
   const ignored: string[] = []
   for (const [key, raw] of Object.entries(query)) {
     if (typeof raw !== 'string' || !readKey(state, key, raw)) ignored.push(key)
@@ -104,6 +124,12 @@ function readKey(state: ExplorerState, key: string, raw: string): boolean {
       return assign(state, 'algorithms', algorithmList(raw))
     case 'v':
       return assign(state, 'vertex', /^\d{1,9}$/.test(raw) ? Number(raw) : undefined)
+    case 'vs':
+      return assign(state, 'against', raw.length > 0 && raw.length <= 120 ? raw : undefined)
+    case 'vsrun':
+      return assign(state, 'againstRun', /^[0-9a-f-]{36}$/.test(raw) ? raw : undefined)
+    case 'sel':
+      return assign(state, 'selections', readSelections(raw))
     default:
       return false
   }

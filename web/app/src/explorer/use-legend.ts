@@ -1,9 +1,10 @@
 import { computed, type ComputedRef } from 'vue'
 import type { Heatmap } from '../api/types'
-import { MEASURE, STATISTIC } from '../ui/words'
+import { count, value as withUnit } from '../ui/format'
+import { FAILURE, isShare, MEASURE, STATISTIC } from '../ui/words'
 import { coverage, type Coverage } from './datum'
-import { histogram, sharedScale, sortedValues, type ColourScale } from './scale'
-import type { ExplorerState } from './url-state'
+import { histogram, sharedScale, sortedValues, type ColourScale, type ScaleKind } from './scale'
+import { differs, type ExplorerState } from './url-state'
 
 /** What the legend shows for the maps on the screen. */
 export interface LegendData {
@@ -25,7 +26,8 @@ export function useLegend(maps: ComputedRef<Heatmap[]>, state: ComputedRef<Explo
   const covered = computed(() => coverage(maps.value))
   return computed(() => {
     const [first] = maps.value
-    const scale = sharedScale(sorted.value, state.value.log, state.value.range)
+    const { measure, log, range } = state.value
+    const scale = sharedScale(sorted.value, log && !isShare(measure), range, scaleKind(state.value))
     if (!first || !scale) return null
     return {
       scale,
@@ -34,16 +36,37 @@ export function useLegend(maps: ComputedRef<Heatmap[]>, state: ComputedRef<Explo
       n: Math.max(...maps.value.map(({ n }) => n)),
       range: [sorted.value[0] ?? 0, sorted.value.at(-1) ?? 0],
       bars: histogram(sorted.value, scale, BARS),
-      // The counts of a density are its values: few of them are no doubt about it.
-      coverage: state.value.measure === 'density' ? { ...covered.value, few: 0 } : covered.value,
+      // The counts of a density are its values, and of failures one counts: few of them are no doubt about it.
+      coverage: measure === 'density' || measure in FAILURE ? { ...covered.value, few: 0 } : covered.value,
     }
   })
 }
 
+/** What the colours have to show. */
+export function scaleKind(state: ExplorerState): ScaleKind {
+  if (differs(state)) return 'differences'
+  return state.measure in FAILURE ? 'failures' : 'values'
+}
+
 /** `Median of time per query`. */
-export function legendName({ measure, statistic }: ExplorerState): string {
-  if (measure === 'density') return 'Density: configurations with a witness point here'
+export function legendName(state: ExplorerState): string {
+  const { measure, statistic } = state
+  const difference = differs(state) ? ', difference: above 0 the first is larger' : ''
+  if (measure === 'density') return `Density: configurations with a witness point here${difference}`
+  if (isShare(measure)) return `${MEASURE[measure]}, share${difference}`
   const name = STATISTIC[statistic]
-  const what = { time: 'time', bv_tests: 'BV tests', primitive_tests: 'primitive tests' }[measure] ?? MEASURE[measure]
-  return `${name === 'MAD' ? name : name[0]?.toUpperCase() + name.slice(1)} of ${what} per query`
+  const what =
+    { time: 'time', bv_tests: 'BV tests', primitive_tests: 'primitive tests', distance_error: 'distance error' }[measure as string] ??
+    MEASURE[measure]
+  return `${name === 'MAD' ? name : name[0]?.toUpperCase() + name.slice(1)} of ${what} per query${difference}`
+}
+
+/** A sentence on what maps of failures show: where it is 0 and where it is not. */
+export function failureWords(name: string, map: Heatmap): string {
+  const reached = map.values.filter((value) => value !== null)
+  const failing = reached.filter((value) => value > 0)
+  if (reached.length === 0) return `${name}: no vertex has a value.`
+  if (failing.length === 0) return `${name}: 0 at all ${count(reached.length)} vertices that have a value.`
+  const most = withUnit(Math.max(...failing), map.unit)
+  return `${name}: above 0 at ${count(failing.length)} of ${count(reached.length)} vertices, at most ${most}.`
 }

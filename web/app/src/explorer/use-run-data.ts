@@ -2,7 +2,7 @@ import { useQueries } from '@tanstack/vue-query'
 import { computed, type ComputedRef } from 'vue'
 import { getEcdf, getHeatmap } from '../api/client'
 import type { Ecdf, Heatmap, HeatmapRequest, RunInfo } from '../api/types'
-import { MAX_PANES, type ExplorerState } from './url-state'
+import { differs, MAX_PANES, type ExplorerState } from './url-state'
 
 /** One picture: whose values, and the map when it is there. */
 export interface PaneData {
@@ -25,13 +25,27 @@ export function visibleAlgorithms(run: RunInfo, state: ExplorerState): { id: str
   const chosen = all.filter(({ id }) => state.algorithms.includes(id))
   const shown = (chosen.length > 0 ? chosen : all).slice(0, MAX_PANES)
   // Density counts configurations: it is the same for every algorithm.
-  return state.measure === 'density' ? shown.slice(0, 1) : shown
+  if (state.measure === 'density') return shown.slice(0, 1)
+  // Nothing differs from itself.
+  const others = shown.filter(({ id }) => state.againstRun !== '' || id !== state.against)
+  return others.length > 0 ? others : all.filter(({ id }) => id !== state.against).slice(0, 1)
+}
+
+/** What is subtracted, behind the name of a picture. */
+function minus(run: RunInfo, state: ExplorerState): string {
+  if (!differs(state)) return ''
+  const other = run.results.find(({ algorithm }) => algorithm === state.against)?.name ?? state.against
+  return ` − ${[other, state.againstRun && 'the other run'].filter(Boolean).join(', ')}`
 }
 
 /** The request behind one picture. */
 export function heatmapRequest(state: ExplorerState, algorithm: string): HeatmapRequest {
-  const { side, measure, statistic, outliers } = state
-  return { algorithm, side, measure, statistic, outliers }
+  const { side, measure, statistic, outliers, against, againstRun } = state
+  return {
+    algorithm, side, measure, statistic, outliers,
+    ...(differs(state) && against && { against }),
+    ...(againstRun && { against_run: againstRun }),
+  }
 }
 
 /** The heatmaps on the screen; a finished run never changes, so what was fetched stays good. */
@@ -55,7 +69,7 @@ export function useHeatmaps(run: ComputedRef<RunInfo>, state: ComputedRef<Explor
       const query = queries.value[i]
       return {
         algorithm: id,
-        title: state.value.measure === 'density' ? 'Configuration set' : name,
+        title: (state.value.measure === 'density' ? 'Configuration set' : name) + minus(run.value, state.value),
         heatmap: query?.data ?? null,
         error: query?.error?.message ?? null,
         series: state.value.measure === 'density' ? null : order.value.indexOf(id),

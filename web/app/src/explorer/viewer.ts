@@ -7,7 +7,7 @@ import { CameraRig } from './camera'
 import type { Colormap } from './colormap'
 import { buildBvh, pick, type Hit } from './picking'
 import type { ColourScale } from './scale'
-import { cssBytes, heatmapMaterial, setColormap, setNeutrals, setScale } from './shader'
+import { cssBytes, heatmapMaterial, setColormap, setNeutrals, setScale, setSelecting } from './shader'
 import { graphics } from './software'
 
 /** One picture of the object: where on the page, and what its vertices carry (null: plain). */
@@ -19,6 +19,8 @@ export interface Pane {
 export interface ViewerEvents {
   /** The reader asked for the value at a place of pane number `pane`. */
   pick?: (hit: Hit, pane: number) => void
+  /** The reader chose a region around a place: a double click, or B. */
+  region?: (vertex: number) => void
   /** The camera came to rest. */
   camera?: (view: number[]) => void
 }
@@ -42,6 +44,8 @@ export class HeatmapViewer {
   )
   private readonly halo = new Points(this.marker.geometry, this.marker.material.clone())
   private base: BufferGeometry | null = null
+  /** Per vertex: in the selection or not; shared by all panes. */
+  private lit = new BufferAttribute(new Float32Array(0), 1)
   private bvh: MeshBVH | null = null
   private panes: { element: HTMLElement; mesh: Mesh }[] = []
   private readonly resize: ResizeObserver
@@ -67,6 +71,7 @@ export class HeatmapViewer {
       rested: (view) => this.events.camera?.(view),
       clicked: (x, y) => this.pickAt(x, y),
     })
+    stage.addEventListener('dblclick', this.regionAt)
     this.resize = new ResizeObserver(() => this.invalidate())
     this.resize.observe(stage)
     this.theme()
@@ -80,6 +85,7 @@ export class HeatmapViewer {
     geometry.computeBoundingSphere()
     this.base = geometry
     this.bvh = buildBvh(geometry)
+    this.lit = new BufferAttribute(new Float32Array(this.vertices), 1)
     this.rig.fit(geometry.boundingSphere ?? new Sphere(new Vector3(), 1))
     this.mark(null)
   }
@@ -98,6 +104,7 @@ export class HeatmapViewer {
       geometry.setIndex(base.index)
       geometry.setAttribute('position', base.getAttribute('position'))
       geometry.setAttribute('normal', base.getAttribute('normal'))
+      geometry.setAttribute('lit', this.lit)
       geometry.setAttribute('datum', new BufferAttribute(datum ?? new Float32Array(this.vertices * 4), 4))
       geometry.boundingSphere = base.boundingSphere
       const mesh = new Mesh(geometry, this.material)
@@ -111,6 +118,17 @@ export class HeatmapViewer {
   /** `shown` are positions on the scale: what lies outside is drawn without colour. */
   setScale(scale: ColourScale | null, shown: readonly [number, number]): void {
     setScale(this.material, scale, shown)
+    this.invalidate()
+  }
+
+  /** Dims the surface outside the selected vertices; null: nothing is selected. */
+  setLit(lit: Float32Array | null): void {
+    const fits = lit !== null && lit.length === this.lit.count
+    if (fits) {
+      this.lit.array.set(lit)
+      this.lit.needsUpdate = true
+    }
+    setSelecting(this.material, fits)
     this.invalidate()
   }
 
@@ -161,6 +179,12 @@ export class HeatmapViewer {
     if (box) this.pickAt(box.left + box.width / 2, box.top + box.height / 2)
   }
 
+  /** The vertex in the middle of a pane; null where the surface is not. */
+  centre(pane: number): number | null {
+    const box = this.panes[pane]?.element.getBoundingClientRect()
+    return (box && this.hitAt(box.left + box.width / 2, box.top + box.height / 2)?.hit.vertex) ?? null
+  }
+
   /** Draws before the next repaint, however often it is asked. */
   invalidate(): void {
     this.frame ||= requestAnimationFrame(() => {
@@ -180,6 +204,7 @@ export class HeatmapViewer {
     cancelAnimationFrame(this.frame)
     clearTimeout(this.settle)
     this.resize.disconnect()
+    this.stage.removeEventListener('dblclick', this.regionAt)
     this.rig.dispose()
     this.clearPanes(true)
     this.base?.dispose()
@@ -197,7 +222,7 @@ export class HeatmapViewer {
   private clearPanes(surfaceToo: boolean): void {
     for (const { mesh } of this.panes) {
       this.scene.remove(mesh)
-      if (!surfaceToo) mesh.geometry.deleteAttribute('position').deleteAttribute('normal').setIndex(null)
+      if (!surfaceToo) mesh.geometry.deleteAttribute('position').deleteAttribute('normal').deleteAttribute('lit').setIndex(null)
       mesh.geometry.dispose()
     }
     this.panes = []
@@ -237,14 +262,24 @@ export class HeatmapViewer {
     }
   }
 
+  private readonly regionAt = (event: MouseEvent): void => {
+    const found = this.hitAt(event.clientX, event.clientY)
+    if (found) this.events.region?.(found.hit.vertex)
+  }
+
   private pickAt(clientX: number, clientY: number): void {
-    if (!this.bvh) return
+    const found = this.hitAt(clientX, clientY)
+    if (found) this.events.pick?.(found.hit, found.pane)
+  }
+
+  private hitAt(clientX: number, clientY: number): { hit: Hit; pane: number } | null {
+    if (!this.bvh) return null
     const pane = this.panes.findIndex(({ element }) => {
       const box = element.getBoundingClientRect()
       return clientX >= box.left && clientX < box.right && clientY >= box.top && clientY < box.bottom
     })
     const box = this.panes[pane]?.element.getBoundingClientRect()
-    if (!box) return
+    if (!box) return null
     this.rig.aspect(box.width / box.height)
     const ray = new Raycaster()
     ray.setFromCamera(
@@ -252,7 +287,7 @@ export class HeatmapViewer {
       this.camera,
     )
     const hit = pick(this.bvh, ray.ray)
-    if (hit) this.events.pick?.(hit, pane)
+    return hit && { hit, pane }
   }
 }
 

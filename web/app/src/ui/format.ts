@@ -27,6 +27,7 @@ export function time(ns: number): string {
 /** A value of a heatmap; `unit` as the API names it. */
 export function value(amount: number, unit: string): string {
   if (unit === 'ns') return time(amount)
+  if (unit === 'share') return percent(amount)
   if (amount === 1) return `1${GAP}${unit.replace(/s$/, '')}`
   if (Number.isInteger(amount)) return `${count(amount)}${GAP}${unit}`
   return significant(amount) + GAP + unit
@@ -34,6 +35,7 @@ export function value(amount: number, unit: string): string {
 
 /** Several values with one unit between them, for the ticks of a legend. */
 export function inOneUnit(amounts: readonly number[], unit: string): { unit: string; texts: string[] } {
+  if (unit === 'share') return { unit: '%', texts: amounts.map((amount) => significant(amount * 100)) }
   if (unit !== 'ns') return { unit, texts: amounts.map((amount) => significant(amount)) }
   // The middle of the axis decides: a few zeros at one end, a few decimals at the other.
   const positive = amounts.filter((amount) => amount > 0)

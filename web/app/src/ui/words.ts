@@ -6,6 +6,12 @@ export const MEASURE: Record<Measure, string> = {
   bv_tests: 'BV tests',
   primitive_tests: 'Primitive tests',
   density: 'Density',
+  wrong: 'Wrong answers',
+  missed: 'Missed collisions',
+  false_alarms: 'False alarms',
+  distance_error: 'Distance error',
+  flips: 'Flips',
+  disagreement: 'Disagreement',
 }
 
 export const ACCURACY: Record<Accuracy, string> = {
@@ -35,6 +41,19 @@ export const CHART: Record<ChartKind, string> = {
   bv_tests: 'By BV tests',
   primitive_tests: 'By primitive tests',
 }
+/** What a failure is, in a sentence. */
+export const FAILURE: Partial<Record<Measure, string>> = {
+  wrong: 'Share of the answers that are wrong.',
+  missed: 'Share of the answers that miss a collision: the worst error.',
+  false_alarms: 'Share of the answers that report a collision where there is none.',
+  distance_error:
+    'How far the answered distance lies outside the certified interval, in u S: roundings of the algorithm’s arithmetic at the size of the scene. Up to 32 are right.',
+  flips: 'Share of the configurations whose equivalent instances (turned, renumbered, scaled, swapped) got answers that contradict each other.',
+  disagreement: 'Share of the other algorithms of this run whose answer contradicts this one’s.',
+}
+
+/** Failures that are shares: a mean of zeros and ones. */
+export const isShare = (measure: Measure): boolean => measure in FAILURE && measure !== 'distance_error'
 
 export const STATISTIC: Record<Statistic, string> = {
   mean: 'mean',

@@ -34,6 +34,7 @@ pub(crate) struct Colouring {
         (status = 200, body = Heatmap),
         (status = 404, description = "No such run, or no such values in it", body = Problem, content_type = "application/problem+json"),
         (status = 400, description = "Unknown measure, statistic, ...", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No such values: errors of a run that asked no distances, another object, ...", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn show_heatmap(
     State(app): State<App>,
@@ -54,6 +55,7 @@ pub(crate) async fn show_heatmap(
         (status = 200, body = VertexValue),
         (status = 404, description = "No such run, values or vertex", body = Problem, content_type = "application/problem+json"),
         (status = 400, description = "Unknown measure, statistic, ...", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No such values: errors of a run that asked no distances, another object, ...", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn show_vertex(
     State(app): State<App>,

@@ -17,7 +17,19 @@ use crate::problem::{Problem, Result};
 #[into_params(parameter_in = Query)]
 pub(crate) struct OfAlgorithm {
     /// Algorithm id.
+    pub(crate) algorithm: String,
+}
+
+/// Which records.
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(crate) struct OfSelection {
+    /// Algorithm id.
     algorithm: String,
+    /// Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`.
+    #[serde(rename = "where")]
+    #[param(rename = "where")]
+    selection: Option<String>,
 }
 
 /// Empirical distribution of the time per query.
@@ -37,33 +49,41 @@ pub(crate) async fn show_ecdf(
 
 /// The records of one algorithm as Parquet.
 #[utoipa::path(get, path = "/runs/{id}/records.parquet", tag = "results",
-    params(("id" = String, Path, description = "Run id"), OfAlgorithm),
+    params(("id" = String, Path, description = "Run id"), OfSelection),
     responses(
         (status = 200, description = "One row per configuration", body = [u8], content_type = "application/vnd.apache.parquet"),
         (status = 404, description = "No such run, or no records of this algorithm", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The selection cannot be read or applied", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn records_parquet(
     State(app): State<App>,
     Path(id): Path<String>,
-    Query(of): Query<OfAlgorithm>,
+    Query(of): Query<OfSelection>,
 ) -> Result<Response> {
-    let bytes = app.engine.records_parquet(&id, &of.algorithm).await?;
+    let bytes = match &of.selection {
+        None => app.engine.records_parquet(&id, &of.algorithm).await?,
+        Some(selection) => app.engine.selected_parquet(&id, &of.algorithm, selection).await?,
+    };
     Ok(download(PARQUET, &format!("{id}-{}.parquet", of.algorithm), bytes))
 }
 
 /// The records of one algorithm as CSV with a header line.
 #[utoipa::path(get, path = "/runs/{id}/records.csv", tag = "results",
-    params(("id" = String, Path, description = "Run id"), OfAlgorithm),
+    params(("id" = String, Path, description = "Run id"), OfSelection),
     responses(
         (status = 200, description = "One line per configuration", body = String, content_type = "text/csv"),
         (status = 404, description = "No such run, or no records of this algorithm", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The selection cannot be read or applied", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn records_csv(
     State(app): State<App>,
     Path(id): Path<String>,
-    Query(of): Query<OfAlgorithm>,
+    Query(of): Query<OfSelection>,
 ) -> Result<Response> {
-    let bytes = app.engine.records_csv(&id, &of.algorithm).await?;
+    let bytes = match &of.selection {
+        None => app.engine.records_csv(&id, &of.algorithm).await?,
+        Some(selection) => app.engine.selected_csv(&id, &of.algorithm, selection).await?,
+    };
     Ok(download("text/csv; charset=utf-8", &format!("{id}-{}.csv", of.algorithm), bytes))
 }
 

@@ -56,6 +56,17 @@ async fn check_numbers(guest: &Guest, path: &str, configurations: u64) {
     let response = guest.get(&format!("{path}/ecdf?algorithm=parry")).send().await.expect("an answer");
     problem(response, 404).await;
 
+    let all = guest.json(&format!("{path}/selection?algorithm=box-tree&where=near(vertex%200,%202)")).await;
+    assert_eq!((&all["n"], &all["where"]), (&configurations.into(), &"near(vertex 0, 2)".into()), "{all:#}");
+    let worst = guest.json(&format!("{path}/worst?algorithm=box-tree&limit=3&where=!wrong")).await;
+    let worst = worst.as_array().expect("a list");
+    assert_eq!(worst.len(), 3);
+    assert!(worst[0]["time_ns"].as_f64() >= worst[1]["time_ns"].as_f64() && worst[0]["pose_b"].as_array().is_some());
+    let meeting = guest.json(&format!("{path}/configurations/{}/contacts", worst[0]["configuration"])).await;
+    assert_eq!(meeting["total"].as_u64().expect("a count") as usize, meeting["pairs"].as_array().expect("pairs").len());
+    let bad = guest.get(&format!("{path}/selection?algorithm=box-tree&where=tame")).send().await.expect("an answer");
+    assert!(problem(bad, 422).await.contains("at character 1"));
+
     let (csv, media_type) = guest.bytes(&format!("{path}/records.csv?algorithm=box-tree")).await;
     assert_eq!(media_type, "text/csv; charset=utf-8");
     let lines = String::from_utf8(csv).expect("text").lines().count() as u64;
@@ -69,6 +80,11 @@ async fn check_files(guest: &Guest, path: &str) {
         (format!("heatmap.glb?{MAP}"), b"glTF"),
         (format!("heatmap.glb?{MAP}&colormap=viridis&scale=log"), b"glTF"),
         (format!("heatmap.ply?{MAP}"), b"ply\n"),
+        (format!("heatmap.glb?{MAP}&against=brute-force"), b"glTF"),
+        ("records.parquet?algorithm=brute-force&where=!wrong".to_owned(), b"PAR1"),
+        // A stream of Arrow begins with its sign for "a message follows".
+        ("columns.arrow?algorithm=brute-force".to_owned(), &[255; 4]),
+        ("witnesses.arrow".to_owned(), &[255; 4]),
     ] {
         let response = guest.get(&format!("{path}/{file}")).send().await.expect("an answer");
         assert_eq!(response.status(), StatusCode::OK, "{file}");

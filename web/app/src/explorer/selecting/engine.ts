@@ -1,0 +1,165 @@
+import { tableFromIPC } from '@uwdata/flechette'
+import { apply, axis, density, litVertices, sortedChosen, type Axis, type Columns } from './apply'
+import { algorithms, parse, type Column } from './language'
+
+/** An object's surface as far as selections need it. */
+export interface SurfaceData {
+  positions: Float32Array
+  corners: Uint32Array | Uint16Array
+  /** Longest side of its box. */
+  longest: number
+}
+
+/** What the page wants to know. */
+export interface Question {
+  /** All of it must hold; empty: nothing is selected. */
+  where: string[]
+  /** The algorithm of the chart, whose columns are meant when none is named. */
+  lookedAt: string
+  side: 'a' | 'b'
+  /** The column across the time, or the first that can be had. */
+  y: Column | null
+  cells: [number, number]
+  /** Algorithms of the table and of the distribution. */
+  algorithms: string[]
+}
+
+export interface SelectedTimes {
+  algorithm: string
+  n: number
+  median: number | null
+  p99: number | null
+  max: number | null
+  /** Points of the distribution of the selected times. */
+  times: number[]
+  share: number[]
+}
+
+export interface Answer {
+  /** Configurations in the set. */
+  of: number
+  /** Selected ones; null without a selection. */
+  n: number | null
+  /** Members of every selection by itself. */
+  each: number[]
+  lit: Float32Array<ArrayBuffer> | null
+  chart: { x: Axis; y: Axis; column: Column; all: Uint32Array<ArrayBuffer>; lit: Uint32Array<ArrayBuffer> } | null
+  /** Columns that may stand across the time. */
+  columns: Column[]
+  rows: SelectedTimes[]
+}
+
+const ACROSS: readonly Column[] = ['bv', 'primitives', 'error', 'distance']
+const POINTS = 256
+
+type Numbers = Record<string, ArrayLike<number>>
+
+/** The configurations of one run, in columns; fetched when first asked for. Runs in a worker. */
+export class Selecting {
+  private readonly fetched = new Map<string, Promise<Numbers>>()
+  private readonly loaded = new Map<string, Numbers>()
+
+  constructor(
+    private readonly run: string,
+    private readonly surfaces: { a: SurfaceData; b: SurfaceData },
+  ) {}
+
+  async answer(question: Question): Promise<Answer> {
+    const predicates = question.where.map(parse)
+    const needed = predicates.flatMap((one) => algorithms(one, question.lookedAt))
+    const rows = predicates.length > 0 ? question.algorithms : []
+    await Promise.all([this.witnesses(), ...[...new Set([question.lookedAt, ...needed, ...rows])].map((id) => this.columns(id))])
+
+    const columns = this.view(question.lookedAt)
+    const masks = predicates.map((one) => apply(one, columns))
+    const of = this.known('').distance?.length ?? 0
+    const chosen = masks.length > 0 ? masks.reduce((x, y) => x.map((is, i) => is & (y[i] ?? 0))) : null
+    const surface = this.surfaces[question.side]
+    const triangles = this.known('')[`triangle_${question.side}`]
+    const across = ACROSS.filter((column) => column === 'distance' || column in this.known(question.lookedAt))
+    return {
+      of,
+      n: chosen && sum(chosen),
+      each: masks.map(sum),
+      lit: chosen && triangles ? litVertices(chosen, triangles, surface.corners, surface.positions.length / 3) : null,
+      chart: this.chart(question, across, columns, chosen),
+      columns: across,
+      rows: chosen ? rows.map((algorithm) => times(algorithm, columns.column('time', algorithm), chosen)) : [],
+    }
+  }
+
+  private chart({ y, cells, lookedAt }: Question, across: Column[], columns: Columns, chosen: Uint8Array | null) {
+    const column = across.find((one) => one === y) ?? across[0]
+    if (!column || !this.known(lookedAt).time) return null
+    const [xs, ys] = [columns.column('time', null), columns.column(column, null)]
+    const axes = { x: axis(xs, cells[0]), y: axis(ys, cells[1]) }
+    return { ...axes, column, ...density(xs, ys, axes.x, axes.y, chosen) }
+  }
+
+  private view(lookedAt: string): Columns {
+    return {
+      column: (column, of) => {
+        const values = column === 'distance' ? this.known('').distance : this.known(of ?? lookedAt)[column]
+        if (!values) throw new Error(`${of ?? lookedAt} has no column "${column}" in this run.`)
+        return values
+      },
+      fromVertex: (body, vertex) => {
+        const { positions, longest } = this.surfaces[body]
+        if (3 * vertex >= positions.length) throw new Error(`Object ${body.toUpperCase()} has no vertex ${vertex}.`)
+        const [x, y, z] = ['x', 'y', 'z'].map((axisName) => this.known('')[`${body}_${axisName}`] ?? [])
+        const [cx = 0, cy = 0, cz = 0] = positions.subarray(3 * vertex, 3 * vertex + 3)
+        return Float64Array.from({ length: x?.length ?? 0 }, (_, i) =>
+          Math.sqrt(((x?.[i] ?? 0) - cx) ** 2 + ((y?.[i] ?? 0) - cy) ** 2 + ((z?.[i] ?? 0) - cz) ** 2) / longest)
+      },
+    }
+  }
+
+  private known(key: string): Numbers {
+    return this.loaded.get(key) ?? {}
+  }
+
+  private columns(algorithm: string): Promise<Numbers> {
+    return this.fetch(algorithm, `columns.arrow?${new URLSearchParams({ algorithm })}`)
+  }
+
+  private witnesses(): Promise<Numbers> {
+    return this.fetch('', 'witnesses.arrow')
+  }
+
+  private fetch(key: string, what: string): Promise<Numbers> {
+    const known = this.fetched.get(key)
+    if (known) return known
+    const coming = fetchColumns(`/api/v1/runs/${encodeURIComponent(this.run)}/${what}`).then((numbers) => {
+      this.loaded.set(key, numbers)
+      return numbers
+    })
+    // What could not be fetched is asked for again the next time.
+    coming.catch(() => this.fetched.delete(key))
+    this.fetched.set(key, coming)
+    return coming
+  }
+}
+
+async function fetchColumns(url: string): Promise<Numbers> {
+  const response = await fetch(url)
+  if (!response.ok) {
+    const problem = (await response.json().catch(() => null)) as { detail?: string } | null
+    throw new Error(problem?.detail ?? `The service answered ${response.status}.`)
+  }
+  const table = tableFromIPC(await response.arrayBuffer())
+  return Object.fromEntries(table.names.map((name) => [String(name), table.getChild(name).toArray() as ArrayLike<number>]))
+}
+
+const sum = (mask: Uint8Array): number => mask.reduce((n, is) => n + is, 0)
+
+function times(algorithm: string, values: ArrayLike<number>, chosen: Uint8Array): SelectedTimes {
+  const sorted = sortedChosen(values, chosen)
+  const n = sorted.length
+  const at = (q: number) => (n > 0 ? (sorted[Math.round(q * (n - 1))] ?? null) : null)
+  const points = Math.min(n, POINTS)
+  const indices = Array.from({ length: points }, (_, i) => Math.round((i * (n - 1)) / Math.max(1, points - 1)))
+  return {
+    algorithm, n, median: at(0.5), p99: at(0.99), max: at(1),
+    times: indices.map((i) => sorted[i] ?? 0), share: indices.map((i) => (i + 1) / n),
+  }
+}

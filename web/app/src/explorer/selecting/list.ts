@@ -1,0 +1,34 @@
+/** A named predicate; those that are on hold together. */
+export interface NamedSelection {
+  name: string
+  where: string
+  on: boolean
+}
+
+export const MOST_SELECTIONS = 12
+const LONGEST_NAME = 40
+
+/** The list as a link says it: `name:where;-name:where`, where the minus stands for "off". */
+export function writeSelections(list: readonly NamedSelection[]): string {
+  return list.map(({ name, where, on }) => `${on ? '' : '-'}${tidy(name)}:${where}`).join(';')
+}
+
+/** Reads such a list; nothing when it is none. */
+export function readSelections(text: string): NamedSelection[] | undefined {
+  const list = text.split(';').map((part) => {
+    const [, off = '', name = '', where = ''] = /^(-?)([^:]*):(.+)$/.exec(part) ?? []
+    return { name: tidy(name), where, on: off === '' }
+  })
+  return list.length <= MOST_SELECTIONS && list.every(({ where }) => where !== '') ? list : undefined
+}
+
+/** A name without the signs that the link uses. */
+export function tidy(name: string): string {
+  return name.replace(/[:;]/g, ' ').replace(/^-+/, '').trim().slice(0, LONGEST_NAME)
+}
+
+/** A name that no selection of the list has. */
+export function freshName(list: readonly NamedSelection[], what: string): string {
+  const taken = new Set(list.map(({ name }) => name))
+  for (let i = 1; ; i++) if (!taken.has(`${what} ${i}`)) return `${what} ${i}`
+}

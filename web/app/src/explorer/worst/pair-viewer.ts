@@ -1,0 +1,136 @@
+import {
+  Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Group, HemisphereLight, Line, LineBasicMaterial, Matrix4, Mesh,
+  MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Scene, Sphere, SphereGeometry, SRGBColorSpace, Vector3, WebGLRenderer,
+} from 'three'
+import { CameraRig } from '../camera'
+import { cssBytes } from '../shader'
+import { graphics } from '../software'
+
+/** One configuration to look at: poses row-major, points in the world, pairs of triangles that meet. */
+export interface Posed {
+  poseA: readonly number[]
+  poseB: readonly number[]
+  points: readonly (readonly number[])[]
+  /** Triangles to light, of A and of B. */
+  triangles: readonly [readonly number[], readonly number[]]
+}
+
+/** Draws both objects of one configuration, translucent, with witness points and lit triangles. Draws on demand only. */
+export class PairViewer {
+  readonly rig: CameraRig
+  private readonly renderer: WebGLRenderer
+  private readonly scene = new Scene()
+  private readonly camera = new PerspectiveCamera(30, 1, 0.01, 100)
+  private readonly surfaces: [BufferGeometry, BufferGeometry]
+  private readonly content = new Group()
+  private readonly resize: ResizeObserver
+  private frame = 0
+
+  constructor(
+    private readonly stage: HTMLElement,
+    canvas: HTMLCanvasElement,
+    a: BufferGeometry,
+    b: BufferGeometry,
+  ) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: !graphics().software })
+    const sun = new DirectionalLight(0xffffff, 1.6)
+    sun.position.set(-0.4, 0.8, 0.9)
+    this.camera.add(sun)
+    this.scene.add(this.content, this.camera, new HemisphereLight(0xffffff, 0x8a8a80, 1.9))
+    this.surfaces = [a, b]
+    for (const surface of new Set(this.surfaces)) if (!surface.getAttribute('normal')) surface.computeVertexNormals()
+    this.rig = new CameraRig(this.camera, stage, { moved: () => this.invalidate(), rested: () => {}, clicked: () => {} })
+    this.resize = new ResizeObserver(() => this.invalidate())
+    this.resize.observe(stage)
+  }
+
+  show(posed: Posed): void {
+    this.clear()
+    const poses = [posed.poseA, posed.poseB].map((pose) => new Matrix4().fromArray([...pose]).transpose())
+    const box = new Box3()
+    this.surfaces.forEach((surface, side) => {
+      const pose = poses[side] ?? new Matrix4()
+      const material = new MeshLambertMaterial({
+        color: this.colour(side === 0 ? '--series-0' : '--series-1'), side: DoubleSide, transparent: true, opacity: side === 0 ? 0.42 : 0.34, depthWrite: false,
+      })
+      const mesh = new Mesh(surface, material)
+      this.place(mesh, pose)
+      mesh.updateMatrixWorld(true)
+      box.expandByObject(mesh, true)
+      const lit = triangles(surface, posed.triangles[side] ?? [])
+      this.place(new Mesh(lit, new MeshBasicMaterial({ color: this.colour('--bad'), side: DoubleSide, depthTest: false })), pose)
+    })
+    const points = posed.points.map(([x = 0, y = 0, z = 0]) => new Vector3(x, y, z))
+    const whole = box.getBoundingSphere(new Sphere())
+    for (const point of points) {
+      const dot = new Mesh(new SphereGeometry(whole.radius * 0.011, 16, 12), new MeshBasicMaterial({ color: this.colour('--ink'), depthTest: false }))
+      dot.position.copy(point)
+      dot.renderOrder = 3
+      this.content.add(dot)
+    }
+    const between = new Line(new BufferGeometry().setFromPoints(points), new LineBasicMaterial({ color: this.colour('--ink'), depthTest: false }))
+    between.renderOrder = 3
+    this.content.add(between)
+    this.rig.fit(whole)
+    this.invalidate()
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.frame)
+    this.resize.disconnect()
+    this.rig.dispose()
+    this.clear()
+    for (const surface of this.surfaces) surface.dispose()
+    this.renderer.dispose()
+    this.renderer.forceContextLoss()
+  }
+
+  private place(mesh: Mesh, pose: Matrix4): void {
+    mesh.matrixAutoUpdate = false
+    mesh.matrix.copy(pose)
+    mesh.renderOrder = mesh.material instanceof MeshBasicMaterial ? 2 : 1
+    this.content.add(mesh)
+  }
+
+  private clear(): void {
+    this.content.traverse((node) => {
+      if (!(node instanceof Mesh || node instanceof Line)) return
+      if (!this.surfaces.includes(node.geometry as BufferGeometry)) node.geometry.dispose()
+      ;(node.material as MeshBasicMaterial).dispose()
+    })
+    this.content.clear()
+  }
+
+  private colour(name: string): Color {
+    const probe = document.createElement('i')
+    probe.style.color = `var(${name})`
+    this.stage.append(probe)
+    const [r, g, b] = cssBytes(getComputedStyle(probe).color)
+    probe.remove()
+    return new Color().setRGB(r / 255, g / 255, b / 255, SRGBColorSpace)
+  }
+
+  invalidate(): void {
+    this.frame ||= requestAnimationFrame(() => {
+      this.frame = 0
+      const { width, height } = this.stage.getBoundingClientRect()
+      if (width === 0 || height === 0) return
+      this.renderer.setPixelRatio(graphics().software ? 1 : Math.min(2, window.devicePixelRatio))
+      this.renderer.setSize(width, height, false)
+      this.renderer.setClearColor(this.colour('--stage'), 1)
+      this.rig.aspect(width / height)
+      this.renderer.render(this.scene, this.camera)
+    })
+  }
+}
+
+/** Some triangles of a surface, as a surface of their own. */
+function triangles(surface: BufferGeometry, chosen: readonly number[]): BufferGeometry {
+  const positions = surface.getAttribute('position')
+  const { index } = surface
+  const corners = chosen.flatMap((t) => [0, 1, 2].flatMap((k) => {
+    const v = index?.getX(3 * t + k) ?? 0
+    return [positions.getX(v), positions.getY(v), positions.getZ(v)]
+  }))
+  return new BufferGeometry().setAttribute('position', new BufferAttribute(new Float32Array(corners), 3))
+}
