@@ -1,5 +1,177 @@
 // Generated from web/server/openapi.json by `npm run generate`: do not edit.
 export interface paths {
+    "/api/v1/account": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Who is logged in; a guest has no account. */
+        get: operations["show_account"];
+        put?: never;
+        /** Makes an account and enters it. A name that is taken gets 409: names stand beside plugins, so they are no secret. */
+        post: operations["make_account"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/account/developer": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Asks the curators to be made a developer, who submits plugins. */
+        post: operations["ask_to_develop"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/account/login": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Enters an account. A wrong name and a wrong password get the same answer, in the same time. */
+        post: operations["log_in"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/account/logout": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Leaves the account in this browser. */
+        post: operations["log_out"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/account/logout-everywhere": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Leaves the account in every browser; tokens stay. */
+        post: operations["log_out_everywhere"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/account/password": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Changes the password and leaves the account in every browser. */
+        post: operations["change_password"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/account/tokens": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Tokens for programs, without their secrets. */
+        get: operations["list_tokens"];
+        put?: never;
+        /** Makes a token; its secret is in this answer and nowhere else. */
+        post: operations["make_token"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/account/tokens/{id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /** Ends a token. */
+        delete: operations["end_token"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/accounts": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** All accounts by name; those that want to be developers say why. */
+        get: operations["list_accounts"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/accounts/{id}/role": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Gives an account a role. Curators decide about users and developers, administrators about all. */
+        post: operations["change_role"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/algorithms": {
         parameters: {
             query?: never;
@@ -7,7 +179,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** All algorithms. */
+        /** The installed and the public algorithms, and the visitor's own. */
         get: operations["list_algorithms"];
         put?: never;
         post?: never;
@@ -43,6 +215,23 @@ export interface paths {
         };
         /** The rows of the board as CSV with a header line. */
         get: operations["show_board_csv"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/curation": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** What waits for a curator, oldest first. */
+        get: operations["list_curation"];
         put?: never;
         post?: never;
         delete?: never;
@@ -160,6 +349,78 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/plugins": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The public plugins and those of the visitor, newest first; each one's report and history stand on its own page. */
+        get: operations["list_plugins"];
+        put?: never;
+        /** Sends a plugin, which is then checked. The same bytes twice are one. */
+        post: operations["submit_plugin"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/plugins/{id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * One plugin with its report and its history. One that was never public is shown to its author and to curators; to others
+         *     it is not there.
+         */
+        get: operations["show_plugin"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/plugins/{id}/decisions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Takes a step on a plugin's way. The author offers, answers and withdraws; curators decide, but not about their own. */
+        post: operations["decide"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/plugins/{id}/events": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The plugin after every line of its report, as server-sent events; ends with the check. */
+        get: operations["follow_plugin"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs": {
         parameters: {
             query?: never;
@@ -263,6 +524,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{id}/columns.arrow": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Every column that selections know of one algorithm, one value per configuration of the set (NaN where there is none),
+         *     as an Arrow IPC stream. Columns that cannot be had are left out.
+         */
+        get: operations["columns_arrow"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{id}/configurations.parquet": {
         parameters: {
             query?: never;
@@ -272,6 +553,23 @@ export interface paths {
         };
         /** The run's configurations with their truth as Parquet; `ocb bench --configurations` reads it again. */
         get: operations["configurations_parquet"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{id}/configurations/{configuration}/contacts": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** All pairs of triangles that meet in one configuration, by the oracle. */
+        get: operations["show_meeting"];
         put?: never;
         post?: never;
         delete?: never;
@@ -404,6 +702,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{id}/selection": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** How many configurations a selection holds, and what they cost each algorithm. */
+        get: operations["show_selection"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{id}/vertices/{vertex}": {
         parameters: {
             query?: never;
@@ -413,6 +728,43 @@ export interface paths {
         };
         /** The value at one vertex, as the heatmap has it. */
         get: operations["show_vertex"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{id}/witnesses.arrow": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Where every configuration has its witness points, in the objects' own frames, the triangles that hold them, and the
+         *     certified distance, as an Arrow IPC stream.
+         */
+        get: operations["witnesses_arrow"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{id}/worst": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The worst configurations of an algorithm: wrong answers first, missed collisions before all. */
+        get: operations["list_worst"];
         put?: never;
         post?: never;
         delete?: never;
@@ -442,11 +794,32 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /** @description An account, as its owner and curators see it. */
+        AccountInfo: {
+            /**
+             * Format: int64
+             * @description When it was made.
+             */
+            created_us: number;
+            /** @description Its id. */
+            id: string;
+            /** @description Its name, as it is shown beside plugins. */
+            name: string;
+            /** @description What it may do. */
+            role: components["schemas"]["Role"];
+            /** @description Why its owner wants to be a developer, while that is undecided. */
+            wish?: string | null;
+        };
         /**
          * @description A measure of accuracy.
          * @enum {string}
          */
         Accuracy: "wrong" | "missed" | "false_alarms" | "digits" | "distance";
+        /**
+         * @description A step on a plugin's way.
+         * @enum {string}
+         */
+        Action: "offer" | "answer" | "withdraw" | "approve" | "ask" | "reject" | "suspend" | "exclude" | "reinstate";
         /** @description How many of some answers agree with exact arithmetic. */
         Agreement: {
             /**
@@ -570,6 +943,27 @@ export interface components {
              * @description Seconds.
              */
             seconds: number;
+        };
+        /** @description One thing that somebody did. */
+        AuditEntry: {
+            /** @description What, in a word. */
+            action: string;
+            /** @description Who: the name of an account, or `the service`. */
+            actor: string;
+            /**
+             * Format: int64
+             * @description When.
+             */
+            at_us: number;
+            /** @description The reason given. */
+            detail: string;
+            /**
+             * Format: int64
+             * @description Position in the log, from 1.
+             */
+            seq: number;
+            /** @description To what. */
+            subject: string;
         };
         /** @description An axis. */
         Axis: {
@@ -738,6 +1132,23 @@ export interface components {
          * @enum {string}
          */
         ChartKind: "accuracy" | "distance" | "triangles" | "ecdf" | "bv_tests" | "primitive_tests" | "resolution";
+        /** @description One check of a plugin. */
+        CheckLine: {
+            /** @description What was checked, e.g. `load in the jail`. */
+            check: string;
+            /** @description What was seen, one sentence. */
+            evidence: string;
+            /** @description How to mend it, when it did not pass. */
+            hint?: string | null;
+            repro?: components["schemas"]["Repro"] | null;
+            /** @description How it ended. */
+            verdict: components["schemas"]["CheckVerdict"];
+        };
+        /**
+         * @description How one check ended.
+         * @enum {string}
+         */
+        CheckVerdict: "pass" | "note" | "fail";
         /**
          * @description What may be asked of an answer at one precision: `CLEAR` and `COLLIDING` are scored, `GRAZING` is reported only.
          * @enum {string}
@@ -794,6 +1205,15 @@ export interface components {
             /** @description In which order it was asked. */
             order: components["schemas"]["Order"];
         };
+        /** @description Name and password. */
+        Credentials: {
+            /** @description Moves the guest's runs and objects into the account. */
+            keep?: boolean;
+            /** @description User name or e-mail address: 3 to 80 letters, digits and `. _ - @ +`. */
+            name: string;
+            /** @description Password of 10 to 200 characters. */
+            password: string;
+        };
         /** @description Configurations whose distance or margin, divided by S, is from `10^exponent` to ten times that. */
         Decade: {
             /**
@@ -811,6 +1231,13 @@ export interface components {
              * @description Those answered wrongly, however narrow the decision.
              */
             wrong: number;
+        };
+        /** @description A step, and why it is taken. */
+        Decision: {
+            /** @description The step. */
+            action: components["schemas"]["Action"];
+            /** @description Why, for the author and for the log. */
+            reason?: string;
         };
         /**
          * @description What an algorithm delivered, as its answers show.
@@ -965,36 +1392,80 @@ export interface components {
             dropped: number[];
             /**
              * Format: int32
-             * @description Configurations that went in.
+             * @description Configurations that went in; of a difference, those of the map that has fewer.
              */
             n: number;
             /** @description Smallest and largest value; absent when no vertex has one. */
             range?: number[] | null;
-            /** @description What was asked. */
+            /** @description What is shown: what was asked, but for what the measure leaves no choice of. */
             request: components["schemas"]["HeatmapRequest"];
-            /** @description Unit of the values (`ns`, `tests`, `configurations`). */
+            /** @description Unit of the values (`ns`, `tests`, `configurations`, `share`, `u S`). */
             unit: string;
             /** @description One per vertex, in the object's vertex order; null where there is none. */
             values: (number | null)[];
         };
         /** @description Which map; the query string of every heatmap route. */
         HeatmapRequest: {
+            /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
+            against?: string | null;
+            /** @description Subtract the values of another run on the same object; of the same algorithm unless `against` names another one. */
+            against_run?: string | null;
             /** @description Algorithm id (ignored for density). */
             algorithm: string;
             /** @description What to show. */
             measure: components["schemas"]["Measure"];
-            /** @description What to do with outliers. */
+            /** @description What to do with outliers. Of failures none is dropped. */
             outliers: components["schemas"]["Outliers"];
             /** @description Which object. */
             side?: components["schemas"]["Side"];
             /** @description Which statistic. */
             statistic: components["schemas"]["Statistic"];
+            /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
+            where?: string | null;
+        };
+        /** @description Who asks: a guest has no account. */
+        Identity: {
+            account?: components["schemas"]["AccountInfo"] | null;
+        };
+        /** @description What a developer says of a plugin. */
+        Manifest: {
+            /** @description Authors. */
+            authors: string;
+            /** @description SPDX licence expression. */
+            license: string;
+            /** @description Display name. */
+            name: string;
+            /** @description The paper the method comes from. */
+            paper?: string;
+            /** @description The questions it answers. */
+            queries: components["schemas"]["Query"][];
+            /** @description Where the source is. */
+            source?: string;
+            /** @description It enters the multi-threaded track, too. */
+            threads?: boolean;
+            /** @description Version: letters, digits and `. + - _`, at most 32; another one for every upload. */
+            version: string;
         };
         /**
          * @description What to colour an object by.
          * @enum {string}
          */
-        Measure: "time" | "bv_tests" | "primitive_tests" | "density";
+        Measure: "time" | "bv_tests" | "primitive_tests" | "density" | "wrong" | "missed" | "false_alarms" | "distance_error" | "flips" | "disagreement";
+        /** @description All pairs of triangles that meet in one configuration. */
+        Meeting: {
+            /**
+             * Format: int32
+             * @description Index of the configuration in the set.
+             */
+            configuration: number;
+            /** @description The pairs (triangle of A, triangle of B), at most 100,000. */
+            pairs: number[][];
+            /**
+             * Format: int32
+             * @description Pairs that meet.
+             */
+            total: number;
+        };
         /** @description How the configurations of a set were found. */
         Method: {
             /** @enum {string} */
@@ -1052,6 +1523,25 @@ export interface components {
             kind: "file";
             /** @description Content hash (SHA-256, hex) of the file. */
             sha256: string;
+        };
+        /** @description A change of the password. */
+        NewPassword: {
+            /** @description The password from now on. */
+            new: string;
+            /** @description The password until now. */
+            old: string;
+        };
+        /** @description Another role for an account. */
+        NewRole: {
+            /** @description The role. */
+            role: components["schemas"]["Role"];
+        };
+        /** @description A token just made: the only time that its secret is shown. */
+        NewToken: {
+            /** @description To be sent as `Authorization: Bearer <secret>`. */
+            secret: string;
+            /** @description The token. */
+            token: components["schemas"]["TokenInfo"];
         };
         /** @description An object as the lists show it. */
         ObjectInfo: {
@@ -1130,6 +1620,57 @@ export interface components {
             /** @description Name. */
             name: string;
         };
+        /** @description A plugin somebody brought, as whoever may see it sees it. */
+        PluginInfo: {
+            /** @description The algorithms that it describes. */
+            algorithms: components["schemas"]["AlgorithmInfo"][];
+            /**
+             * Format: int64
+             * @description Size of the file.
+             */
+            bytes: number;
+            /**
+             * Format: int64
+             * @description When its state changed last.
+             */
+            changed_us: number;
+            /**
+             * Format: int64
+             * @description When it was sent.
+             */
+            created_us: number;
+            /** @description Name of the file as it was sent. */
+            file: string;
+            /** @description What a curator should look at; for curators and the author. */
+            flags: string[];
+            /** @description The hardware class on which it was checked. */
+            hardware_class?: string | null;
+            /** @description What was done to it, oldest first. */
+            history: components["schemas"]["AuditEntry"][];
+            /** @description Its id. */
+            id: string;
+            /** @description The report so far. */
+            lines: components["schemas"]["CheckLine"][];
+            /** @description What its author says of it. */
+            manifest: components["schemas"]["Manifest"];
+            /** @description The viewer sent it. */
+            mine: boolean;
+            /** @description Name of the account that sent it. */
+            owner: string;
+            /** @description The version before this one that is or was public. */
+            previous?: string | null;
+            /** @description Why it is there: a curator's or the author's words, or the first line that failed. */
+            reason: string;
+            /** @description SHA-256 (hex) of the file. */
+            sha256: string;
+            /** @description Where it is on its way. */
+            state: components["schemas"]["PluginState"];
+        };
+        /**
+         * @description Where a plugin is on its way to the public benchmark.
+         * @enum {string}
+         */
+        PluginState: "uploaded" | "vetted" | "failed" | "validated" | "awaiting" | "asked" | "rejected" | "public" | "suspended" | "excluded" | "withdrawn";
         /** @description One value, with what is known of it. */
         Point: {
             /** @description `x` may well be more. */
@@ -1212,6 +1753,31 @@ export interface components {
             /** @description SHA-256 (hex) of its plugin file. */
             plugin_sha256: string;
         };
+        /** @description One question that is answered wrongly; `ocb plugin check FILE.so --repro FILE.json` asks it again. */
+        Repro: {
+            /** @description Algorithm id. */
+            algorithm: string;
+            /** @description It fails also when it is the only question. If not, answers depend on the questions before, and nothing was reduced. */
+            alone: boolean;
+            /** @description What the oracle says. */
+            expected: string;
+            /** @description What the plugin answered. */
+            got: string;
+            /** @description Object A as OBJ text, reduced to as few triangles as still fail. */
+            object_a: string;
+            /** @description Object B. */
+            object_b: string;
+            /** @description Pose of A, a row-major 4x4 matrix. */
+            pose_a: number[];
+            /** @description Pose of B. */
+            pose_b: number[];
+            /** @description The question. */
+            query: components["schemas"]["Query"];
+            /** @description Triangles of A and of B. */
+            triangles: number[];
+            /** @description What is wrong with it. */
+            verdict: components["schemas"]["Verdict"];
+        };
         /** @description eps* of one algorithm on one set. */
         Resolution: {
             distance?: components["schemas"]["DistanceError"] | null;
@@ -1228,6 +1794,11 @@ export interface components {
             /** @description Some answer is wrong, so that `eps` is a value and no bound. */
             seen: boolean;
         };
+        /**
+         * @description What an account may do; each role may do what those before it may.
+         * @enum {string}
+         */
+        Role: "user" | "developer" | "curator" | "administrator";
         /** @description Something that happened in a run. */
         RunEvent: {
             /**
@@ -1386,6 +1957,58 @@ export interface components {
          * @enum {string}
          */
         Scale: "linear" | "log" | "signed" | "rows";
+        /**
+         * @description What a token may be used for.
+         * @enum {string}
+         */
+        Scope: "runs" | "plugins";
+        /** @description How many configurations a selection holds, and what they cost. */
+        Selected: {
+            /** @description Every algorithm of the run that has records. */
+            algorithms: components["schemas"]["SelectedOf"][];
+            /**
+             * Format: int32
+             * @description Configurations in it.
+             */
+            n: number;
+            /**
+             * Format: int32
+             * @description Configurations in the set.
+             */
+            of: number;
+            /** @description The selection as it was understood. */
+            where: string;
+        };
+        /** @description The selected configurations of one algorithm. */
+        SelectedOf: {
+            /** @description Algorithm id. */
+            algorithm: string;
+            /**
+             * Format: double
+             * @description Largest time.
+             */
+            max_ns?: number | null;
+            /**
+             * Format: double
+             * @description Median time, nanoseconds; absent without any.
+             */
+            median_ns?: number | null;
+            /**
+             * Format: int32
+             * @description Selected configurations on which it was measured.
+             */
+            n: number;
+            /**
+             * Format: double
+             * @description 99th percentile of the time.
+             */
+            p99_ns?: number | null;
+            /**
+             * Format: int32
+             * @description Wrong answers among them.
+             */
+            wrong: number;
+        };
         /**
          * @description What counts as an object.
          * @enum {string}
@@ -1626,6 +2249,32 @@ export interface components {
              */
             found: number;
         };
+        /** @description A token for programs, without its secret. */
+        TokenInfo: {
+            /**
+             * Format: int64
+             * @description When it was made.
+             */
+            created_us: number;
+            /**
+             * Format: int64
+             * @description When it ends.
+             */
+            expires_us: number;
+            /** @description Its id. */
+            id: string;
+            /** @description What its owner calls it. */
+            name: string;
+            /** @description What it may be used for. */
+            scopes: components["schemas"]["Scope"][];
+        };
+        /** @description A token that is asked for. */
+        TokenRequest: {
+            /** @description What its owner calls it, 1 to 80 characters. */
+            name: string;
+            /** @description What it may be used for. */
+            scopes: components["schemas"]["Scope"][];
+        };
         /**
          * @description The comparison of one answer with the oracle.
          * @enum {string}
@@ -1653,7 +2302,7 @@ export interface components {
              * @description Values that outlier removal took from it.
              */
             dropped: number;
-            /** @description Unit of the value (`ns`, `tests`, `configurations`). */
+            /** @description Unit of the value, as in the heatmap. */
             unit: string;
             /**
              * Format: double
@@ -1666,6 +2315,60 @@ export interface components {
              */
             vertex: number;
         };
+        /** @description Why somebody wants to be a developer. */
+        Wish: {
+            /** @description A sentence or two for the curators. */
+            reason: string;
+        };
+        /** @description One of the worst configurations of an algorithm. */
+        WorstCase: {
+            /**
+             * Format: int32
+             * @description Index of the configuration in the set.
+             */
+            configuration: number;
+            /**
+             * Format: double
+             * @description The answer: how far apart.
+             */
+            distance?: number | null;
+            /**
+             * Format: double
+             * @description How far that lies outside the certified interval, in u S.
+             */
+            error?: number | null;
+            /**
+             * Format: int32
+             * @description Answers to equivalent instances that contradict the first one; absent in old records.
+             */
+            flips?: number | null;
+            /** @description The answer: do they collide; absent when a distance was asked, or nothing answered. */
+            hit?: boolean | null;
+            /**
+             * Format: double
+             * @description How far every vertex may move and the crossing still holds.
+             */
+            margin: number;
+            /** @description Certified witness points in the world, on A and on B; a common point twice when they collide. */
+            points: number[][];
+            /** @description Pose of A: object to world, row-major 4x4. */
+            pose_a: number[];
+            /** @description Pose of B. */
+            pose_b: number[];
+            /**
+             * Format: double
+             * @description Time of the query, nanoseconds.
+             */
+            time_ns: number;
+            /** @description The triangles of A and B that hold them. */
+            triangles: number[];
+            /** @description The truth: certified bounds of the distance. */
+            true_distance: number[];
+            /** @description The truth: do they collide. */
+            true_hit: boolean;
+            /** @description What the answer is worth. */
+            verdict: components["schemas"]["Verdict"];
+        };
     };
     responses: never;
     parameters: never;
@@ -1675,6 +2378,487 @@ export interface components {
 }
 export type $defs = Record<string, never>;
 export interface operations {
+    show_account: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Identity"];
+                };
+            };
+        };
+    };
+    make_account: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Credentials"];
+            };
+        };
+        responses: {
+            /** @description Made and entered */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Identity"];
+                };
+            };
+            /** @description The name is taken */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No name or no password */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many accounts */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    ask_to_develop: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Wish"];
+            };
+        };
+        responses: {
+            /** @description Asked */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Is one already */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No reason given */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    log_in: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Credentials"];
+            };
+        };
+        responses: {
+            /** @description Entered */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Identity"];
+                };
+            };
+            /** @description Name and password do not belong together */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Something is missing */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many tries */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    log_out: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Left */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    log_out_everywhere: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Left everywhere */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    change_password: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewPassword"];
+            };
+        };
+        responses: {
+            /** @description Changed; log in again */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The old password is another one */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The new one is too short */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_tokens: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TokenInfo"][];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    make_token: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TokenRequest"];
+            };
+        };
+        responses: {
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["NewToken"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many tokens */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No name or no scope */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    end_token: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Token id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description It opens nothing any more */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such token */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_accounts: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AccountInfo"][];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No curator */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    change_role: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Account id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewRole"];
+            };
+        };
+        responses: {
+            /** @description The account as it is now */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AccountInfo"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not for this curator to decide */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such account */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No role */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     list_algorithms: {
         parameters: {
             query?: never;
@@ -1781,6 +2965,43 @@ export interface operations {
             };
             /** @description The precision is none */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_curation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PluginInfo"][];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No curator */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -2039,6 +3260,271 @@ export interface operations {
                 };
                 content: {
                     "application/json": unknown;
+                };
+            };
+        };
+    };
+    list_plugins: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PluginInfo"][];
+                };
+            };
+        };
+    };
+    submit_plugin: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": {
+                    /**
+                     * Format: binary
+                     * @description A shared library of at most 64 MiB.
+                     */
+                    file: string;
+                    /** @description A `Manifest` as JSON; it comes before the file. */
+                    manifest: string;
+                };
+            };
+        };
+        responses: {
+            /** @description Was there already */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PluginInfo"];
+                };
+            };
+            /** @description Stored; its check waits in the queue */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PluginInfo"];
+                };
+            };
+            /** @description No such form */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No developer */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many plugins wait, or the quota is used up */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No plugin, or no manifest */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many uploads */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_plugin: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Plugin id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PluginInfo"];
+                };
+            };
+            /** @description No such plugin */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    decide: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Plugin id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Decision"];
+            };
+        };
+        responses: {
+            /** @description The plugin as it is now */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PluginInfo"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Somebody else's to decide */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such plugin */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not a step from where it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such step, or no reason */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    follow_plugin: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Plugin id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The events */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/event-stream": components["schemas"]["PluginInfo"];
+                };
+            };
+            /** @description The check is through */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description No such plugin */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
         };
@@ -2322,6 +3808,41 @@ export interface operations {
             };
         };
     };
+    columns_arrow: {
+        parameters: {
+            query: {
+                /** @description Algorithm id. */
+                algorithm: string;
+            };
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The columns by their names in selections */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.apache.arrow.stream": number[];
+                };
+            };
+            /** @description No such run, or no records of this algorithm */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     configurations_parquet: {
         parameters: {
             query?: never;
@@ -2344,6 +3865,39 @@ export interface operations {
                 };
             };
             /** @description No such run, or no configurations yet */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_meeting: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+                /** @description Index in the set, from 0 */
+                configuration: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Meeting"];
+                };
+            };
+            /** @description No such run or configuration */
             404: {
                 headers: {
                     [name: string]: unknown;
@@ -2450,8 +4004,14 @@ export interface operations {
                 measure: components["schemas"]["Measure"];
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
-                /** @description What to do with outliers. */
+                /** @description What to do with outliers. Of failures none is dropped. */
                 outliers: components["schemas"]["Outliers"];
+                /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
+                against?: string;
+                /** @description Subtract the values of another run on the same object; of the same algorithm unless `against` names another one. */
+                against_run?: string;
+                /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
+                where?: string;
             };
             header?: never;
             path: {
@@ -2488,6 +4048,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description No such values: errors of a run that asked no distances, another object, ... */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     heatmap_glb: {
@@ -2501,10 +4070,16 @@ export interface operations {
                 measure: components["schemas"]["Measure"];
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
-                /** @description What to do with outliers. */
+                /** @description What to do with outliers. Of failures none is dropped. */
                 outliers: components["schemas"]["Outliers"];
+                /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
+                against?: string;
+                /** @description Subtract the values of another run on the same object; of the same algorithm unless `against` names another one. */
+                against_run?: string;
+                /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
+                where?: string;
                 /** @description Colormap. */
-                colormap?: "turbo" | "viridis" | "cividis";
+                colormap?: "turbo" | "viridis" | "cividis" | "purple_orange";
                 /** @description Scale. */
                 scale?: "linear" | "log";
             };
@@ -2557,10 +4132,16 @@ export interface operations {
                 measure: components["schemas"]["Measure"];
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
-                /** @description What to do with outliers. */
+                /** @description What to do with outliers. Of failures none is dropped. */
                 outliers: components["schemas"]["Outliers"];
+                /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
+                against?: string;
+                /** @description Subtract the values of another run on the same object; of the same algorithm unless `against` names another one. */
+                against_run?: string;
+                /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
+                where?: string;
                 /** @description Colormap. */
-                colormap?: "turbo" | "viridis" | "cividis";
+                colormap?: "turbo" | "viridis" | "cividis" | "purple_orange";
                 /** @description Scale. */
                 scale?: "linear" | "log";
             };
@@ -2607,6 +4188,8 @@ export interface operations {
             query: {
                 /** @description Algorithm id. */
                 algorithm: string;
+                /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
+                where?: string;
             };
             header?: never;
             path: {
@@ -2635,6 +4218,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The selection cannot be read or applied */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     records_parquet: {
@@ -2642,6 +4234,8 @@ export interface operations {
             query: {
                 /** @description Algorithm id. */
                 algorithm: string;
+                /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
+                where?: string;
             };
             header?: never;
             path: {
@@ -2670,6 +4264,60 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The selection cannot be read or applied */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_selection: {
+        parameters: {
+            query: {
+                /** @description Algorithm whose columns are meant where the selection names none. */
+                algorithm: string;
+                /** @description The selection, e.g. `time in [500us, 15ms] & bv of parry in [1200, 35000] & near(vertex 8367, 0.05)`. */
+                where: string;
+            };
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Selected"];
+                };
+            };
+            /** @description No such run, or no records of an algorithm */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The selection cannot be read or applied */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     show_vertex: {
@@ -2683,8 +4331,14 @@ export interface operations {
                 measure: components["schemas"]["Measure"];
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
-                /** @description What to do with outliers. */
+                /** @description What to do with outliers. Of failures none is dropped. */
                 outliers: components["schemas"]["Outliers"];
+                /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
+                against?: string;
+                /** @description Subtract the values of another run on the same object; of the same algorithm unless `against` names another one. */
+                against_run?: string;
+                /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
+                where?: string;
             };
             header?: never;
             path: {
@@ -2716,6 +4370,96 @@ export interface operations {
             };
             /** @description No such run, values or vertex */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such values: errors of a run that asked no distances, another object, ... */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    witnesses_arrow: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description distance, triangle_a, triangle_b, a_x .. b_z */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.apache.arrow.stream": number[];
+                };
+            };
+            /** @description No such run, or no configurations yet */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_worst: {
+        parameters: {
+            query: {
+                /** @description Algorithm id. */
+                algorithm: string;
+                /** @description What counts as worse, after wrong answers, which always come first. */
+                by?: "time" | "error";
+                /** @description How many at most, 1 to 1000 [default: 100]. */
+                limit?: number;
+                /** @description Only among the configurations of this selection. */
+                where?: string;
+            };
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WorstCase"][];
+                };
+            };
+            /** @description No such run, or no records of this algorithm */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such list: errors of a run that asked no distances, a selection that cannot be read */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };
