@@ -59,9 +59,10 @@ const HIERARCHY: &str = "ocb-hierarchy";
 const FIELDS: &str = "ocb-fields";
 /// Sixteen numbers at once. It knows nothing of ours either.
 const LANES: &str = "ocb-lanes";
-/// The methods of ocb-fast and simdop.
+/// The methods of ocb-fast and simdop, which ocb-auto chooses from.
 const WIDE: &str = "ocb-wide";
-const PLUGINS: [&str; 16] = [
+const PLUGINS: [&str; 17] = [
+    "ocb-auto",
     "ocb-box-tree",
     "ocb-brute-force",
     "ocb-convex",
