@@ -1,7 +1,7 @@
 //! A and B in one frame.
 
 use crate::Triangle;
-use crate::vector::{Vector, add, rotate, sub};
+use crate::vector::{Vector, add, cross, dot, rotate, sub};
 
 /// World directions around A's origin: where a query's triangles are compared.
 ///
@@ -42,4 +42,14 @@ impl Frame {
     pub fn to_world(&self, point: Vector) -> Vector {
         add(point, self.origin)
     }
+}
+
+/// How far the columns of a matrix are from those of a rotation: no less than the magnitudes of the entries of `R' R - I`,
+/// summed.
+#[inline(always)]
+pub fn skew(columns: &[Vector; 3]) -> f64 {
+    let [x, y, z] = *columns;
+    let length = |v: Vector| (dot(v, v) - 1.0).abs();
+    let handed = (dot(cross(x, y), z) - 1.0).abs();
+    length(x) + length(y) + length(z) + 2.0 * (dot(x, y).abs() + dot(y, z).abs() + dot(z, x).abs()) + handed
 }

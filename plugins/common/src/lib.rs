@@ -7,7 +7,7 @@ mod meet;
 pub mod vector;
 
 pub use distance::{Closest, distance, distance_below};
-pub use frame::Frame;
+pub use frame::{Frame, skew};
 pub use meet::meet;
 
 /// Three corners, in one frame with whatever it is compared with.

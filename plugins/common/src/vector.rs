@@ -39,6 +39,12 @@ pub fn norm_1(a: Vector) -> f64 {
     a[0].abs() + a[1].abs() + a[2].abs()
 }
 
+/// A matrix with rows and columns exchanged.
+#[inline(always)]
+pub fn transposed(m: &[Vector; 3]) -> [Vector; 3] {
+    [0, 1, 2].map(|j| [m[0][j], m[1][j], m[2][j]])
+}
+
 /// A matrix, given by its rows, times a vector.
 #[inline(always)]
 pub fn rotate(m: &[Vector; 3], v: Vector) -> Vector {

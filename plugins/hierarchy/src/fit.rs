@@ -27,36 +27,83 @@ pub fn widest_axis(triangles: &[Triangle]) -> Vector {
     core::array::from_fn(|k| f64::from(u8::from(k == widest)))
 }
 
-/// Orthonormal axes (up to 8 times 2^-53) of the triangles' surface, that of the largest spread first: eigenvectors of its covariance, in which
-/// each triangle counts by its area (S. Gottschalk, M. C. Lin, D. Manocha: OBBTree, SIGGRAPH 1996).
-pub fn principal_axes(triangles: &[Triangle], radius: f64) -> [Vector; 3] {
+/// Orthonormal up to 8 times 2^-53, the longest extent first.
+pub type Axes = [Vector; 3];
+
+/// Axes of the triangles' surface (see [`Moments::axes`]); `radius` is the length of the object's longest corner.
+pub fn principal_axes(triangles: &[Triangle], radius: f64) -> Axes {
     let origin = triangles[0][0];
     let unit = if radius > 0.0 { radius } else { 1.0 };
-    let (mut weight, mut first, mut second) = (0.0, [0.0; 3], [[0.0; 3]; 3]);
+    let mut all = Moments::NONE;
     for t in triangles {
-        let [p, q, r] = t.map(|corner| sub(corner, origin).map(|x| x / unit));
+        all.add(&Moments::of(&t.map(|corner| sub(corner, origin).map(|x| x / unit))));
+    }
+    all.axes()
+}
+
+/// Integrals over the surface of triangles: of 1, of `x_i`, and of `x_i x_j`.
+#[derive(Clone, Copy, Debug)]
+pub struct Moments {
+    weight: f64,
+    first: Vector,
+    second: [f64; 6],
+}
+
+const ENTRIES: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [1, 2], [2, 0]];
+
+impl Moments {
+    /// Of no triangle.
+    pub const NONE: Self = Self { weight: 0.0, first: [0.0; 3], second: [0.0; 6] };
+
+    /// Of a triangle in [-1, 1], or a few times that.
+    pub fn of(triangle: &Triangle) -> Self {
+        let [p, q, r] = *triangle;
         let (d, e) = (sub(q, p), sub(r, p));
         let normal = cross(d, e);
         // Segments and points have a little weight too, so that they are not forgotten where there is nothing else.
-        let area = dot(normal, normal).sqrt() + 1e-9 * (dot(d, d) + dot(e, e)) + 1e-30;
+        let weight = dot(normal, normal).sqrt() + 1e-9 * (dot(d, d) + dot(e, e)) + 1e-30;
         let sum = add(add(p, q), r);
-        weight += area;
-        first = add(first, sum.map(|x| area * x / 3.0));
-        for i in 0..3 {
-            for j in 0..3 {
-                second[i][j] += area / 12.0 * (sum[i] * sum[j] + p[i] * p[j] + q[i] * q[j] + r[i] * r[j]);
-            }
+        let moment = |[i, j]: [usize; 2]| weight / 12.0 * (sum[i] * sum[j] + p[i] * p[j] + q[i] * q[j] + r[i] * r[j]);
+        Self { weight, first: sum.map(|x| weight / 3.0 * x), second: ENTRIES.map(moment) }
+    }
+
+    /// Where the middle lies along a direction.
+    pub fn along(&self, direction: Vector) -> f64 {
+        dot(direction, self.first) / self.weight
+    }
+
+    /// More triangles.
+    pub fn add(&mut self, other: &Self) {
+        self.weight += other.weight;
+        self.first = add(self.first, other.first);
+        for (sum, x) in self.second.iter_mut().zip(other.second) {
+            *sum += x;
         }
     }
-    let mean = first.map(|x| x / weight);
-    eigenvectors(core::array::from_fn(|i| core::array::from_fn(|j| second[i][j] / weight - mean[i] * mean[j])))
+
+    /// Eigenvectors of the covariance, in which each triangle counts by its area (S. Gottschalk, M. C. Lin, D. Manocha:
+    /// OBBTree, SIGGRAPH 1996).
+    pub fn axes(&self) -> Axes {
+        let mean = self.first.map(|x| x / self.weight);
+        let mut covariance = [[0.0; 3]; 3];
+        for (entry, [i, j]) in self.second.iter().zip(ENTRIES) {
+            let value = entry / self.weight - mean[i] * mean[j];
+            (covariance[i][j], covariance[j][i]) = (value, value);
+        }
+        eigenvectors(covariance)
+    }
 }
 
 /// Unit eigenvectors of a symmetric matrix, that of the greatest eigenvalue first (Jacobi 1846).
-fn eigenvectors(mut m: [Vector; 3]) -> [Vector; 3] {
+fn eigenvectors(mut m: [Vector; 3]) -> Axes {
     let mut vectors = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    // Off-diagonal entries shrink faster than by squaring: five rounds are enough for double precision.
-    for _ in 0..5 {
+    // Off-diagonal entries shrink faster than by squaring; a hundred thousandth of the widest is a good axis.
+    for _ in 0..6 {
+        let off = m[0][1] * m[0][1] + m[1][2] * m[1][2] + m[2][0] * m[2][0];
+        let on = m[0][0] * m[0][0] + m[1][1] * m[1][1] + m[2][2] * m[2][2];
+        if off <= 1e-10 * on {
+            break;
+        }
         for [p, q] in [[0, 1], [0, 2], [1, 2]] {
             if m[p][q] == 0.0 {
                 continue;
@@ -65,12 +112,14 @@ fn eigenvectors(mut m: [Vector; 3]) -> [Vector; 3] {
             let tangent = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
             let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
             let sine = tangent * cosine;
-            for row in &mut m {
-                (row[p], row[q]) = (cosine * row[p] - sine * row[q], sine * row[p] + cosine * row[q]);
-            }
-            let (rp, rq) = (m[p], m[q]);
-            m[p] = core::array::from_fn(|k| cosine * rp[k] - sine * rq[k]);
-            m[q] = core::array::from_fn(|k| sine * rp[k] + cosine * rq[k]);
+            let r = 3 - p - q;
+            let (pq, pr, qr) = (m[p][q], m[p][r], m[q][r]);
+            m[p][p] -= tangent * pq;
+            m[q][q] += tangent * pq;
+            (m[p][q], m[q][p]) = (0.0, 0.0);
+            m[p][r] = cosine * pr - sine * qr;
+            m[q][r] = sine * pr + cosine * qr;
+            (m[r][p], m[r][q]) = (m[p][r], m[q][r]);
             let (vp, vq) = (vectors[p], vectors[q]);
             vectors[p] = core::array::from_fn(|k| cosine * vp[k] - sine * vq[k]);
             vectors[q] = core::array::from_fn(|k| sine * vp[k] + cosine * vq[k]);

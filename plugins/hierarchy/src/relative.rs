@@ -25,7 +25,7 @@
 //! are `512 u = 256 * 2^-52`. A triangle lies where its corners do, so that the bounds hold for all its points.
 
 use ocb_triangles::Frame;
-use ocb_triangles::vector::{Vector, add, add_scaled, dot, rotate};
+use ocb_triangles::vector::{Vector, add, add_scaled, dot, rotate, transposed};
 
 /// What a volume's own roundings may add to a gap, relative to the lengths of the query.
 pub const SHARE: f64 = 224.0 * f64::EPSILON;
@@ -72,10 +72,6 @@ impl Relative {
     pub(crate) fn distance(&self, gap: f64) -> f64 {
         if gap > self.slack { (gap - self.slack) * self.shrink } else { 0.0 }
     }
-}
-
-fn transposed(m: &[Vector; 3]) -> [Vector; 3] {
-    [0, 1, 2].map(|j| [m[0][j], m[1][j], m[2][j]])
 }
 
 /// Gram and Schmidt's, by rows.

@@ -54,13 +54,17 @@ impl<A: Distance> Loaded<A> {
 }
 
 impl<A: Contacts> Loaded<A> {
-    /// All contacts in ascending order.
-    pub fn contacts(&mut self, pose_a: &Pose, pose_b: &Pose) -> Vec<(u32, u32)> {
+    pub fn contacts_into(&mut self, pose_a: &Pose, pose_b: &Pose, found: &mut ContactList<'_>) {
         let b = self.b.as_ref().unwrap_or(&self.a);
         let (a, b) = (Placed { object: &self.a, pose: pose_a }, Placed { object: b, pose: pose_b });
+        self.algorithm.contacts(a, b, found, &mut Uncounted).expect("an answer");
+    }
+
+    /// All contacts in ascending order.
+    pub fn contacts(&mut self, pose_a: &Pose, pose_b: &Pose) -> Vec<(u32, u32)> {
         let mut room: Vec<raw::contacts::Contact> = Vec::with_capacity(1 << 17);
         let mut found = ContactList::new(room.spare_capacity_mut());
-        self.algorithm.contacts(a, b, &mut found, &mut Uncounted).expect("an answer");
+        self.contacts_into(pose_a, pose_b, &mut found);
         let total = found.total() as usize;
         assert!(total <= room.capacity(), "{total} contacts");
         // SAFETY: the list has written its first `total` places.

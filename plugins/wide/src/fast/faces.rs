@@ -1,6 +1,6 @@
 //! Sixteen pairs of triangles: four of A against four of B.
 
-use crate::tree::{Vectors, row};
+use super::tree::{Vectors, row};
 use ocb_lanes::{Bits, Lanes, Points, add_scaled, cross, dot, inverse, sub, three};
 
 /// Sixteen triangles.

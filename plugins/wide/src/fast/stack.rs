@@ -2,7 +2,7 @@
 
 use ocb_lanes::{Bits, Lanes};
 
-use crate::tree::Link;
+use super::tree::Link;
 
 /// A stack that takes sixteen at once. A and B apart, as the lanes bring them.
 #[derive(Debug, Default)]

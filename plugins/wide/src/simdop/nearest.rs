@@ -7,19 +7,19 @@ use ocb_lanes::{Lanes, Work};
 use ocb_triangles::{Closest, distance_below};
 use opencollbench_plugin::{Count, Separation};
 
+use super::collide::lowest;
+use super::directions::MOST;
+use super::dops::{distances, distances_one, first};
+use super::tree::{Node, Tree, WIDTH};
+use super::turn::{Placed, Turn};
 use crate::Pair;
-use crate::collide::lowest;
-use crate::directions::MOST;
-use crate::dops::{distances, distances_one, first};
-use crate::tree::{Node, WIDTH};
-use crate::turn::{Placed, Turn};
 
 /// Pairs of nodes by the bits of a lower bound of their squared distance: those grow with the number.
 pub type Open = BinaryHeap<Reverse<(u32, [u32; 2])>>;
 
 /// A query for the closest pair of points.
 pub struct Nearest<'q, C> {
-    pair: &'q Pair<'q>,
+    pair: &'q Pair<'q, Tree>,
     open: &'q mut Open,
     work: &'q mut C,
     /// The squared distance is certainly not above this, in A's unit.
@@ -29,7 +29,7 @@ pub struct Nearest<'q, C> {
 }
 
 impl<'q, C: Count> Nearest<'q, C> {
-    pub fn new(pair: &'q Pair<'q>, open: &'q mut Open, work: &'q mut C) -> Self {
+    pub fn new(pair: &'q Pair<'q, Tree>, open: &'q mut Open, work: &'q mut C) -> Self {
         let closest = Closest { squared: f64::INFINITY, a: [0.0; 3], b: [0.0; 3] };
         Self { pair, open, work, limit: f32::INFINITY, closest, ids: [0; 2] }
     }
@@ -37,12 +37,12 @@ impl<'q, C: Count> Nearest<'q, C> {
     fn measure(&mut self, ids: [u32; 2]) {
         let Pair { a, b, frame } = self.pair;
         self.work.primitive_test(ids[0], ids[1]);
-        let (of_a, of_b) = (frame.place_a(&a.triangle(ids[0])), frame.place_b(&b.triangle(ids[1])));
+        let (of_a, of_b) = (frame.place_a(&a.local.triangle(ids[0])), frame.place_b(&b.local.triangle(ids[1])));
         if let Some(closest) = distance_below(&of_a, &of_b, self.closest.squared) {
             self.closest = closest;
             self.ids = ids;
             // Rounded up more than any of the steps can round down.
-            let distance = closest.squared.sqrt() / a.unit;
+            let distance = closest.squared.sqrt() / a.local.unit;
             self.limit = ((distance * distance * (1.0 + 1e-12) + 1e-44) as f32).next_up();
         }
     }

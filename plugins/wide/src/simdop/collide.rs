@@ -4,15 +4,15 @@ use ocb_lanes::{Bits, Lanes, Work};
 use ocb_triangles::meet;
 use opencollbench_plugin::Count;
 
+use super::directions::MOST;
+use super::dops::{first, overlap, overlap_one};
+use super::tree::{Tree, WIDTH};
+use super::turn::{Placed, Turn};
 use crate::Pair;
-use crate::directions::MOST;
-use crate::dops::{first, overlap, overlap_one};
-use crate::tree::WIDTH;
-use crate::turn::{Placed, Turn};
 
 /// A query that visits pairs of triangles that meet, until the visitor says false.
 pub struct Contacts<'q, C, V> {
-    pair: &'q Pair<'q>,
+    pair: &'q Pair<'q, Tree>,
     /// Pairs of nodes that are still to be opened.
     open: &'q mut Vec<[u32; 2]>,
     work: &'q mut C,
@@ -20,7 +20,7 @@ pub struct Contacts<'q, C, V> {
 }
 
 impl<'q, C: Count, V: FnMut(u32, u32) -> bool> Contacts<'q, C, V> {
-    pub fn new(pair: &'q Pair<'q>, open: &'q mut Vec<[u32; 2]>, work: &'q mut C, visit: V) -> Self {
+    pub fn new(pair: &'q Pair<'q, Tree>, open: &'q mut Vec<[u32; 2]>, work: &'q mut C, visit: V) -> Self {
         Self { pair, open, work, visit }
     }
 }
@@ -79,7 +79,7 @@ impl<C: Count, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
     fn meets(&mut self, [a, b]: [u32; 2]) -> bool {
         let Pair { a: tree_a, b: tree_b, frame } = self.pair;
         self.work.primitive_test(a, b);
-        let (of_a, of_b) = (frame.place_a(&tree_a.triangle(a)), frame.place_b(&tree_b.triangle(b)));
+        let (of_a, of_b) = (frame.place_a(&tree_a.local.triangle(a)), frame.place_b(&tree_b.local.triangle(b)));
         !meet(&of_a, &of_b) || (self.visit)(a, b)
     }
 }

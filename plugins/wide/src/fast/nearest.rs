@@ -5,13 +5,14 @@ use ocb_triangles::vector::{Vector, dot, sub};
 use ocb_triangles::{Closest, Triangle, distance_below};
 use opencollbench_plugin::{Count, Separation};
 
+use super::Placed;
+use super::boxes::{Boxes, against, squared_distance};
+use super::collide::{each, live, lowest, successors};
+use super::faces::{distances, rough_distance};
+use super::queue::NearestFirst;
+use super::tree::{Link, Tree};
+use super::waiting::Waiting;
 use crate::Pair;
-use crate::boxes::{Boxes, against, squared_distance};
-use crate::collide::{each, live, lowest, successors};
-use crate::faces::{distances, rough_distance};
-use crate::queue::NearestFirst;
-use crate::tree::Link;
-use crate::waiting::Waiting;
 
 /// What is still to be done, kept from query to query for its memory.
 #[derive(Debug, Default)]
@@ -30,8 +31,24 @@ const ROW: usize = 4;
 ///
 /// Kernels in single precision give certain bounds of every pair of triangles that matters; pairs that may be the closest
 /// are kept, and measured in double precision when all bounds are known.
-pub struct Nearest<'q, C> {
-    pair: &'q Pair<'q>,
+pub struct Query<'q, C> {
+    pub pair: &'q Pair<'q, Tree>,
+    pub open: &'q mut Open,
+    pub work: &'q mut C,
+}
+
+impl<C: Count> Work for Query<'_, C> {
+    type Output = Separation;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Separation {
+        Nearest::new(&Placed::new::<L>(self.pair), self.open, self.work).separate::<L>()
+    }
+}
+
+/// The query where B's place in A's frame is known.
+struct Nearest<'q, C> {
+    pair: &'q Placed<'q>,
     open: &'q mut Open,
     work: &'q mut C,
     /// The least of the bounds of the triangles that wait.
@@ -43,15 +60,15 @@ pub struct Nearest<'q, C> {
 }
 
 impl<'q, C: Count> Nearest<'q, C> {
-    pub fn new(pair: &'q Pair<'q>, open: &'q mut Open, work: &'q mut C) -> Self {
+    fn new(pair: &'q Placed<'q>, open: &'q mut Open, work: &'q mut C) -> Self {
         let closest = Closest { squared: f64::INFINITY, a: [0.0; 3], b: [0.0; 3] };
         Self { pair, open, work, least: f32::INFINITY, limit: f32::INFINITY, closest, ids: [0; 2] }
     }
 
     /// Measures a pair of triangles.
     fn measure(&mut self, ids: [u32; 2]) {
-        let Pair { a, b, frame, relative } = self.pair;
-        let (of_a, of_b) = (frame.place_a(&a.triangle(ids[0])), frame.place_b(&b.triangle(ids[1])));
+        let Placed { a, b, frame, relative } = self.pair;
+        let (of_a, of_b) = (frame.place_a(&a.local.triangle(ids[0])), frame.place_b(&b.local.triangle(ids[1])));
         // Neighbours share the closest point. Along the vector found they are no nearer, but for roundings, which are
         // nothing beside the slack.
         let found = self.limit > relative.slack;
@@ -62,7 +79,7 @@ impl<'q, C: Count> Nearest<'q, C> {
         if let Some(closest) = distance_below(&of_a, &of_b, self.closest.squared) {
             self.closest = closest;
             self.ids = ids;
-            self.limit = self.limit.min(((closest.squared.sqrt() / relative.unit) as f32).next_up());
+            self.limit = self.limit.min(((closest.squared.sqrt() / a.local.unit) as f32).next_up());
         }
     }
 
@@ -85,11 +102,9 @@ fn gap_along(direction: Vector, a: &Triangle, b: &Triangle) -> f64 {
 /// A pair of nodes and a lower bound of its squared distance.
 type Bounded = (f32, [Link; 2]);
 
-impl<C: Count> Work for Nearest<'_, C> {
-    type Output = Separation;
-
+impl<C: Count> Nearest<'_, C> {
     #[inline(always)]
-    fn run<L: Lanes>(mut self) -> Separation {
+    fn separate<L: Lanes>(mut self) -> Separation {
         self.open.candidates.clear();
         self.open.pairs.clear();
         self.open.waiting.count = 0;
@@ -119,9 +134,7 @@ impl<C: Count> Work for Nearest<'_, C> {
         self.open.candidates = candidates;
         self.separation()
     }
-}
 
-impl<C: Count> Nearest<'_, C> {
     /// Takes the nearest pairs of nodes, and asks for their memory.
     #[inline(always)]
     fn take<L: Lanes>(&mut self) -> ([Bounded; ROW], usize) {
@@ -168,7 +181,7 @@ impl<C: Count> Nearest<'_, C> {
     /// Lower bounds of the squared distances of the children of two nodes, and those that are within the limit.
     #[inline(always)]
     fn boxes<L: Lanes>(&mut self, a: Link, b: Link, squared: &mut [f32; 16]) -> Bits {
-        let Pair { a: tree_a, b: tree_b, relative, .. } = self.pair;
+        let Placed { a: tree_a, b: tree_b, relative, .. } = self.pair;
         let (node_a, node_b) = (tree_a.node(a), tree_b.node(b));
         let live = live(a, b);
         self.work.bv_tests(u64::from(live.count_ones()));
@@ -180,7 +193,7 @@ impl<C: Count> Nearest<'_, C> {
     /// Rough bounds for the triangles of two leaves; those that are within the limit have to wait.
     #[inline(always)]
     fn leaves<L: Lanes>(&mut self, a: Link, b: Link) {
-        let Pair { a: tree_a, b: tree_b, relative, .. } = self.pair;
+        let Placed { a: tree_a, b: tree_b, relative, .. } = self.pair;
         let (leaf_a, leaf_b) = (tree_a.node(a), tree_b.node(b));
         let live = live(a, b);
         self.work.bv_tests(u64::from(live.count_ones()));

@@ -6,7 +6,7 @@
 //! wrong side of the distance.** Terms of second order in `u` are paid for by rounding the sums below up.
 //!
 //! **Lengths.** Everything is in A's unit and seen from A. `P` bounds the vectors in A's nodes, `Q` those in B's
-//! (both are taken from the tree, [`crate::tree::Tree::radius`]), `t` is the translation, and `S = P + Q + |t|`.
+//! (both are taken from the tree, [`super::tree::Tree::radius`]), `t` is the translation, and `S = P + Q + |t|`.
 //! Whatever a kernel subtracts is shorter than `S`.
 //!
 //! **Placing a point of B.** `fma(r0, x, fma(r1, y, fma(r2, z, t)))`: rotation and translation have been rounded
@@ -27,11 +27,11 @@
 //! whatever `m` is and however it was computed. So the numbers of a direction *are* the direction; only projections
 //! on it count.
 //!
-//! **Boxes.** A box is `|a_k . (x - c)| <= h_k` for its axes as they are stored (see [`crate::obb::Obb`]). Stored
+//! **Boxes.** A box is `|a_k . (x - c)| <= h_k` for its axes as they are stored (see [`super::obb::Obb`]). Stored
 //! axes are off orthonormal by `sqrt(3) u`, placed ones by `9 u` more. Along A's axis `k`, B reaches as far as
 //! `sum_j |a_k . b_j| h_j`: the products are off by `9 u + 3 u`, writing B's points as `c + sum y_j b_j` costs `4 u
 //! sum h` (a nearly orthonormal matrix and its inverse transposed), the sum four roundings: less than `32 u sum h`
-//! altogether. Along B's axes the same holds for A. Each stored half side has [`crate::obb::SPARE`]` = 128 u` times
+//! altogether. Along B's axes the same holds for A. Each stored half side has [`super::obb::SPARE`]` = 128 u` times
 //! the sum of all three to spare, which reaches any direction, since the magnitudes of three orthonormal axes'
 //! products with a unit vector add up to 1 at least. Half sides of B are brought to A's unit, a power of two, and
 //! enlarged by the slack in one or two roundings: `2 u` of them, in the spare.

@@ -1,6 +1,6 @@
 //! A queue that gives the nearest pair of nodes first, nearly.
 
-use crate::tree::Link;
+use super::tree::Link;
 
 /// Sorted into classes of a sixteenth of a factor of two; within a class, the latest first.
 ///

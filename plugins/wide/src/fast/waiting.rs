@@ -2,8 +2,8 @@
 
 use ocb_lanes::Lanes;
 
-use crate::faces::Faces;
-use crate::tree::{FOUR, Vectors};
+use super::faces::Faces;
+use super::tree::{FOUR, Vectors};
 
 /// Up to sixteen pairs of triangles, those of B placed in A's frame.
 #[derive(Debug, Default)]

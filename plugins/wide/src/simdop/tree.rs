@@ -1,31 +1,27 @@
 //! A mesh as SIMDop keeps it: a hierarchy of k-DOPs, sixteen to a node, all leaves at the same depth.
 
 use ocb_triangles::Triangle;
-use ocb_triangles::vector::{Vector, dot};
+use ocb_triangles::vector::dot;
 use opencollbench_plugin::Mesh;
 
-use crate::directions::{Directions, MOST};
+use super::directions::{Directions, MOST};
+use crate::Local;
 
 /// Children of a node.
 pub const WIDTH: usize = 16;
 
-/// A hierarchy over the triangles of one object. Coordinates are relative to `origin`, in a `unit` that brings all of them
-/// into [-1, 1].
+/// A hierarchy over the triangles of one object.
 #[derive(Debug)]
 pub struct Tree {
-    pub directions: Directions,
+    pub(super) directions: Directions,
     nodes: Vec<Node>,
     /// For each node a row per direction with where its children begin along it, then one with where they end.
     rows: Vec<[f32; WIDTH]>,
     /// The same for the node as a whole.
     own: Vec<f32>,
-    pub origin: Vector,
-    /// A power of two.
-    pub unit: f64,
     /// The length of the longest vector to a corner, in the unit.
-    pub radius: f64,
-    positions: Vec<Vector>,
-    triangles: Vec<[u32; 3]>,
+    pub(super) radius: f64,
+    pub(super) local: Local,
 }
 
 /// What a node's children are: triangles at height 1, else nodes.
@@ -38,33 +34,16 @@ pub struct Node {
 
 impl Tree {
     /// Builds the hierarchy; the mesh has triangles. The root is node 0.
-    pub fn new(mesh: &Mesh<'_>, directions: &Directions) -> Self {
-        let corners = || mesh.triangles.iter().flatten().map(|&vertex| mesh.positions[vertex as usize]);
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for corner in corners() {
-            for axis in 0..3 {
-                low[axis] = low[axis].min(corner[axis]);
-                high[axis] = high[axis].max(corner[axis]);
-            }
-        }
-        // Halved before they are added, so that nothing overflows.
-        let origin: Vector = core::array::from_fn(|axis| 0.5 * low[axis] + 0.5 * high[axis]);
-        let extent = (0..3).map(|axis| 0.5 * high[axis] - 0.5 * low[axis]).fold(0.0, f64::max);
-        let unit = power_of_two_above(extent);
-        let local: Vec<Triangle> = (0..mesh.triangles.len())
-            .map(|id| mesh.corners(id).map(|corner| core::array::from_fn(|i| (corner[i] - origin[i]) / unit)))
-            .collect();
+    pub(super) fn new(mesh: &Mesh<'_>, directions: &Directions) -> Self {
+        let (mesh, local) = Local::new(mesh);
         let radius = local.iter().flatten().map(|p| dot(*p, *p)).fold(0.0, f64::max).sqrt();
         let mut tree = Self {
             directions: directions.clone(),
             nodes: Vec::new(),
             rows: Vec::new(),
             own: Vec::new(),
-            origin,
-            unit,
             radius,
-            positions: mesh.positions.to_vec(),
-            triangles: mesh.triangles.to_vec(),
+            local: mesh,
         };
         let middles = local.iter().map(|[p, q, r]| core::array::from_fn(|i| (p[i] + q[i] + r[i]) as f32)).collect();
         let mut ids: Vec<u32> = (0..local.len() as u32).collect();
@@ -77,37 +56,27 @@ impl Tree {
     }
 
     #[inline(always)]
-    pub fn node(&self, index: u32) -> &Node {
+    pub(super) fn node(&self, index: u32) -> &Node {
         &self.nodes[index as usize]
     }
 
     /// Rows of a node: beginnings, then ends.
     #[inline(always)]
-    pub fn rows(&self, index: u32) -> &[[f32; WIDTH]] {
+    pub(super) fn rows(&self, index: u32) -> &[[f32; WIDTH]] {
         let size = 2 * self.directions.normals.len();
         &self.rows[index as usize * size..][..size]
     }
 
     /// Beginnings and ends of a node as a whole.
     #[inline(always)]
-    pub fn own(&self, index: u32) -> &[f32] {
+    pub(super) fn own(&self, index: u32) -> &[f32] {
         let size = 2 * self.directions.normals.len();
         &self.own[index as usize * size..][..size]
     }
 
-    /// The corners of a triangle as they were given.
-    #[inline(always)]
-    pub fn triangle(&self, id: u32) -> Triangle {
-        self.triangles[id as usize].map(|vertex| self.positions[vertex as usize])
-    }
-
     /// Bytes of memory.
     pub fn bytes(&self) -> usize {
-        size_of_val(&*self.nodes)
-            + size_of_val(&*self.rows)
-            + size_of_val(&*self.own)
-            + size_of_val(&*self.positions)
-            + size_of_val(&*self.triangles)
+        size_of_val(&*self.nodes) + size_of_val(&*self.rows) + size_of_val(&*self.own) + self.local.bytes()
     }
 }
 
@@ -188,14 +157,4 @@ impl Builder<'_> {
         self.part(left, size);
         self.part(right, size);
     }
-}
-
-/// A power of two not below `x`, which is not negative; 1 for 0.
-fn power_of_two_above(x: f64) -> f64 {
-    if x == 0.0 {
-        return 1.0;
-    }
-    // Subnormal sizes count as the smallest normal one.
-    let exponent = ((x.max(f64::MIN_POSITIVE).to_bits() >> 52) as i32 - 1023 + 1).clamp(-1021, 1023);
-    2f64.powi(exponent)
 }

@@ -4,12 +4,13 @@ use ocb_lanes::{Bits, Lanes, Work};
 use ocb_triangles::meet;
 use opencollbench_plugin::Count;
 
+use super::Placed;
+use super::boxes::{Boxes, against, overlap};
+use super::faces::{left_by_edges, left_by_planes};
+use super::stack::Stack;
+use super::tree::{Link, Node, Tree};
+use super::waiting::Waiting;
 use crate::Pair;
-use crate::boxes::{Boxes, against, overlap};
-use crate::faces::{left_by_edges, left_by_planes};
-use crate::stack::Stack;
-use crate::tree::{Link, Node};
-use crate::waiting::Waiting;
 
 /// What is still to be done, kept from query to query for its memory.
 #[derive(Debug, Default)]
@@ -27,24 +28,34 @@ const LEAVES: usize = 4;
 const AHEAD: usize = 3;
 
 /// A query that visits pairs of triangles that meet, until the visitor says false.
-pub struct Contacts<'q, C, V> {
-    pair: &'q Pair<'q>,
+pub struct Query<'q, C, V> {
+    pub pair: &'q Pair<'q, Tree>,
+    pub open: &'q mut Open,
+    pub work: &'q mut C,
+    pub visit: V,
+}
+
+impl<C: Count, V: FnMut(u32, u32) -> bool> Work for Query<'_, C, V> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self { pair, open, work, visit } = self;
+        Contacts { pair: &Placed::new::<L>(pair), open, work, visit }.each::<L>();
+    }
+}
+
+/// The query where B's place in A's frame is known.
+struct Contacts<'q, C, V> {
+    pair: &'q Placed<'q>,
     open: &'q mut Open,
     work: &'q mut C,
     visit: V,
 }
 
-impl<'q, C: Count, V: FnMut(u32, u32) -> bool> Contacts<'q, C, V> {
-    pub fn new(pair: &'q Pair<'q>, open: &'q mut Open, work: &'q mut C, visit: V) -> Self {
-        Self { pair, open, work, visit }
-    }
-}
-
-impl<C: Count, V: FnMut(u32, u32) -> bool> Work for Contacts<'_, C, V> {
-    type Output = ();
-
+impl<C: Count, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
     #[inline(always)]
-    fn run<L: Lanes>(mut self) {
+    fn each<L: Lanes>(mut self) {
         self.open.boxes.clear();
         self.open.leaves.clear();
         self.open.waiting.count = 0;
@@ -68,9 +79,7 @@ impl<C: Count, V: FnMut(u32, u32) -> bool> Work for Contacts<'_, C, V> {
             }
         }
     }
-}
 
-impl<C: Count, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
     #[inline(always)]
     fn fetch<L: Lanes>(&self, [a, b]: [Link; 2]) {
         L::prefetch(self.pair.a.node(a));
@@ -96,7 +105,7 @@ impl<C: Count, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
     /// Compares the children of two nodes, or a leaf with the children of a node.
     #[inline(always)]
     fn boxes<L: Lanes>(&mut self, a: Link, b: Link) {
-        let Pair { a: tree_a, b: tree_b, relative, .. } = self.pair;
+        let Placed { a: tree_a, b: tree_b, relative, .. } = self.pair;
         let (node_a, node_b) = (tree_a.node(a), tree_b.node(b));
         let live = live(a, b);
         self.work.bv_tests(u64::from(live.count_ones()));
@@ -107,7 +116,7 @@ impl<C: Count, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
     /// Compares the triangles of all pairs of leaves that were put off. Says whether to go on.
     #[inline(always)]
     fn leaves<L: Lanes>(&mut self) -> bool {
-        let Pair { a: tree_a, b: tree_b, relative, .. } = self.pair;
+        let Placed { a: tree_a, b: tree_b, relative, .. } = self.pair;
         let count = self.open.leaves.len();
         for place in 0..count.min(AHEAD) {
             self.fetch::<L>(self.open.leaves.get(place));
@@ -156,8 +165,8 @@ impl<C: Count, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
 
     /// Says whether to go on.
     fn meets(&mut self, a: u32, b: u32) -> bool {
-        let Pair { a: tree_a, b: tree_b, frame, .. } = self.pair;
-        let (of_a, of_b) = (frame.place_a(&tree_a.triangle(a)), frame.place_b(&tree_b.triangle(b)));
+        let Placed { a: tree_a, b: tree_b, frame, .. } = self.pair;
+        let (of_a, of_b) = (frame.place_a(&tree_a.local.triangle(a)), frame.place_b(&tree_b.local.triangle(b)));
         !meet(&of_a, &of_b) || (self.visit)(a, b)
     }
 }

@@ -2,8 +2,8 @@
 
 use ocb_lanes::{Bits, Lanes, Points, dot, inverse, sub, three};
 
-use crate::relative::Relative;
-use crate::tree::{Node, row};
+use super::relative::Relative;
+use super::tree::{Node, row};
 
 /// Sixteen boxes.
 #[derive(Clone, Copy)]

@@ -1,10 +1,11 @@
 //! Top-down construction with full nodes.
 
+use ocb_hierarchy::fit::{Axes, Moments};
 use ocb_triangles::Triangle;
 use ocb_triangles::vector::{Vector, dot};
 
-use crate::obb::{Axes, Moments, Obb, face_axes, principal_axes};
-use crate::tree::{FOUR, Link, Node};
+use super::obb::{Obb, face_axes};
+use super::tree::{FOUR, Link, Node};
 
 /// The nodes over triangles in [-1, 1], the link to the root, and the length of the longest vector in the nodes.
 pub fn build(triangles: &[Triangle]) -> (Vec<Node>, Link, f64) {
@@ -33,7 +34,7 @@ struct Fit {
 impl Builder<'_> {
     /// The best of a few boxes around triangles, and the principal axes.
     fn fit(&mut self, ids: &[u32]) -> Fit {
-        let axes = principal_axes(&self.moments, ids);
+        let axes = self.principal_axes(ids);
         let mut best = Obb::around(self.triangles, ids, &axes);
         if ids.len() <= FOUR {
             for &id in ids {
@@ -45,6 +46,14 @@ impl Builder<'_> {
         }
         self.reach(best.center.map(f64::from));
         Fit { obb: best, axes }
+    }
+
+    fn principal_axes(&self, ids: &[u32]) -> Axes {
+        let mut all = Moments::NONE;
+        for &id in ids {
+            all.add(&self.moments[id as usize]);
+        }
+        all.axes()
     }
 
     fn reach(&mut self, vector: [f64; 3]) {
@@ -69,7 +78,7 @@ impl Builder<'_> {
         let mut place = 0;
         for half in <[_; 2]>::from(ids.split_at_mut(middle)) {
             if half.len() > size {
-                let axes = principal_axes(&self.moments, half);
+                let axes = self.principal_axes(half);
                 self.part(half, axes[0], size);
             }
             for part in half.chunks_mut(size) {

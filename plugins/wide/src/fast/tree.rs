@@ -1,10 +1,9 @@
 //! A mesh as ocb-fast keeps it: oriented boxes, four to a node, and triangles, four to a leaf.
 
-use ocb_triangles::Triangle;
-use ocb_triangles::vector::Vector;
 use opencollbench_plugin::Mesh;
 
-use crate::build;
+use super::build;
+use crate::Local;
 
 /// Children of a node, triangles of a leaf. Four of one object against four of the other fill the lanes.
 pub const FOUR: usize = 4;
@@ -64,69 +63,35 @@ impl Link {
 }
 
 /// A hierarchy over the triangles of one object.
-///
-/// The nodes' coordinates are relative to `origin` and in a `unit` that brings all of them into [-1, 1]. What is exact is
-/// done with the mesh itself.
 #[derive(Debug)]
 pub struct Tree {
-    pub nodes: Vec<Node>,
-    pub root: Link,
-    /// In the object's coordinates.
-    pub origin: Vector,
-    /// A power of two.
-    pub unit: f64,
+    pub(super) nodes: Vec<Node>,
+    pub(super) root: Link,
     /// The length of the longest vector to a corner or the middle of a box, in the unit.
-    pub radius: f64,
-    positions: Vec<Vector>,
-    triangles: Vec<[u32; 3]>,
+    pub(super) radius: f64,
+    pub(super) local: Local,
 }
 
 impl Tree {
     /// Builds the hierarchy; the mesh has triangles.
-    pub fn new(mesh: &Mesh<'_>) -> Self {
-        let corners = || mesh.triangles.iter().flatten().map(|&vertex| mesh.positions[vertex as usize]);
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for corner in corners() {
-            for axis in 0..3 {
-                low[axis] = low[axis].min(corner[axis]);
-                high[axis] = high[axis].max(corner[axis]);
-            }
-        }
-        // Halved before they are added, so that nothing overflows.
-        let origin: Vector = core::array::from_fn(|axis| 0.5 * low[axis] + 0.5 * high[axis]);
-        let extent = (0..3).map(|axis| 0.5 * high[axis] - 0.5 * low[axis]).fold(0.0, f64::max);
-        let unit = power_of_two_above(extent);
-        let local: Vec<Triangle> = (0..mesh.triangles.len())
-            .map(|id| mesh.corners(id).map(|corner| core::array::from_fn(|i| (corner[i] - origin[i]) / unit)))
-            .collect();
-        let (nodes, root, radius) = build::build(&local);
-        let (positions, triangles) = (mesh.positions.to_vec(), mesh.triangles.to_vec());
-        Self { nodes, root, origin, unit, radius, positions, triangles }
+    pub(super) fn new(mesh: &Mesh<'_>) -> Self {
+        let (local, triangles) = Local::new(mesh);
+        let (nodes, root, radius) = build::build(&triangles);
+        Self { nodes, root, radius, local }
     }
 
     #[inline(always)]
-    pub fn node(&self, link: Link) -> &Node {
+    pub(super) fn node(&self, link: Link) -> &Node {
         &self.nodes[link.index()]
     }
 
-    /// The corners of a triangle as they were given.
-    #[inline(always)]
-    pub fn triangle(&self, id: u32) -> Triangle {
-        self.triangles[id as usize].map(|vertex| self.positions[vertex as usize])
+    /// The mesh.
+    pub fn mesh(&self) -> &Local {
+        &self.local
     }
 
     /// Bytes of memory.
     pub fn bytes(&self) -> usize {
-        size_of_val(&*self.nodes) + size_of_val(&*self.positions) + size_of_val(&*self.triangles)
+        size_of_val(&*self.nodes) + self.local.bytes()
     }
-}
-
-/// A power of two not below `x`, which is not negative; 1 for 0.
-fn power_of_two_above(x: f64) -> f64 {
-    if x == 0.0 {
-        return 1.0;
-    }
-    // Subnormal sizes count as the smallest normal one.
-    let exponent = ((x.max(f64::MIN_POSITIVE).to_bits() >> 52) as i32 - 1023 + 1).clamp(-1021, 1023);
-    2f64.powi(exponent)
 }

@@ -2,8 +2,8 @@
 
 use ocb_lanes::{Bits, Lanes};
 
-use crate::tree::WIDTH;
-use crate::turn::Placed;
+use super::tree::WIDTH;
+use super::turn::Placed;
 
 /// Of so many children, a bit each.
 #[inline(always)]

@@ -1,11 +1,13 @@
 //! B as A sees it: what all kernels of a query share.
 
-use ocb_triangles::Frame;
-use ocb_triangles::vector::{Vector, add, cross, dot, norm_1, rotate, sub};
+use ocb_triangles::vector::{dot, rotate, transposed};
+use ocb_triangles::{Frame, skew};
 
-use crate::rounding::SLACK;
-use crate::tree::{Node, Tree, Vectors};
+use super::rounding::SLACK;
+use super::tree::{Node, Tree, Vectors};
 use ocb_lanes::{Lanes, Points, three};
+
+use crate::Between;
 
 /// The placement of B in A's tree coordinates, in single precision, and what it may be off.
 #[derive(Clone, Copy, Debug)]
@@ -17,34 +19,35 @@ pub struct Relative {
     scales: [[f32; 16]; 2],
     /// B's unit in A's; a power of two.
     scale: f32,
-    /// A's unit in the objects' lengths.
-    pub unit: f64,
-    /// By how much any point of B, seen from A, may be off; see [`crate::rounding`].
+    /// By how much any point of B, seen from A, may be off; see [`super::rounding`].
     pub slack: f32,
 }
 
-/// Units that differ by more than this factor have no placement in single precision: nothing is told apart then.
-const MOST_RATIO: f64 = (1u64 << 40) as f64;
-
 impl Relative {
-    pub fn new(frame: &Frame, a: &Tree, b: &Tree) -> Self {
+    #[inline(always)]
+    pub fn new<L: Lanes>(frame: &Frame, a: &Tree, b: &Tree) -> Self {
         let (columns_a, columns_b) = (transposed(&frame.rotation_a), transposed(&frame.rotation_b));
         let rotation = columns_a.map(|a| columns_b.map(|b| dot(a, b)));
-        let (origin_a, origin_b) = (rotate(&frame.rotation_a, a.origin), rotate(&frame.rotation_b, b.origin));
-        let between = sub(add(frame.offset, origin_b), origin_a);
-        let translation = rotate(&columns_a, between).map(|x| x / a.unit);
-        let scale = b.unit / a.unit;
+        let between = Between::new(frame, &a.local, &b.local);
+        let translation = rotate(&columns_a, between.middles);
+        let scale = between.scale;
         let lengths = a.radius + scale * b.radius + dot(translation, translation).sqrt();
-        let double = (norm_1(frame.offset) + norm_1(a.origin) + norm_1(b.origin)) / a.unit;
         let skew = skew(&columns_a) + skew(&columns_b);
-        let slack = lengths * (SLACK + 8.0 * skew) + double * (16.0 * f64::EPSILON + 8.0 * skew) + TINY;
-        let in_range = scale < MOST_RATIO && scale > 1.0 / MOST_RATIO && lengths < MOST_RATIO && skew < 0.01;
+        let slack = lengths * (SLACK + 8.0 * skew) + between.lengths * (16.0 * f64::EPSILON + 8.0 * skew) + TINY;
+        let in_range = between.is_in_range(lengths) && skew < 0.01;
+        let (mut shifts, mut scales) = ([[[0.0; 16]; 3]; 2], [[0.0; 16]; 2]);
+        for leaf in 0..2 {
+            let moves = L::load(&MOVES[leaf]);
+            for i in 0..3 {
+                (moves * L::splat(translation[i] as f32)).store(&mut shifts[leaf][i]);
+            }
+            (moves * L::splat(scale as f32) + (L::splat(1.0) - moves)).store(&mut scales[leaf]);
+        }
         Self {
             rotation: rotation.map(|row| row.map(|x| x as f32)),
-            shifts: MOVES.map(|moves| translation.map(|x| moves.map(|m| m * x as f32))),
-            scales: MOVES.map(|moves| moves.map(|m| m * scale as f32 + (1.0 - m))),
+            shifts,
+            scales,
             scale: scale as f32,
-            unit: a.unit,
             // Infinite is larger than any gap, so that all pairs are left to the exact tests.
             slack: if in_range { (slack as f32).next_up() } else { f32::INFINITY },
         }
@@ -79,15 +82,3 @@ const MOVES: [[f32; 16]; 2] = [
     [1., 1., 1., 1., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0.],
     [1., 1., 1., 1., 1., 1., 1., 1., 1., 1., 1., 1., 1., 0., 0., 0.],
 ];
-
-fn transposed(m: &[Vector; 3]) -> [Vector; 3] {
-    [0, 1, 2].map(|j| [m[0][j], m[1][j], m[2][j]])
-}
-
-/// How far the columns of a matrix are from orthonormal.
-fn skew(columns: &[Vector; 3]) -> f64 {
-    let [x, y, z] = *columns;
-    let length = |v: Vector| (dot(v, v) - 1.0).abs();
-    let handed = (dot(cross(x, y), z) - 1.0).abs();
-    length(x) + length(y) + length(z) + dot(x, y).abs() + dot(y, z).abs() + dot(z, x).abs() + handed
-}

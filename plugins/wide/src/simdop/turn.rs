@@ -14,11 +14,12 @@
 //! that single precision has no numbers for it, and nothing is told apart then.
 
 use ocb_lanes::{Lanes, three};
-use ocb_triangles::Frame;
-use ocb_triangles::vector::{Vector, add, dot, norm_1, rotate, sub};
+use ocb_triangles::vector::{Vector, dot, rotate, transposed};
+use ocb_triangles::{Frame, skew};
 
-use crate::directions::MOST;
-use crate::tree::{Tree, WIDTH};
+use super::directions::MOST;
+use super::tree::{Tree, WIDTH};
+use crate::Between;
 
 /// How rows of B become rows in A's frame.
 #[derive(Debug)]
@@ -42,16 +43,14 @@ struct Along {
 
 const NOTHING: Along = Along { coefficients: [0.0; 3], begins: [0; 3], ends: [0; 3], shifts: [0.0; 2] };
 
-/// Units that differ by more than this factor have no place in single precision.
-const MOST_RATIO: f64 = (1u64 << 40) as f64;
 const ROUNDING: f64 = f32::EPSILON as f64 / 2.0;
 const ROOT_3: f64 = 1.732_050_807_568_877_4;
 
 impl Turn {
     #[inline(always)]
     pub fn new<L: Lanes>(frame: &Frame, a: &Tree, b: &Tree) -> Self {
-        let between = sub(add(frame.offset, rotate(&frame.rotation_b, b.origin)), rotate(&frame.rotation_a, a.origin));
-        let scale = b.unit / a.unit;
+        let between = Between::new(frame, &a.local, &b.local);
+        let scale = between.scale;
         let columns_b = transposed(&frame.rotation_b);
         let normals = &a.directions.normals;
         let half = normals.len();
@@ -59,15 +58,14 @@ impl Turn {
         for (i, normal) in normals.iter().enumerate() {
             let world = rotate(&frame.rotation_a, *normal);
             seen[i] = rotate(&columns_b, world);
-            shifts[i] = dot(world, between) / a.unit;
+            shifts[i] = dot(world, between.middles);
         }
         let chosen = choose::<L>(a, &seen);
-        let skew = skew(&frame.rotation_a);
+        let skew = skew(&transposed(&frame.rotation_a));
         let (reach_a, reach_b) = (ROOT_3 * a.radius, ROOT_3 * scale * b.radius);
-        let double =
-            (norm_1(frame.offset) + norm_1(a.origin) + norm_1(b.origin)) / a.unit + a.radius + scale * b.radius;
+        let double = between.lengths + a.radius + scale * b.radius;
         let fixed = 2.0 * skew * reach_a + 32.0 * f64::EPSILON * ROOT_3 * double + TINY;
-        let in_range = scale < MOST_RATIO && scale > 1.0 / MOST_RATIO && double < MOST_RATIO && skew < 0.01;
+        let in_range = between.is_in_range(double) && skew < 0.01;
         let mut along = [NOTHING; MOST];
         for i in 0..half {
             let (facet, coefficients) = &chosen[i];
@@ -159,15 +157,4 @@ fn choose<L: Lanes>(a: &Tree, seen: &[Vector; MOST]) -> [(usize, [f32; 3]); MOST
         *chosen = (facets[i] as usize, [coefficients[0][i], coefficients[1][i], coefficients[2][i]]);
     }
     chosen
-}
-
-fn transposed(m: &[Vector; 3]) -> [Vector; 3] {
-    [0, 1, 2].map(|j| [m[0][j], m[1][j], m[2][j]])
-}
-
-/// How far a matrix's columns are from orthonormal.
-fn skew(m: &[Vector; 3]) -> f64 {
-    let [x, y, z] = transposed(m);
-    let length = |v: Vector| (dot(v, v) - 1.0).abs();
-    length(x) + length(y) + length(z) + 2.0 * (dot(x, y).abs() + dot(y, z).abs() + dot(z, x).abs())
 }
