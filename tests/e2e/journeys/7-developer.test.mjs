@@ -74,7 +74,7 @@ test('a developer publishes a plugin, a curator decides, a user benchmarks it', 
 
   // A plugin that misses collisions gets no further, and says which.
   await submit(developer, plugin(folder, 'liar', '    if (a->triangle_count > 0) result->hit = pose_b[3] > pose_a[3];'), '0.9')
-  await state(developer, 'failed', 120)
+  await state(developer, 'failed', 240)
   await developer.accessible('a report that says no')
   await developer.picture('plugin-failed')
 

@@ -6,22 +6,24 @@ mod reference;
 mod repro;
 mod suite;
 
-pub use manifest::{check_manifest, is_free};
-
 use std::path::Path;
 use std::sync::Arc;
 
 use nalgebra::Vector3;
 use ocb_core::configuration::{Configuration, Method, Placed, Sampling, Separation};
+use ocb_core::instance::{Presentation, Presented};
 use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::pose::Pose;
-use ocb_core::query::{Query, Semantics};
+use ocb_core::query::{Answer, Query, Semantics};
 use ocb_core::record::Verdict;
 use ocb_core::sampling::Plan;
 use ocb_core::stock;
 use ocb_core::validation::{Terms, judge};
 use ocb_sandbox::{Launcher, Outcome, Policy, Profile, Trial};
+
+pub use manifest::{check_manifest, is_free};
+use repro::{Question, reduced};
 
 use super::{built_here, info, read_plugin};
 use crate::blobs::sha256_hex;
@@ -53,6 +55,8 @@ struct Checking<'c> {
     /// Hears every line as it is found; says whether to go on.
     tell: &'c mut dyn FnMut(&CheckLine) -> bool,
     stopped: bool,
+    /// Nothing that takes longer than a second, such as looking for a small repro.
+    quick: bool,
 }
 
 /// Makes the report. Blocks, so it wants a thread of its own. `tell` hears every line as it is found, and gives false when
@@ -74,7 +78,7 @@ pub fn check_plugin(
         lines: Vec::new(),
         algorithms: Vec::new(),
     };
-    let mut checking = Checking { report: empty, tell, stopped: false };
+    let mut checking = Checking { report: empty, tell, stopped: false, quick: extent.quick };
     let through = checking.all(runner, file, profile, extent)?;
     let mut report = checking.report;
     report.passed = through && report.lines.iter().all(|line| line.verdict != CheckVerdict::Fail);
@@ -122,7 +126,7 @@ impl Checking<'_> {
             }
         }
         // What fails already is not worth half a minute more.
-        if extent.quick || self.has_failed() {
+        if self.quick || self.has_failed() {
             return Ok(true);
         }
         for algorithm in self.report.algorithms.clone() {
@@ -253,12 +257,12 @@ impl Checking<'_> {
         };
         let pair = Pair::new(&smoke.a, &smoke.b);
         let terms = Terms { query, semantics, precision: precision(algorithm) };
-        let mut wrong: Vec<(usize, Verdict)> = Vec::new();
+        let mut wrong: Vec<(usize, Verdict, Answer)> = Vec::new();
         let mut silent = 0;
         for (i, placed) in smoke.placed.iter().enumerate() {
             let Ok(sample) = session.query(query, &placed.configuration) else { break };
             match judge(&pair, placed, terms, &sample.answer).verdict {
-                verdict if verdict.is_wrong() => wrong.push((i, verdict)),
+                verdict if verdict.is_wrong() => wrong.push((i, verdict, sample.answer)),
                 Verdict::Unsupported | Verdict::GaveUp => silent += 1,
                 _ => {}
             }
@@ -270,14 +274,23 @@ impl Checking<'_> {
             }
             let evidence = with_output(&ending.to_string(), &ending.stderr);
             self.line(check, CheckVerdict::Fail, evidence, hint_for(&ending.outcome));
-        } else if let Some((first, verdict)) = wrong.first() {
-            let evidence = format!(
-                "{} of {} answers are wrong, the first ({verdict:?}) on configuration {first}.",
-                wrong.len(),
-                smoke.placed.len()
-            );
+        } else if !wrong.is_empty() {
+            let (all, many) = (smoke.placed.len(), wrong.len());
+            let (first, verdict, answer) = wrong.swap_remove(0);
+            let evidence =
+                format!("{many} of {all} answers are wrong, the first ({verdict:?}) on configuration {first}.");
             let hint = "Compare with brute-force; triangles are closed sets, so touching counts as a collision.";
-            self.line(check, CheckVerdict::Fail, evidence, Some(hint));
+            // Fewer triangles of a solid body are none.
+            let repro = if self.quick || semantics == Semantics::Solid {
+                None
+            } else {
+                let asked = smoke.placed[first].configuration;
+                let shown = Presentation::original(&smoke.mesh_a, smoke.mesh_b.as_deref());
+                let question = Question::of(&shown, Presented { configuration: asked, swapped: false }, answer);
+                Some(Box::new(reduced(launcher, file, algorithm, query, question, verdict)?))
+            };
+            let hint = Some(hint.to_owned());
+            self.add(CheckLine { check, verdict: CheckVerdict::Fail, evidence, hint, repro });
         } else if silent > 0 {
             let evidence =
                 format!("No answer on {silent} of {} configurations, the others are right.", smoke.placed.len());
