@@ -15,6 +15,7 @@ mod placing;
 mod plugin;
 mod run;
 mod serve;
+mod stability;
 mod truth;
 mod units;
 
@@ -51,6 +52,7 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Plugin { command } => plugin::plugin(&store, &command, json).await,
         Command::Object { command } => object::object(&store, &command, json).await,
         Command::Run { command } => run::run(&store, &command, json).await,
+        Command::Stability(args) => stability::stability(&store, &args, json).await,
         Command::Doctor => doctor::doctor(&store, json),
         Command::Heatmap(args) => heatmap::heatmap(&store, &args, json).await,
     }

@@ -4,6 +4,7 @@ mod featured;
 mod follow;
 mod runs;
 mod sets;
+mod stability;
 
 pub use sets::SetJob;
 

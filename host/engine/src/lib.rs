@@ -22,10 +22,12 @@ mod registry;
 mod results;
 mod runlog;
 mod spec;
+pub mod stability;
 mod store;
 pub mod truth;
 
 pub use config::{EngineConfig, Profile};
 pub use engine::{Engine, SetJob};
 pub use error::{EngineError, Result};
+pub use measure::Stop;
 pub use ocb_sandbox::doctor;

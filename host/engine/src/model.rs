@@ -5,6 +5,7 @@
 mod contract;
 mod heatmap;
 mod plugin;
+mod stability;
 mod timing;
 mod truth;
 
@@ -18,6 +19,10 @@ use utoipa::ToSchema;
 pub use contract::{ContractClass, Delivered, Order};
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
 pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport};
+pub use stability::{
+    CellState, FailureInfo, FailureResult, FamilyInfo, FamilyResult, RelationInfo, RelationResult, RelationStep, Repro,
+    SearchResult, Stability, StabilityTable, StepResult, Tally, TessellationResult, ThresholdInfo,
+};
 pub use timing::{Draw, Reference, Timing, TimingCheck};
 pub use truth::{ContactRow, TruthRow};
 

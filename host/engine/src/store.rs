@@ -10,6 +10,7 @@ mod queue;
 mod results;
 mod runs;
 mod sets;
+mod stability;
 #[cfg(test)]
 mod tests;
 
@@ -80,6 +81,7 @@ fn migrations() -> Migrator {
     Migrator::with_migrations(vec![
         one(1, "first", include_str!("../migrations/0001_first.sql")),
         one(2, "secret", include_str!("../migrations/0002_secret.sql")),
+        one(3, "stability", include_str!("../migrations/0003_stability.sql")),
     ])
 }
 

@@ -10,6 +10,7 @@ export const router = createRouter({
     { path: '/r/:id', component: () => import('./pages/RunPage.vue'), props: true, meta: { title: 'Run' } },
     { path: '/runs', component: () => import('./pages/RunsPage.vue'), meta: { title: 'My runs' } },
     { path: '/objects', component: () => import('./pages/ObjectsPage.vue'), meta: { title: 'Objects' } },
+    { path: '/stability', component: () => import('./pages/StabilityPage.vue'), meta: { title: 'Where methods fail' } },
     { path: '/about', component: () => import('./pages/AboutPage.vue'), meta: { title: 'How we measure' } },
     { path: '/truth', component: () => import('./pages/TruthPage.vue'), meta: { title: 'How answers are judged' } },
     { path: '/api', component: () => import('./pages/ApiPage.vue'), meta: { title: 'API' } },

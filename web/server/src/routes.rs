@@ -6,6 +6,7 @@ mod objects;
 mod records;
 mod runs;
 mod service;
+mod stability;
 
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
@@ -59,6 +60,7 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(records::records_csv))
         .routes(routes!(records::configurations_parquet))
         .routes(routes!(runs::featured_run))
+        .routes(routes!(stability::show_stability))
         .routes(routes!(service::show_status))
         .routes(routes!(service::show_document));
     OpenApiRouter::with_openapi(Document::openapi()).nest(PREFIX, routes)

@@ -2,7 +2,7 @@ import createClient from 'openapi-fetch'
 import { asApiError, fromResponse } from './errors'
 import type { paths } from './schema'
 import type {
-  AlgorithmInfo, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, RunInfo, RunSpec,
+  AlgorithmInfo, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, RunInfo, RunSpec, StabilityTable,
 } from './types'
 
 const http = createClient<paths>({ baseUrl: '/' })
@@ -39,6 +39,9 @@ export const getEcdf = (id: string, algorithm: string): Promise<Ecdf> =>
 
 export const getHeatmap = (id: string, request: HeatmapRequest): Promise<Heatmap> =>
   answer(http.GET('/api/v1/runs/{id}/heatmap', { params: { path: { id }, query: request } }))
+
+/** Where methods fail, as far as they were tried. */
+export const getStability = (): Promise<StabilityTable> => answer(http.GET('/api/v1/stability'))
 
 /** The run of the start page, or null while there is none. */
 export const getFeatured = (): Promise<RunInfo | null> => answer(http.GET('/api/v1/featured'))
