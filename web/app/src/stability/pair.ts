@@ -15,7 +15,7 @@ export function placed(obj: string, pose: readonly string[]): Vector[][] {
       const row = (r: number) => at(4 * r) * a + at(4 * r + 1) * b + at(4 * r + 2) * c + at(4 * r + 3)
       vertices.push([row(0), row(1), row(2)])
     } else if (kind === 'f') {
-      triangles.push([a, b, c].flatMap((i) => vertices[i - 1] ?? []).length === 9 ? [a, b, c].map((i) => vertices[i - 1]!) : [])
+      triangles.push([a, b, c].flatMap((i) => { const found = vertices[i - 1]; return found ? [found] : [] }))
     }
   }
   return triangles.filter((triangle) => triangle.length === 3 && triangle.flat().every(Number.isFinite))
@@ -50,5 +50,5 @@ export function drawing(repro: Repro, turn: number, tilt: number, size: number):
     `${(size / 2 + (x - (left + right) / 2) * scale).toFixed(1)},${(size / 2 - (z - (low + high) / 2) * scale).toFixed(1)}`
   return turned
     .map(({ side, corners }) => ({ side, depth: Math.max(...corners.map((p) => p[1])), points: corners.map(place).join(' ') }))
-    .sort((one, other) => other.depth - one.depth)
+    .toSorted((one, other) => other.depth - one.depth)
 }
