@@ -23,9 +23,9 @@ use crate::session::{Pinned, Session};
 use crate::trial::write_trial;
 
 /// Null round trips, null batches and calibration loops of a session; a tenth more before them does not count.
-const NULL_SAMPLES: usize = 1000;
-const NULL_BATCHES: usize = 50;
-const CALIBRATIONS: usize = 50;
+const THOROUGH: [usize; 3] = [1000, 50, 50];
+/// The same where orders of magnitude are enough.
+const ROUGH: [usize; 3] = [20, 2, 2];
 /// Time for each of the three; so many are waited for on a busy machine, up to the longest time.
 const NULL_TIME: Duration = Duration::from_millis(50);
 const NULL_LEAST: usize = 100;
@@ -208,9 +208,10 @@ fn measure_null(exchange: &mut Exchange, policy: &Policy) -> Result<ClockFacts, 
         kept.retain(|trip| *trip <= NULL_STRAYED * shortest);
         Ok(())
     };
-    ask(Command::Null, 1, NULL_SAMPLES, &mut trips.null)?;
-    ask(Command::Null, MAX_BATCH, NULL_BATCHES, &mut trips.null_batch)?;
-    ask(Command::Calibrate, 1, CALIBRATIONS, &mut trips.calibration)?;
+    let [samples, batches, calibrations] = if policy.rough_clock { ROUGH } else { THOROUGH };
+    ask(Command::Null, 1, samples, &mut trips.null)?;
+    ask(Command::Null, MAX_BATCH, batches, &mut trips.null_batch)?;
+    ask(Command::Calibrate, 1, calibrations, &mut trips.calibration)?;
     exchange.ask_for(1);
     Ok(ClockFacts::of(exchange.kind(), trips))
 }

@@ -26,6 +26,8 @@ pub struct Policy {
     pub supervisor_cpu: Option<usize>,
     /// Which hand-off times the queries.
     pub clock: ClockChoice,
+    /// Times are compared by orders of magnitude only: a session begins with few null round trips.
+    pub rough_clock: bool,
     /// The plugin was built from our own sources: it may run even where this machine forbids namespaces, under the
     /// layers that remain ([`crate::Session::layers`] lists them). Never set it for a file that somebody brought.
     pub trusted: bool,
@@ -68,6 +70,7 @@ impl Default for Policy {
             runner_cpu: None,
             supervisor_cpu: None,
             clock: ClockChoice::Auto,
+            rough_clock: false,
             trusted: false,
             profile: Profile::Production,
         }

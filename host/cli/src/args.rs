@@ -118,6 +118,8 @@ pub enum Command {
         #[command(subcommand)]
         command: AdminCommand,
     },
+    /// Try where algorithms fail: stress families, relations between answers, failures that were reported elsewhere.
+    Stability(StabilityArgs),
     /// Tell what this machine has for the jail, what it lacks and how to get it; exit code 1 when foreign plugins could
     /// not run under the chosen profile.
     Doctor,
@@ -354,6 +356,30 @@ pub enum RunCommand {
         /// Run id, or `latest`.
         run: String,
     },
+}
+
+/// `ocb stability`
+#[derive(Debug, Args)]
+pub struct StabilityArgs {
+    /// Algorithms, by id, with settings behind it.
+    #[arg(required = true, value_name = "ID")]
+    pub algorithms: Vec<String>,
+    /// Only this family or relation, or `reported` failures, other `tessellations`, adversarial `search`; may be repeated
+    /// [default: all, and the result is kept for the page].
+    #[arg(long, value_name = "NAME")]
+    pub family: Vec<String>,
+    /// Only this value of the family's parameter, or of the relation's amount.
+    #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
+    pub at: Option<f64>,
+    /// Only this seed.
+    #[arg(long, value_name = "NUMBER", conflicts_with = "seeds")]
+    pub seed: Option<u32>,
+    /// Seeds per value [default: 3].
+    #[arg(long, value_name = "COUNT")]
+    pub seeds: Option<u32>,
+    /// Folder for the failing cases: both objects as OBJ, poses, expected and got, the command line.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 /// `ocb heatmap`

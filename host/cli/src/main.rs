@@ -19,6 +19,7 @@ mod plugin;
 mod run;
 mod select;
 mod serve;
+mod stability;
 mod submit;
 mod truth;
 mod units;
@@ -59,6 +60,7 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Run { command } => run::run(&store, &command, json).await,
         Command::Submit(args) => submit::submit(&args, json).await,
         Command::Admin { command } => admin::admin(&store, &command, json).await,
+        Command::Stability(args) => stability::stability(&store, &args, json).await,
         Command::Doctor => doctor::doctor(&store, json),
         Command::Board(args) => board::board(&store, &args, json).await,
         Command::Chart(args) => chart::chart(&store, &args, json).await,

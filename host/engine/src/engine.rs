@@ -8,6 +8,7 @@ mod plugins;
 mod runs;
 mod selecting;
 mod sets;
+mod stability;
 
 pub use charts::{board_csv, chart_csv, chart_parquet};
 pub use people::SESSION;

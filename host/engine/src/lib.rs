@@ -26,12 +26,14 @@ mod registry;
 mod results;
 mod runlog;
 mod spec;
+pub mod stability;
 mod store;
 pub mod truth;
 
 pub use config::{EngineConfig, Profile};
 pub use engine::{Engine, MAX_PLUGIN_BYTES, SESSION, SetJob, board_csv, chart_csv, chart_parquet};
 pub use error::{EngineError, Result};
+pub use measure::Stop;
 pub use ocb_chart as chart;
 pub use ocb_sandbox::doctor;
 pub use registry::Extent;

@@ -9,6 +9,7 @@ mod heatmap;
 mod people;
 mod plugin;
 mod selecting;
+mod stability;
 mod submission;
 mod timing;
 mod truth;
@@ -30,6 +31,10 @@ pub use people::{
 };
 pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport, Repro};
 pub use selecting::{Meeting, Selected, SelectedOf, WorstBy, WorstCase, WorstRequest};
+pub use stability::{
+    CellState, FailingCase, FailureInfo, FailureResult, FamilyInfo, FamilyResult, RelationInfo, RelationResult,
+    RelationStep, SearchResult, Stability, StabilityTable, StepResult, Tally, TessellationResult, ThresholdInfo,
+};
 pub use submission::{Action, Decision, Manifest, PluginInfo, PluginState};
 pub use timing::{Draw, Reference, Timing, TimingCheck};
 pub use truth::{ContactRow, TruthRow};

@@ -12,6 +12,7 @@ mod queue;
 mod results;
 mod runs;
 mod sets;
+mod stability;
 mod submissions;
 #[cfg(test)]
 mod tests;
@@ -86,6 +87,7 @@ fn migrations() -> Migrator {
         one(2, "secret", include_str!("../migrations/0002_secret.sql")),
         one(3, "people", include_str!("../migrations/0003_people.sql")),
         one(4, "plugins", include_str!("../migrations/0004_plugins.sql")),
+        one(5, "stability", include_str!("../migrations/0005_stability.sql")),
     ])
 }
 

@@ -39,7 +39,7 @@ pub fn distance_below(a: &Triangle, b: &Triangle, limit: f64) -> Option<Closest>
     let crossed = best.points_to_face(b, a, &edges_a, true) & best.points_to_face(a, b, &edges_b, false);
     // Only triangles that neither plane separates can meet without a feature pair at distance 0.
     if crossed && best.squared > 0.0 && meet(a, b) {
-        return Some(common_point(a, b));
+        return Some(common_point(a, b, &best));
     }
     (best.squared < limit).then_some(best)
 }
@@ -133,10 +133,11 @@ impl Closest {
     }
 }
 
-/// A point that two meeting triangles have in common, up to rounding.
+/// A point that two meeting triangles have in common, up to rounding. In one plane no edge goes through the other's plane;
+/// then it is that of the nearest features.
 #[cold]
-fn common_point(a: &Triangle, b: &Triangle) -> Closest {
-    let mut best = Closest { squared: f64::INFINITY, a: a[0], b: b[0] };
+fn common_point(a: &Triangle, b: &Triangle, features: &Closest) -> Closest {
+    let mut best = Closest { squared: f64::INFINITY, ..*features };
     for (edged, face, swapped) in [(a, b, false), (b, a, true)] {
         let normal = cross(sub(face[1], face[0]), sub(face[2], face[0]));
         for (p, d) in edged.iter().zip(edges(edged)) {

@@ -138,3 +138,15 @@ fn degenerate_triangles_have_a_distance() {
         assert_eq!(distance(&flat, &face).squared.sqrt(), expected);
     }
 }
+
+/// No edge of either goes through the plane of the other, and rounding leaves no feature pair at exactly 0.
+#[test]
+fn triangles_that_overlap_in_one_plane_have_a_common_point() {
+    let a = [[-0.5, -0.5, 0.5], [0.5, -0.5, 0.5], [0.5, 0.5, 0.5]];
+    let b = [[-0.25, -0.375, 0.5], [0.25, 0.375, 0.5], [0.25, -0.375, 0.5]]
+        .map(|[x, y, z]| [x - 0.06422826322905792, y + 0.09904016040369307, z]);
+    let found = distance(&a, &b);
+    assert_eq!(found.squared, 0.0);
+    let gap = |point: Vector, t: &Triangle| distance(&[point; 3], t).squared.sqrt();
+    assert!(gap(found.a, &a) <= 1e-15 && gap(found.b, &b) <= 1e-15, "{found:?}");
+}

@@ -16,6 +16,7 @@ export const router = createRouter({
     { path: '/plugins', component: () => import('./pages/PluginsPage.vue'), meta: { title: 'Plugins' } },
     { path: '/p/:id', component: () => import('./pages/PluginPage.vue'), props: true, meta: { title: 'Plugin' } },
     { path: '/curate', component: () => import('./pages/CuratePage.vue'), meta: { title: 'Curate' } },
+    { path: '/stability', component: () => import('./pages/StabilityPage.vue'), meta: { title: 'Where methods fail' } },
     { path: '/about', component: () => import('./pages/AboutPage.vue'), meta: { title: 'How we measure' } },
     { path: '/truth', component: () => import('./pages/TruthPage.vue'), meta: { title: 'How answers are judged' } },
     { path: '/api', component: () => import('./pages/ApiPage.vue'), meta: { title: 'API' } },

@@ -11,6 +11,7 @@ mod records;
 mod runs;
 mod selecting;
 mod service;
+mod stability;
 
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
@@ -95,6 +96,7 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(plugins::list_curation))
         .routes(routes!(people::list_accounts))
         .routes(routes!(people::change_role))
+        .routes(routes!(stability::show_stability))
         .routes(routes!(service::show_status))
         .routes(routes!(service::show_document));
     OpenApiRouter::with_openapi(Document::openapi()).nest(PREFIX, routes)

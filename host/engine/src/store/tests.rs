@@ -9,7 +9,7 @@ use super::*;
 use crate::blobs::tests::from_harness;
 use crate::model::{
     Agreement, AlgorithmInfo, AlgorithmResult, ClassCount, Draw, Environment, Estimated, ObjectInfo, OutcomeInfo,
-    Reference, RunSpec, SetInfo, State,
+    Reference, RunSpec, SetInfo, Stability, State,
 };
 use crate::runlog::{fresh_stages, plain_event};
 
@@ -69,6 +69,7 @@ on_both!(
     blobs_are_noted_once,
     objects_belong_to_their_owners,
     descriptions_are_replaced,
+    stability_is_replaced,
     sets_are_found_by_their_key,
     a_run_comes_back_as_it_was,
     events_are_numbered_from_one,
@@ -234,6 +235,21 @@ mod contract {
         algorithm.version = "2".into();
         store.keep_description("h", std::slice::from_ref(&algorithm)).await.unwrap();
         assert_eq!(store.described("h").await.unwrap(), Some(vec![algorithm]));
+    }
+
+    pub async fn stability_is_replaced(store: Store) {
+        let of = |seeds: u32| -> Stability {
+            let text = serde_json::json!({
+                "algorithm": "a", "name": "A", "version": "1", "plugin_sha256": "", "single_precision": false,
+                "seeds": seeds, "created_us": seeds, "complete": true, "families": [], "relations": [], "failures": [],
+                "tessellations": [], "search": null, "unit_safe": [-10, 20], "offset_safe": 16.0
+            });
+            serde_json::from_value(text).unwrap()
+        };
+        assert!(store.stability().await.unwrap().is_empty());
+        store.keep_stability(&of(1)).await.unwrap();
+        store.keep_stability(&of(2)).await.unwrap();
+        assert_eq!(store.stability().await.unwrap(), [of(2)]);
     }
 
     pub async fn sets_are_found_by_their_key(store: Store) {

@@ -2,7 +2,7 @@ import createClient from 'openapi-fetch'
 import { asApiError, fromResponse } from './errors'
 import type { paths } from './schema'
 import type {
-  Accuracy, AlgorithmInfo, Board, Chart, ChartKind, Ecdf, Estimate, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, WorstCase,
+  Accuracy, AlgorithmInfo, Board, Chart, ChartKind, Ecdf, Estimate, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, StabilityTable, WorstCase,
 } from './types'
 
 export const http = createClient<paths>({ baseUrl: '/' })
@@ -68,6 +68,8 @@ export const getWorst = (
 /** All pairs of triangles that meet in one configuration. */
 export const getMeeting = (id: string, configuration: number): Promise<Meeting> =>
   answer(http.GET('/api/v1/runs/{id}/configurations/{configuration}/contacts', { params: { path: { id, configuration } } }))
+/** Where methods fail, as far as they were tried. */
+export const getStability = (): Promise<StabilityTable> => answer(http.GET('/api/v1/stability'))
 
 /** The run of the start page, or null while there is none. */
 export const getFeatured = (): Promise<RunInfo | null> => answer(http.GET('/api/v1/featured'))

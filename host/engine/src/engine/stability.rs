@@ -1,0 +1,42 @@
+//! Where methods fail.
+
+use std::sync::Arc;
+
+use super::Engine;
+use crate::measure::Stop;
+use crate::model::{Stability, StabilityTable};
+use crate::stability::{self, Selection};
+use crate::{EngineError, Result};
+
+impl Engine {
+    /// All families, relations and reported failures, with the newest result of every method that was tried.
+    pub async fn stability(&self) -> Result<StabilityTable> {
+        Ok(StabilityTable { methods: self.inner.store.stability().await?, ..stability::table() })
+    }
+
+    /// Tries one algorithm, by its name with settings; `at` hears which part is begun. A whole run is kept for the tables.
+    pub async fn try_stability(
+        &self,
+        algorithm: &str,
+        selection: Selection,
+        stop: Stop,
+        at: impl Fn(&str) + Send + 'static,
+    ) -> Result<Stability> {
+        selection.check()?;
+        let unknown = || {
+            let known: Vec<String> = self.algorithms().into_iter().map(|a| a.id).collect();
+            EngineError::Invalid(format!("There is no algorithm {algorithm:?}; there are: {}.", known.join(", ")))
+        };
+        let contestant = self.inner.registry.choose(algorithm)?.ok_or_else(unknown)?;
+        let whole = selection.parts.is_empty() && selection.at.is_none() && selection.seed.is_none();
+        let inner = Arc::clone(&self.inner);
+        // A thread of its own: a jail ends with the thread that started it.
+        let (sender, found) = tokio::sync::oneshot::channel();
+        std::thread::spawn(move || sender.send(stability::run(&inner.registry, &contestant, &selection, &stop, &at)));
+        let found = found.await.unwrap_or_else(|_| Err(EngineError::Fault("The stability run broke down.".into())))?;
+        if whole {
+            self.inner.store.keep_stability(&found).await?;
+        }
+        Ok(found)
+    }
+}
