@@ -24,10 +24,10 @@ impl Engine {
     ) -> Result<Stability> {
         selection.check()?;
         let unknown = || {
-            let known: Vec<String> = self.algorithms().into_iter().map(|a| a.id).collect();
+            let known: Vec<String> = self.algorithms(None).into_iter().map(|a| a.id).collect();
             EngineError::Invalid(format!("There is no algorithm {algorithm:?}; there are: {}.", known.join(", ")))
         };
-        let contestant = self.inner.registry.choose(algorithm)?.ok_or_else(unknown)?;
+        let contestant = self.inner.registry.choose(algorithm, None)?.ok_or_else(unknown)?;
         let whole = selection.parts.is_empty() && selection.at.is_none() && selection.seed.is_none();
         let inner = Arc::clone(&self.inner);
         // A thread of its own: a jail ends with the thread that started it.
