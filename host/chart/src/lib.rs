@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 mod label;
+mod paper;
 mod place;
 mod scale;
 mod style;

@@ -1,10 +1,10 @@
 //! A chart as a file that stands alone: title, axes with units, key with n, intervals, notes.
 
+use crate::paper::{Paper, QUIET, escaped, fault_spans, faults, wrapped};
 use crate::place::Places;
 use crate::{Chart, Form, Placing, Point, Scale, Series, Style};
 
 const WIDTH: f64 = 820.0;
-const LETTERS: usize = 118;
 const ROW: f64 = 19.0;
 
 /// One chart.
@@ -14,23 +14,25 @@ pub fn chart(chart: &Chart) -> String {
 
 /// Several charts, one below the other.
 pub fn page(charts: &[Chart]) -> String {
-    let (mut body, mut y) = (String::new(), 0.0);
+    let (mut paper, mut y) = (Paper::default(), 0.0);
     for chart in charts {
-        y += Drawing::new(chart, y).draw(&mut body);
+        y += Drawing::new(chart, y).draw(&mut paper);
     }
-    let titles: Vec<String> = charts.iter().map(|chart| escaped(&chart.title)).collect();
-    let findings: Vec<String> = charts.iter().map(|chart| escaped(&chart.finding)).collect();
+    let told = |of: fn(&Chart) -> &str| charts.iter().map(|chart| escaped(of(chart))).collect::<Vec<_>>().join(" ");
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {y}\" width=\"{WIDTH}\" height=\"{y}\" \
          font-family=\"sans-serif\" font-size=\"12\" fill=\"#1c2025\">\n<title>{}</title>\n<desc>{}</desc>\n\
-         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{body}</svg>\n",
-        titles.join("; "),
-        findings.join(" ")
+         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{}</svg>\n",
+        told(|chart| &chart.title),
+        told(|chart| &chart.finding),
+        paper.into_text()
     )
 }
 
 struct Drawing<'a> {
     chart: &'a Chart,
+    /// A row for each series, named at the axis.
+    rows: bool,
     x: Placing,
     y: Placing,
     /// Of the plot: left, top, right, bottom.
@@ -44,44 +46,38 @@ impl<'a> Drawing<'a> {
         let rows = chart.y.scale == Scale::Rows;
         let head = wrapped(&chart.finding);
         let first = top + 44.0 + head.len() as f64 * 16.0;
-        let height = if rows { ROW * (chart.series.len() as f64 + 0.4) } else { 340.0 };
-        Self {
-            chart,
-            x: Placing::new(&chart.x, chart.xs()),
-            y: Placing::new(&chart.y, chart.ys()),
-            plot: [if rows { 210.0 } else { 76.0 }, first, WIDTH - if rows { 190.0 } else { 24.0 }, first + height],
-            top,
-            head,
-        }
+        let (left, right, height) = match rows {
+            true => (210.0, WIDTH - 190.0, ROW * (chart.series.len() as f64 + 0.4)),
+            false => (76.0, WIDTH - 24.0, 340.0),
+        };
+        let (x, y) = (Placing::new(&chart.x, chart.xs()), Placing::new(&chart.y, chart.ys()));
+        Self { chart, rows, x, y, plot: [left, first, right, first + height], top, head }
     }
 
     /// Writes everything; the height.
-    fn draw(&self, text: &mut String) -> f64 {
-        put(
-            text,
-            format!(
-                "<text x=\"12\" y=\"{}\" font-size=\"16\" font-weight=\"bold\">{}</text>",
-                self.top + 24.0,
-                escaped(&self.chart.title)
-            ),
-        );
+    fn draw(&self, paper: &mut Paper) -> f64 {
+        let title = escaped(&self.chart.title);
+        paper.words([12.0, self.top + 24.0], "font-size=\"16\" font-weight=\"bold\"", title);
         for (i, line) in self.head.iter().enumerate() {
-            put(text, format!("<text x=\"12\" y=\"{}\">{}</text>", self.top + 44.0 + 16.0 * i as f64, escaped(line)));
+            paper.words([12.0, self.top + 44.0 + 16.0 * i as f64], "", escaped(line));
         }
-        self.grid(text);
-        self.chart.series.iter().enumerate().for_each(|(row, series)| self.series(text, series, row));
-        if self.chart.y.scale != Scale::Rows {
-            self.names(text);
-        }
+        self.grid(paper);
         let mut y = self.plot[3] + 58.0;
-        if self.chart.y.scale != Scale::Rows {
-            for series in self.chart.series.iter().filter(|series| series.form != Form::Rule) {
-                self.key(text, series, y);
+        for (row, series) in self.chart.series.iter().enumerate() {
+            self.series(paper, series);
+            if self.rows {
+                self.row(paper, series, row);
+            }
+        }
+        if !self.rows {
+            self.names(paper);
+            for (name, series, n) in self.keys() {
+                self.key(paper, series, &format!("{name} (n = {n})"), y);
                 y += ROW;
             }
         }
         for line in self.chart.notes.iter().flat_map(|note| wrapped(note)) {
-            put(text, format!("<text x=\"12\" y=\"{y}\" fill=\"#474e57\">{}</text>", escaped(&line)));
+            paper.words([12.0, y], &format!("fill=\"{QUIET}\""), escaped(&line));
             y += 16.0;
         }
         y + 14.0 - self.top
@@ -101,227 +97,130 @@ impl<'a> Drawing<'a> {
         round(bottom - (bottom - top) * self.y.at(Some(y)))
     }
 
-    fn grid(&self, text: &mut String) {
+    fn grid(&self, paper: &mut Paper) {
         let [left, top, right, bottom] = self.plot;
-        let small = "font-size=\"11\" fill=\"#474e57\"";
         if let (Some(end), Some(name)) = (self.x.lane(), &self.chart.x.lane) {
             let width = (right - left) * end - 6.0;
-            put(
-                text,
-                format!(
-                    "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{}\" fill=\"#e8eef2\"/>",
-                    bottom - top
-                ),
-            );
-            put(
-                text,
-                format!(
-                    "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" {small}>{}</text>",
-                    left + 0.5 * width,
-                    bottom + 16.0,
-                    escaped(name)
-                ),
-            );
+            paper.rect([left, top, width, bottom - top], "#e8eef2");
+            // The bound stands in brackets, below.
+            for (i, line) in name.splitn(2, " (").enumerate() {
+                let line = if i == 0 { line.to_owned() } else { format!("({line}") };
+                paper.label([left + 0.5 * width, bottom + 16.0 + 13.0 * i as f64], "middle", &line);
+            }
         }
         for (share, label) in self.x.ticks(8) {
             let x = round(left + (right - left) * share);
-            put(text, format!("<path d=\"M{x} {top}V{bottom}\" stroke=\"#ddd\"/>"));
-            put(text, format!("<text x=\"{x}\" y=\"{}\" text-anchor=\"middle\" {small}>{label}</text>", bottom + 16.0));
+            paper.path(format!("M{x} {top}V{bottom}"), "stroke=\"#ddd\"");
+            paper.label([x, bottom + 16.0], "middle", &label);
         }
         for (share, label) in self.y.ticks(7) {
             let y = round(bottom - (bottom - top) * share);
-            put(text, format!("<path d=\"M{left} {y}H{right}\" stroke=\"#ddd\"/>"));
-            put(
-                text,
-                format!("<text x=\"{}\" y=\"{}\" text-anchor=\"end\" {small}>{label}</text>", left - 7.0, y + 4.0),
-            );
+            paper.path(format!("M{left} {y}H{right}"), "stroke=\"#ddd\"");
+            paper.label([left - 7.0, y + 4.0], "end", &label);
         }
-        let middle = 0.5 * (left + right);
-        put(
-            text,
-            format!(
-                "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\" {small}>{}</text>",
-                bottom + 34.0,
-                escaped(&self.chart.x.label)
-            ),
-        );
-        if self.chart.y.scale != Scale::Rows {
-            let centre = 0.5 * (top + bottom);
-            put(
-                text,
-                format!(
-                    "<text transform=\"translate(16,{centre}) rotate(-90)\" text-anchor=\"middle\" {small}>{}</text>",
-                    escaped(&self.chart.y.label)
-                ),
-            );
+        paper.label([0.5 * (left + right), bottom + 36.0], "middle", &self.chart.x.label);
+        if !self.rows {
+            paper.put(&format!("<g transform=\"translate(16,{}) rotate(-90)\">", 0.5 * (top + bottom)));
+            paper.label([0.0, 0.0], "middle", &self.chart.y.label);
+            paper.put("</g>");
         }
     }
 
-    fn series(&self, text: &mut String, series: &Series, row: usize) {
-        let style = Style::of(series.style);
-        let dash = if style.dash.is_empty() || series.style.is_none() {
-            String::new()
-        } else {
-            format!(" stroke-dasharray=\"{}\"", style.dash)
-        };
-        let width = if series.form == Form::Rule { 1.2 } else { 1.8 };
+    fn series(&self, paper: &mut Paper, series: &Series) {
+        let Style { colour, dash, mark } = Style::of(series.style);
         if series.points.len() > 1 {
-            put(
-                text,
-                format!(
-                    "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{width}\"{dash}/>",
-                    self.path(series),
-                    style.colour
-                ),
-            );
+            let (width, dash) = if series.form == Form::Rule { (1.2, "") } else { (1.8, dash) };
+            let line = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" {}", dashed(dash));
+            paper.path(self.path(series), &line);
         }
-        if series.form != Form::Line {
-            return;
-        }
-        for point in &series.points {
+        let thin = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.2\"");
+        for point in series.points.iter().filter(|_| series.form == Form::Line) {
             let [x, y] = self.at(point);
-            let mut bar =
-                |d: String| put(text, format!("<path d=\"{d}\" stroke=\"{}\" stroke-width=\"1.2\"/>", style.colour));
             if let (Some(lo), Some(hi)) = (point.y_lo, point.y_hi) {
-                bar(format!("M{x} {}V{}", self.up(lo), self.up(hi)));
+                paper.path(format!("M{x} {}V{}", self.up(lo), self.up(hi)), &thin);
             }
             if let (Some(_), Some(lo), Some(hi)) = (point.x, point.x_lo, point.x_hi) {
-                bar(format!("M{} {y}H{}", self.across(Some(lo)), self.across(Some(hi))));
+                paper.path(format!("M{} {y}H{}", self.across(Some(lo)), self.across(Some(hi))), &thin);
             }
             if point.at_least {
-                put(text, format!("<path d=\"M{x} {y}h20m-5-4l5 4l-5 4\" fill=\"none\" stroke=\"{}\"/>", style.colour));
+                paper.path(format!("M{x} {y}h20m-5-4l5 4l-5 4"), &thin);
             }
-            let fill = if point.filled { style.colour } else { "#fff" };
-            put(
-                text,
-                format!(
-                    "<path d=\"{}\" transform=\"translate({x},{y})\" fill=\"{fill}\" stroke=\"{}\" stroke-width=\"1.5\"/>",
-                    style.mark, style.colour
-                ),
-            );
+            let fill = if point.filled { colour } else { "#fff" };
+            let look =
+                format!("transform=\"translate({x},{y})\" fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"1.5\"");
+            paper.path(mark, &look);
         }
-        if self.chart.y.scale == Scale::Rows {
-            let y = self.up(row as f64) + 4.0;
-            put(
-                text,
-                format!(
-                    "<text x=\"{}\" y=\"{y}\" text-anchor=\"end\">{}</text>",
-                    self.plot[0] - 8.0,
-                    escaped(&series.name)
-                ),
-            );
-            for point in &series.points {
-                put(
-                    text,
-                    format!(
-                        "<text x=\"{}\" y=\"{y}\">n = {}{}</text>",
-                        self.plot[2] + 12.0,
-                        point.n,
-                        fault_spans(point)
-                    ),
-                );
-            }
+    }
+
+    /// Name and n at both ends of a row.
+    fn row(&self, paper: &mut Paper, series: &Series, row: usize) {
+        let y = self.up(row as f64) + 4.0;
+        paper.words([self.plot[0] - 8.0, y], "text-anchor=\"end\"", escaped(&series.name));
+        for point in &series.points {
+            paper.words([self.plot[2] + 12.0, y], "", format!("n = {}{}", point.n, fault_spans(point)));
         }
     }
 
     /// The line; on a signed axis it breaks where the sign changes.
     fn path(&self, series: &Series) -> String {
-        let mut d = String::new();
-        let mut before: Option<&Point> = None;
-        for point in &series.points {
+        let sign = |point: &Point| point.x.map(f64::signum);
+        let step = |(i, point): (usize, &Point)| {
             let [x, y] = self.at(point);
-            let broken =
-                |b: &Point| self.chart.x.scale == Scale::Signed && b.x.map(f64::signum) != point.x.map(f64::signum);
-            let step = match before {
-                None => format!("M{x} {y}"),
-                Some(b) if broken(b) => format!("M{x} {y}"),
-                Some(_) if series.form == Form::Steps => format!("H{x}V{y}"),
-                Some(_) => format!("L{x} {y}"),
-            };
-            d.push_str(&step);
-            before = Some(point);
-        }
-        d
+            let before = i.checked_sub(1).map(|before| &series.points[before]);
+            let joined = before.is_some_and(|b| self.chart.x.scale != Scale::Signed || sign(b) == sign(point));
+            match (joined, series.form) {
+                (false, _) => format!("M{x} {y}"),
+                (true, Form::Steps) => format!("H{x}V{y}"),
+                (true, _) => format!("L{x} {y}"),
+            }
+        };
+        series.points.iter().enumerate().map(step).collect()
     }
 
-    fn names(&self, text: &mut String) {
+    fn names(&self, paper: &mut Paper) {
         let points = || self.chart.series.iter().filter(|s| s.form == Form::Line).flat_map(|s| &s.points);
         let marks: Vec<[f64; 2]> = points().map(|point| self.at(point)).collect();
         let mut places = Places::new(self.plot, &marks);
         for (point, mark) in points().zip(&marks) {
             let Some(name) = &point.name else { continue };
             let letters = name.chars().count() + faults(point).map(|(words, _)| words.len()).sum::<usize>();
-            let [x, y] = places.beside(*mark, letters, 12.0);
-            put(text, format!("<text x=\"{x}\" y=\"{y}\">{}{}</text>", escaped(name), fault_spans(point)));
+            paper.words(places.beside(*mark, letters, 12.0), "", escaped(name) + &fault_spans(point));
         }
     }
 
-    fn key(&self, text: &mut String, series: &Series, y: f64) {
-        let style = Style::of(series.style);
-        put(
-            text,
-            format!(
-                "<path d=\"M12 {}h34\" stroke=\"{}\" stroke-width=\"1.8\" stroke-dasharray=\"{}\"/>",
-                y - 4.0,
-                style.colour,
-                if style.dash.is_empty() { "none" } else { style.dash }
-            ),
-        );
+    /// What stands for what, each name once, with how many values are behind it.
+    fn keys(&self) -> Vec<(String, &Series, u64)> {
+        let mut keys: Vec<(String, &Series, u64)> = Vec::new();
+        for series in self.chart.series.iter().filter(|series| series.form != Form::Rule) {
+            let n = match series.form {
+                Form::Steps => series.points.last().map_or(0, |point| point.n),
+                _ => series.points.iter().map(|point| point.n).sum(),
+            };
+            match keys.iter_mut().find(|(name, ..)| *name == series.name) {
+                Some((_, _, known)) => *known += n,
+                None => keys.push((series.name.clone(), series, n)),
+            }
+        }
+        keys
+    }
+
+    fn key(&self, paper: &mut Paper, series: &Series, words: &str, y: f64) {
+        let Style { colour, dash, mark } = Style::of(series.style);
+        let line = format!("stroke=\"{colour}\" stroke-width=\"1.8\" {}", dashed(dash));
+        paper.path(format!("M12 {}h34", y - 4.0), &line);
         if series.form == Form::Line {
-            put(
-                text,
-                format!(
-                    "<path d=\"{}\" transform=\"translate(29,{})\" fill=\"{}\"/>",
-                    style.mark,
-                    y - 4.0,
-                    style.colour
-                ),
-            );
+            paper.path(mark, &format!("transform=\"translate(29,{})\" fill=\"{colour}\"", y - 4.0));
         }
-        let n: u64 = match series.form {
-            Form::Steps => series.points.last().map_or(0, |point| point.n),
-            _ => series.points.iter().map(|point| point.n).sum(),
-        };
-        put(text, format!("<text x=\"56\" y=\"{y}\">{} (n = {n})</text>", escaped(&series.name)));
+        paper.words([56.0, y], "", escaped(words));
     }
 }
 
-/// What is wrong with a point, in words, with their colours: red and amber.
-fn faults(point: &Point) -> impl Iterator<Item = (String, &'static str)> {
-    let both = [(point.missed, "#9c201c", "missed"), (point.false_alarms, "#7d4b00", "false alarms")];
-    both.into_iter().filter(|(count, ..)| *count > 0).map(|(count, colour, what)| (format!(" {count} {what}"), colour))
-}
-
-fn fault_spans(point: &Point) -> String {
-    faults(point).map(|(words, colour)| format!("<tspan fill=\"{colour}\">{words}</tspan>")).collect()
-}
-
-fn put(text: &mut String, line: String) {
-    text.push_str(&line);
-    text.push('\n');
+fn dashed(dash: &str) -> String {
+    if dash.is_empty() { String::new() } else { format!("stroke-dasharray=\"{dash}\"") }
 }
 
 fn round(x: f64) -> f64 {
     (x * 10.0).round() / 10.0
-}
-
-/// In lines of a page's width.
-fn wrapped(text: &str) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + word.chars().count() < LETTERS => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]
