@@ -773,6 +773,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/stability": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Families, relations and reported failures, with the newest result of every method that was tried. */
+        get: operations["show_stability"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/status": {
         parameters: {
             query?: never;
@@ -1110,6 +1127,11 @@ export interface components {
             wrong: number;
             wrong_share?: components["schemas"]["Estimated"] | null;
         };
+        /**
+         * @description How a cell of the table looks: the gravest of what is in it.
+         * @enum {string}
+         */
+        CellState: "agrees" | "slow" | "wrong" | "broken" | "unsupported" | "refused";
         /** @description A picture of numbers. */
         Chart: {
             /** @description What is to be seen, in one sentence; empty when there is nothing to say. */
@@ -1378,6 +1400,92 @@ export interface components {
              * @description The value.
              */
             value: number;
+        };
+        /** @description A question that fails, complete. */
+        FailingCase: {
+            /** @description Object A as OBJ. */
+            a: string;
+            /**
+             * Format: double
+             * @description The value of the parameter.
+             */
+            at: number;
+            /** @description Object B as OBJ. */
+            b: string;
+            /** @description The command line that asks it again. */
+            command: string;
+            /** @description What is true. */
+            expected: string;
+            /** @description What was answered. */
+            got: string;
+            /** @description Pose of A, row-major 4x4; NaN and infinity as words. */
+            pose_a: string[];
+            /** @description Pose of B. */
+            pose_b: string[];
+            /**
+             * Format: int32
+             * @description The seed.
+             */
+            seed: number;
+            /** @description Triangles of A and B now. */
+            triangles: number[];
+            /** @description Triangles of A and B before they were made fewer. */
+            triangles_before: number[];
+        };
+        /** @description A failure that somebody reported. */
+        FailureInfo: {
+            /** @description Short name. */
+            id: string;
+            /** @description The numbers are the report's own, and not made after its description. */
+            numbers_reported: boolean;
+            /** @description What was seen there. */
+            seen: string;
+            /** @description Where it was reported. */
+            source: string;
+            /** @description Address of the report. */
+            url: string;
+        };
+        /** @description One method on one reported failure. */
+        FailureResult: {
+            /** @description What is true. */
+            expected: string;
+            /** @description What was answered. */
+            got: string;
+            /** @description The reported failure. */
+            id: string;
+            /** @description How it went. */
+            state: components["schemas"]["CellState"];
+        };
+        /** @description A family of hard questions. */
+        FamilyInfo: {
+            /** @description It asks for more than the interface promises to plugins: wrong answers are shown and are no fault. */
+            beyond: boolean;
+            /** @description Between two steps the threshold is narrowed by bisection. */
+            continuous: boolean;
+            /** @description Short name, as on the command line. */
+            id: string;
+            /** @description Name. */
+            name: string;
+            /** @description What is swept, with its unit. */
+            parameter: string;
+            /** @description What it tests. */
+            sentence: string;
+            /** @description Where such failures were seen. */
+            source: string;
+        };
+        /** @description One method on one family. */
+        FamilyResult: {
+            /** @description The family. */
+            family: string;
+            first?: components["schemas"]["FailingCase"] | null;
+            /** @description The gravest of what was seen. */
+            state: components["schemas"]["CellState"];
+            /** @description Step by step, ascending. */
+            steps: components["schemas"]["StepResult"][];
+            /** @description All steps together. */
+            tally: components["schemas"]["Tally"];
+            /** @description Where it starts to fail: one for each side on which it does. */
+            thresholds: components["schemas"]["ThresholdInfo"][];
         };
         /**
          * @description How a series is drawn.
@@ -1753,6 +1861,66 @@ export interface components {
             /** @description SHA-256 (hex) of its plugin file. */
             plugin_sha256: string;
         };
+        /** @description A relation between answers. */
+        RelationInfo: {
+            /** @description Short name. */
+            id: string;
+            /** @description Name. */
+            name: string;
+            /** @description What must hold. */
+            sentence: string;
+        };
+        /** @description One method on one relation. */
+        RelationResult: {
+            /**
+             * Format: int32
+             * @description Decisions that differ.
+             */
+            decisions: number;
+            /**
+             * Format: int32
+             * @description Distances that differ.
+             */
+            distances: number;
+            first?: components["schemas"]["FailingCase"] | null;
+            /**
+             * Format: int32
+             * @description Decisions that differ within rounding of the other one, where they may.
+             */
+            grazing: number;
+            /** @description The relation. */
+            relation: string;
+            /** @description By the amount of what was changed. */
+            steps: components["schemas"]["RelationStep"][];
+            /**
+             * Format: int32
+             * @description How often it was tried.
+             */
+            tried: number;
+        };
+        /** @description One amount of a relation. */
+        RelationStep: {
+            /**
+             * Format: double
+             * @description The amount, 0 when there is none.
+             */
+            at: number;
+            /**
+             * Format: int32
+             * @description Decisions that differ.
+             */
+            decisions: number;
+            /**
+             * Format: int32
+             * @description Distances that differ.
+             */
+            distances: number;
+            /**
+             * Format: int32
+             * @description How often it was tried.
+             */
+            tried: number;
+        };
         /** @description One question that is answered wrongly; `ocb plugin check FILE.so --repro FILE.json` asks it again. */
         Repro: {
             /** @description Algorithm id. */
@@ -1962,6 +2130,35 @@ export interface components {
          * @enum {string}
          */
         Scope: "runs" | "plugins";
+        /** @description The search from anywhere toward failures and long times, beside as many uniform questions. */
+        SearchResult: {
+            /**
+             * Format: int32
+             * @description The number of the first wrong answer of the search; absent when there was none.
+             */
+            climbing?: number | null;
+            /**
+             * Format: double
+             * @description The longest time that the search found, nanoseconds.
+             */
+            costliest_climbing_ns: number;
+            /**
+             * Format: double
+             * @description The longest time of as many uniform questions.
+             */
+            costliest_uniform_ns: number;
+            first?: components["schemas"]["FailingCase"] | null;
+            /**
+             * Format: int32
+             * @description Questions allowed to each.
+             */
+            most: number;
+            /**
+             * Format: int32
+             * @description The same for uniform questions.
+             */
+            uniform?: number | null;
+        };
         /** @description How many configurations a selection holds, and what they cost. */
         Selected: {
             /** @description Every algorithm of the run that has records. */
@@ -2100,6 +2297,61 @@ export interface components {
          * @enum {string}
          */
         Side: "a" | "b";
+        /** @description One method. */
+        Stability: {
+            /** @description The algorithm with its settings. */
+            algorithm: string;
+            /** @description Everything that was asked for was asked; false when the time ran out. */
+            complete: boolean;
+            /**
+             * Format: int64
+             * @description When, microseconds since the epoch.
+             */
+            created_us: number;
+            /** @description By reported failure. */
+            failures: components["schemas"]["FailureResult"][];
+            /** @description By family. */
+            families: components["schemas"]["FamilyResult"][];
+            /** @description Its name. */
+            name: string;
+            /**
+             * Format: double
+             * @description The farthest offset from the origin up to which nothing is wrong; absent when none is.
+             */
+            offset_safe?: number | null;
+            /** @description SHA-256 of the plugin file. */
+            plugin_sha256: string;
+            /** @description By relation. */
+            relations: components["schemas"]["RelationResult"][];
+            search?: components["schemas"]["SearchResult"] | null;
+            /**
+             * Format: int32
+             * @description Seeds per value of a parameter.
+             */
+            seeds: number;
+            /** @description It computes in f32 and is judged in the wider band. */
+            single_precision: boolean;
+            /** @description The same surfaces cut into other triangles. */
+            tessellations: components["schemas"]["TessellationResult"][];
+            /**
+             * @description The powers of two between which another unit of length changes no answer; absent when not even the smallest tried
+             *     on either side leaves it.
+             */
+            unit_safe?: number[] | null;
+            /** @description Its version. */
+            version: string;
+        };
+        /** @description Everything known, and what it means. */
+        StabilityTable: {
+            /** @description The reported failures. */
+            failures: components["schemas"]["FailureInfo"][];
+            /** @description The families, in the order of the tables. */
+            families: components["schemas"]["FamilyInfo"][];
+            /** @description One entry per method that was tried, by id. */
+            methods: components["schemas"]["Stability"][];
+            /** @description The relations, in the order of the tables. */
+            relations: components["schemas"]["RelationInfo"][];
+        };
         /** @description One lane of the live page. */
         Stage: {
             /** @description The algorithm, for measuring lanes. */
@@ -2170,6 +2422,113 @@ export interface components {
             /** @description Version of this program. */
             version: string;
         };
+        /** @description One value of the parameter. */
+        StepResult: {
+            /**
+             * Format: double
+             * @description The value.
+             */
+            at: number;
+            /** @description What was seen. */
+            tally: components["schemas"]["Tally"];
+        };
+        /** @description Counts of answers. */
+        Tally: {
+            /**
+             * Format: int32
+             * @description Right, as far as can be judged.
+             */
+            agrees: number;
+            /**
+             * Format: int32
+             * @description Crash, hang, or no number.
+             */
+            broken: number;
+            /**
+             * Format: int32
+             * @description Wrong distances, nearest points or pairs.
+             */
+            distances: number;
+            /**
+             * Format: int32
+             * @description False alarms.
+             */
+            false_alarms: number;
+            /**
+             * Format: int32
+             * @description Of those: within rounding of the other answer, where either is allowed.
+             */
+            grazing: number;
+            /**
+             * Format: int32
+             * @description Missed collisions.
+             */
+            misses: number;
+            /**
+             * Format: int32
+             * @description Refused by the host.
+             */
+            refused: number;
+            /**
+             * Format: int32
+             * @description More than ten times the median time.
+             */
+            slow: number;
+            /**
+             * Format: int32
+             * @description Another answer than to the same question before.
+             */
+            unsteady: number;
+            /**
+             * Format: int32
+             * @description Not answered: not offered, or given up.
+             */
+            unsupported: number;
+        };
+        /** @description One method on one cutting of a surface into triangles. */
+        TessellationResult: {
+            /** @description How it is cut. */
+            cut: string;
+            /**
+             * Format: int32
+             * @description Decisions that differ from those for the original.
+             */
+            decisions: number;
+            /**
+             * Format: double
+             * @description The largest difference of a distance from that for the original, in lengths of the object.
+             */
+            distance: number;
+            /**
+             * Format: double
+             * @description Median time, nanoseconds.
+             */
+            median_ns: number;
+            /**
+             * Format: int32
+             * @description Questions that were answered.
+             */
+            n: number;
+            /** @description The surface. */
+            object: string;
+            /** @description The question. */
+            query: components["schemas"]["Query"];
+            /**
+             * Format: double
+             * @description The median, over the same questions, of this time divided by that for the original.
+             */
+            ratio: number;
+            /**
+             * Format: int32
+             * @description Triangles of each object.
+             */
+            triangles: number;
+            /**
+             * Format: int32
+             * @description Answers that are wrong for the surface as it is cut.
+             */
+            wrong: number;
+        };
         /** @description One side of eps*. */
         Threshold: {
             /**
@@ -2190,6 +2549,19 @@ export interface components {
              * @description Those answered wrongly, however narrow the decision.
              */
             wrong: number;
+        };
+        /** @description Between what holds and what fails. */
+        ThresholdInfo: {
+            /**
+             * Format: double
+             * @description The first value at which something fails.
+             */
+            fails: number;
+            /**
+             * Format: double
+             * @description The last value at which nothing fails; absent when the easiest fails already.
+             */
+            holds?: number | null;
         };
         /** @description Distribution of the time per query over configurations, nanoseconds. */
         TimeSummary: {
@@ -4465,6 +4837,25 @@ export interface operations {
                 };
                 content: {
                     "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_stability: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StabilityTable"];
                 };
             };
         };
