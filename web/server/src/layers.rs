@@ -31,8 +31,11 @@ const HEADERS: [(HeaderName, &str); 5] = [
 ];
 
 pub(crate) fn wrap(router: Router<App>, app: &App) -> Router<App> {
-    // Parquet is compressed inside. The default leaves out event streams, pictures and small answers.
-    let worth_it = DefaultPredicate::new().and(NotForContentType::const_new("application/vnd.apache.parquet"));
+    // Parquet is compressed inside, and columns of random digits take seconds to become little smaller. The default leaves
+    // out event streams, pictures and small answers.
+    let worth_it = DefaultPredicate::new()
+        .and(NotForContentType::const_new("application/vnd.apache.parquet"))
+        .and(NotForContentType::const_new("application/vnd.apache.arrow.stream"));
     router
         .layer(middleware::from_fn_with_state(app.clone(), privacy::hide_private_runs))
         .layer(middleware::from_fn_with_state(app.clone(), guest::recognise))
