@@ -39,7 +39,8 @@ impl Placing {
             Scale::Linear if values.is_empty() => [0.0, 1.0],
             Scale::Linear => [lo.min(0.0), if hi > 0.0 { 1.05 * hi } else { 1.0 }],
             Scale::Rows => [-0.7, hi.max(0.0) + 0.7],
-            Scale::Log | Scale::Signed if values.is_empty() => [0.0, 1.0],
+            // Without values a share has its own range, and nothing else minds.
+            Scale::Log | Scale::Signed if values.is_empty() => [-4.0, 0.0],
             Scale::Log | Scale::Signed => {
                 let room = (0.05 * (hi - lo)).max(0.15);
                 [lo - room, hi + room]

@@ -28,9 +28,9 @@ pub fn comparable(row: &BoardRow) -> bool {
 
 fn on_frontier(row: &BoardRow, rows: &[BoardRow], accuracy: Accuracy) -> bool {
     let Some((speed, right)) = both(row, accuracy) else { return false };
-    let others = rows.iter().filter(|other| !std::ptr::eq(*other, row)).filter_map(|other| both(other, accuracy));
+    let mut others = rows.iter().filter(|other| !std::ptr::eq(*other, row)).filter_map(|other| both(other, accuracy));
     let beaten = |(s, r): (f64, f64)| s >= speed && r >= right && (s > speed || r > right);
-    !others.into_iter().any(beaten)
+    !others.any(beaten)
 }
 
 /// Speed and accuracy, more is better.

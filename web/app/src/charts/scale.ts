@@ -35,7 +35,8 @@ export function placing(axis: Axis, all: readonly number[]): Placing {
 }
 
 function ends(axis: Axis, values: readonly number[]): [number, number] {
-  if (values.length === 0) return [0, 1]
+  // Without values a share has its own range, and nothing else minds.
+  if (values.length === 0) return axis.scale === 'linear' ? [0, 1] : [-4, 0]
   const lo = Math.min(...values)
   const hi = Math.max(...values)
   if (axis.scale === 'linear' || axis.scale === 'rows') return [Math.min(0, lo), hi > 0 ? 1.05 * hi : 1]
