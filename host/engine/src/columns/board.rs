@@ -34,7 +34,8 @@ pub fn board_parquet(rows: &[BoardRow]) -> Result<Vec<u8>> {
     put("wrong", count(|r| Some(r.wrong)));
     put("missed", count(|r| Some(r.missed)));
     put("false_alarms", count(|r| Some(r.false_alarms)));
-    let estimates: [(&str, fn(&BoardRow) -> Option<Estimated>); 4] = [
+    type Of = fn(&BoardRow) -> Option<Estimated>;
+    let estimates: [(&str, Of); 4] = [
         ("questions_per_second", |r| r.rate),
         ("wrong_share", |r| r.wrong_share),
         ("missed_share", |r| r.missed_share),
