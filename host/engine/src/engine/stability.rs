@@ -32,7 +32,10 @@ impl Engine {
         let inner = Arc::clone(&self.inner);
         // A thread of its own: a jail ends with the thread that started it.
         let (sender, found) = tokio::sync::oneshot::channel();
-        std::thread::spawn(move || sender.send(stability::run(&inner.registry, &contestant, &selection, &stop, &at)));
+        std::thread::spawn(move || {
+            // Who asked may have gone.
+            drop(sender.send(stability::run(&inner.registry, &contestant, &selection, &stop, &at)));
+        });
         let found = found.await.unwrap_or_else(|_| Err(EngineError::Fault("The stability run broke down.".into())))?;
         if whole {
             self.inner.store.keep_stability(&found).await?;
