@@ -40,9 +40,12 @@ impl Object {
 }
 
 impl Auto {
-    fn choose(&self, query: Query, a: Placed<'_, Self>, b: Placed<'_, Self>) -> Choice {
-        let by_rules = || choose(&RULES, query, &Features::new(&frame(a, b), &a.object.ball, &b.object.ball));
-        self.always.unwrap_or_else(by_rules)
+    /// Comparing the balls is one BV test.
+    fn choose(&self, query: Query, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Choice {
+        self.always.unwrap_or_else(|| {
+            work.bv_tests(1);
+            choose(&RULES, query, &Features::new(&frame(a, b), &a.object.ball, &b.object.ball))
+        })
     }
 }
 
@@ -74,11 +77,8 @@ impl Algorithm for Auto {
     }
 
     fn collide(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<Collision> {
-        match self.choose(Query::Collision, a, b) {
-            Choice::Nothing => {
-                work.bv_tests(1);
-                Ok(Collision::Apart)
-            }
+        match self.choose(Query::Collision, a, b, work) {
+            Choice::Nothing => Ok(Collision::Apart),
             Choice::Fast | Choice::CollisionFirst => self.fast.collide(for_fast(a), for_fast(b), work),
             Choice::SimDop => self.simdop.collide(for_simdop(a), for_simdop(b), work),
         }
@@ -93,11 +93,8 @@ impl Contacts for Auto {
         found: &mut ContactList<'_>,
         work: &mut impl Count,
     ) -> Answer<()> {
-        match self.choose(Query::Contacts, a, b) {
-            Choice::Nothing => {
-                work.bv_tests(1);
-                Ok(())
-            }
+        match self.choose(Query::Contacts, a, b, work) {
+            Choice::Nothing => Ok(()),
             Choice::Fast | Choice::CollisionFirst => self.fast.contacts(for_fast(a), for_fast(b), found, work),
             Choice::SimDop => self.simdop.contacts(for_simdop(a), for_simdop(b), found, work),
         }
@@ -106,7 +103,7 @@ impl Contacts for Auto {
 
 impl Distance for Auto {
     fn distance(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<Separation> {
-        match self.choose(Query::Distance, a, b) {
+        match self.choose(Query::Distance, a, b, work) {
             Choice::SimDop => return self.simdop.distance(for_simdop(a), for_simdop(b), work),
             Choice::CollisionFirst => {
                 if let Collision::Pair(i, j) = self.fast.collide(for_fast(a), for_fast(b), work)?

@@ -12,7 +12,7 @@ use opencollbench_plugin::{Algorithm, Collision, Counts, Pose};
 use support::contestant::{Terms, with};
 use support::{Loaded, Soup};
 
-contestant!(Terms::exact(|| [0.0, 2.0, 3.0].map(|method| with::<Auto>(&[("method", method)])).into()));
+contestant!(Terms::exact(|| [0.0, 2.0].map(|method| with::<Auto>(&[("method", method)])).into()));
 
 /// Two poses of a torus, 1.5 across from the middle: what is chosen for each query.
 fn chosen(pose_b: &Pose, size: f64, count: usize) -> [Choice; 3] {
