@@ -113,7 +113,7 @@ impl Store {
         .fetch_optional(&self.pool)
         .await?;
         let Some((id, scopes)) = row else { return Ok(None) };
-        Ok(self.account(&id).await?.map(|account| Ok::<_, EngineError>((account, from_json(&scopes)?))).transpose()?)
+        self.account(&id).await?.map(|account| Ok((account, from_json(&scopes)?))).transpose()
     }
 
     /// The account's tokens, newest first.
