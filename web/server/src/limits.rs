@@ -34,10 +34,13 @@ pub(crate) const SUBMIT: Limit = limit("submit a plugin", 30, 3600);
 /// Addresses and names that are remembered at most; beyond it those that may try again are forgotten.
 const MOST: usize = 10_000;
 
-/// What was tried lately: a bucket each that drains evenly.
+/// What is limited, and who tried.
+type Tried = (&'static str, String);
+
+/// What was tried lately: a bucket each that drains evenly, with its level and when that was.
 #[derive(Default)]
 pub(crate) struct Limits {
-    buckets: Mutex<HashMap<(&'static str, String), (f64, Instant)>>,
+    buckets: Mutex<HashMap<Tried, (f64, Instant)>>,
 }
 
 impl Limits {
