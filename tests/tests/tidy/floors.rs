@@ -87,10 +87,11 @@ fn a_floor_knows_only_the_floors_below() {
         (HIERARCHY, &[PLUGIN_API, TRIANGLES]),
         (FIELDS, &[PLUGIN_API, TRIANGLES]),
         ("ocb-core", &[]),
+        ("ocb-advisor", &["ocb-core"]),
         ("ocb-sandbox", &["ocb-core", PLUGIN_API]),
         ("ocb-engine", &["ocb-core", "ocb-sandbox"]),
         ("ocb-server", &["ocb-core", "ocb-engine"]),
-        ("ocb-cli", &["ocb-core", "ocb-engine", "ocb-server"]),
+        ("ocb-cli", &["ocb-core", "ocb-advisor", "ocb-engine", "ocb-server"]),
         ("ocb-tests", &["ocb-core", "ocb-sandbox", "ocb-engine", "ocb-server", "ocb-cli", PLUGIN_API]),
     ]);
     may.extend(PLUGINS.map(|p| (p, &[PLUGIN_API, TRIANGLES, LANES, HIERARCHY, FIELDS] as &[&str])));
