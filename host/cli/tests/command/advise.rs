@@ -1,6 +1,6 @@
 //! `ocb advise`: advice, its files, and certificates that hold or do not.
 
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read};
 
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
@@ -90,11 +90,14 @@ fn ctrl_c_ends_it_and_nothing_is_written() {
     let folder = desk.path("advice");
     let args = ["advise", "stock:torus-knot@60000", "--out", folder.to_str().expect("text")];
     let mut child = desk.command(&args).spawn().expect("it starts");
-    // The first line says that the work is under way.
+    // The first line says that the work is under way. Somebody reads on until the end.
     let mut line = String::new();
-    BufReader::new(child.stderr.take().expect("stderr")).read_line(&mut line).expect("a line");
+    let mut stderr = BufReader::new(child.stderr.take().expect("stderr"));
+    stderr.read_line(&mut line).expect("a line");
     assert!(line.contains('/'), "{line}");
     kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).expect("it is there");
-    assert_eq!(child.wait().expect("it ends").code(), Some(130));
+    let mut rest = String::new();
+    stderr.read_to_string(&mut rest).expect("text");
+    assert_eq!(child.wait().expect("it ends").code(), Some(130), "{rest}");
     assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 0);
 }
