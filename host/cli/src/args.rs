@@ -29,7 +29,7 @@ const EXIT_CODES: &str = "Exit codes:
   0    done; for a benchmark: every algorithm completed and no answer was wrong
   1    our fault or the machine's; for `ocb truth pairs`: an answer differs from the truth in the file
   2    bad input; nothing of it was kept
-  3    the run finished, but an algorithm failed or gave wrong answers
+  3    the run finished, but an algorithm failed or gave wrong answers; for `ocb advise --verify`: the certificate does not hold
   130  stopped by Ctrl-C; the run is cancelled and nothing goes on running";
 
 /// Where data, runner and plugins are.
@@ -94,6 +94,8 @@ pub enum Command {
     Bench(BenchArgs),
     /// Find configurations and certify them: poses, distances, classes, as a file.
     Generate(GenerateArgs),
+    /// How much of the models a question needs: reduced objects with certificates, what they save, what they cost.
+    Advise(AdviseArgs),
     /// Certified answers: do they collide, how far apart are they, how sure is that.
     Truth(TruthArgs),
     /// Look at plugins.
@@ -208,6 +210,56 @@ pub struct GenerateArgs {
     /// File to write (Parquet).
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
+}
+
+/// `ocb advise`
+#[derive(Debug, Args)]
+pub struct AdviseArgs {
+    /// Object A (fixed): an OBJ file, or a stock object such as `stock:castle@5000`; with --verify, where the certificate's
+    /// object is now [default: where it was].
+    #[arg(required_unless_present = "verify")]
+    pub a: Option<String>,
+    /// Object B (moving) [default: the same as A].
+    #[arg(conflicts_with = "verify")]
+    pub b: Option<String>,
+    /// How far apart they are (distance), or whether that is more than a length (clearance=LENGTH).
+    #[arg(long, default_value = "distance", value_name = "distance|clearance=LENGTH")]
+    pub question: String,
+    /// Largest error of a distance: a share of A's longest side (1%), or a length.
+    #[arg(long, value_name = "LENGTH")]
+    pub tolerance: Option<String>,
+    /// What one unit of the files is, where lengths are given as 0.5mm or 2cm.
+    #[arg(long, value_enum, default_value_t = Unit::Mm)]
+    pub unit: Unit,
+    /// Configurations to choose by.
+    #[arg(long, default_value_t = 400, value_parser = clap::value_parser!(u32).range(8..=1_000_000), value_name = "N")]
+    pub configurations: u32,
+    /// Other configurations to check the advice by.
+    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(0..=1_000_000), value_name = "N")]
+    pub held_out: u32,
+    /// Relative distances of the configurations, separated by commas [default: ones that fit the question].
+    #[arg(long, value_delimiter = ',', value_name = "X")]
+    pub distance: Vec<f64>,
+    /// Seed of the low-discrepancy sequences.
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+    /// Folder for the reduced objects (OBJ), their certificates (JSON), the advice (JSON), and where detail is needed (PLY).
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Check a certificate instead, with the reduced object beside it.
+    #[arg(long, value_name = "CERTIFICATE")]
+    pub verify: Option<PathBuf>,
+}
+
+/// What one unit of an object's file is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Unit {
+    /// A millimetre.
+    Mm,
+    /// A centimetre.
+    Cm,
+    /// A metre.
+    M,
 }
 
 /// `ocb truth`

@@ -1,6 +1,7 @@
 //! `ocb`: serve the pages, or do from a terminal what they do.
 
 mod admin;
+mod advise;
 mod args;
 mod bench;
 mod board;
@@ -53,6 +54,7 @@ async fn command(cli: Cli) -> Result<ExitCode> {
     match command {
         Command::Serve(args) => serve::serve(&store, &args, json).await,
         Command::Bench(args) => bench::bench(&store, &args, json).await,
+        Command::Advise(args) => advise::advise(&store, &args, json).await,
         Command::Generate(args) => generate::generate(&store, &args, json).await,
         Command::Truth(args) => truth::truth(&store, &args, json).await,
         Command::Plugin { command } => plugin::plugin(&store, &command, json).await,

@@ -23,11 +23,15 @@ pub enum Purpose {
 
 /// Opens the engine on the data folder.
 pub async fn open(store: &Store, purpose: Purpose) -> Result<Engine> {
-    let data = match &store.data {
-        Some(folder) => folder.clone(),
-        None => default_data(|name| std::env::var_os(name).map(PathBuf::from))?,
-    };
-    Ok(Engine::open(config(store, data, purpose)).await?)
+    Ok(Engine::open(config(store, data(store)?, purpose)).await?)
+}
+
+/// The data folder.
+pub fn data(store: &Store) -> Result<PathBuf> {
+    match &store.data {
+        Some(folder) => Ok(folder.clone()),
+        None => default_data(|name| std::env::var_os(name).map(PathBuf::from)),
+    }
 }
 
 /// Opens the engine on a folder of its own that goes away, for commands that ask about plugins only: those must work

@@ -87,7 +87,7 @@ async fn configurations(store: &Store, args: &TruthArgs, json: bool) -> Result<E
 }
 
 /// The mesh as an algorithm would get it.
-async fn object(store: &Store, named: &str) -> Result<Arc<Mesh>> {
+pub async fn object(store: &Store, named: &str) -> Result<Arc<Mesh>> {
     if named.starts_with("stock:") {
         let (engine, _folder) = open::open_aside(store).await?;
         let mesh = engine.mesh(named).await;

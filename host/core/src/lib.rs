@@ -16,6 +16,7 @@ pub mod configuration;
 pub mod export;
 pub mod heatmap;
 pub mod instance;
+pub mod lod;
 pub mod mesh;
 pub mod numbers;
 pub mod oracle;

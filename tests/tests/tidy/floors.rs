@@ -92,11 +92,12 @@ fn a_floor_knows_only_the_floors_below() {
         (FIELDS, &[PLUGIN_API, TRIANGLES]),
         ("ocb-core", &[]),
         ("ocb-chart", &[]),
+        ("ocb-advisor", &["ocb-core"]),
         ("ocb-sandbox", &["ocb-core", PLUGIN_API]),
         ("ocb-stability", &["ocb-core"]),
         ("ocb-engine", &["ocb-chart", "ocb-core", "ocb-sandbox", "ocb-stability"]),
         ("ocb-server", &["ocb-core", "ocb-engine"]),
-        ("ocb-cli", &["ocb-core", "ocb-engine", "ocb-server"]),
+        ("ocb-cli", &["ocb-core", "ocb-advisor", "ocb-engine", "ocb-server"]),
         ("ocb-tests", &["ocb-chart", "ocb-core", "ocb-sandbox", "ocb-engine", "ocb-server", "ocb-cli", PLUGIN_API]),
     ]);
     may.extend(PLUGINS.map(|p| (p, &[PLUGIN_API, TRIANGLES, HIERARCHY, WIDE, FIELDS] as &[&str])));

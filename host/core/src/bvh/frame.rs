@@ -20,8 +20,8 @@ pub(crate) struct Frame<'t> {
     a: &'t Tree,
     b: &'t Tree,
     /// Tree coordinates times this are lengths in the unit; powers of two, at most 1.
-    scale_a: f32,
-    scale_b: f32,
+    pub(super) scale_a: f32,
+    pub(super) scale_b: f32,
     /// From B's coordinates to A's: `rotation * x + translation`.
     rotation: [[f32; 3]; 3],
     translation: [f32; 3],

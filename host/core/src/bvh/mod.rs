@@ -14,6 +14,7 @@ mod frame;
 mod leaf;
 mod obb;
 mod probe;
+mod reach;
 mod wide_node;
 
 pub(crate) use best_first::BestFirst;

@@ -36,17 +36,17 @@ mod exact;
 mod exact_margin;
 mod exact_ray;
 mod exact_vector;
-mod filter;
+pub(crate) mod filter;
 mod inside;
 mod margin;
 mod nearest;
 mod rational;
-mod scene;
+pub(crate) mod scene;
 mod straddle;
 #[cfg(test)]
 mod tests;
 mod topology;
-mod triangle;
+pub(crate) mod triangle;
 
 use std::sync::Arc;
 
@@ -57,7 +57,7 @@ use crate::configuration::{Class, Configuration, Containment, Truth, Witness};
 use crate::mesh::Mesh;
 use crate::query::Semantics;
 pub use claims::Side;
-pub(crate) use closest::closest_points;
+pub(crate) use closest::{closest, closest_points};
 use nearest::{Effort, Nearest};
 use scene::Scene;
 use topology::Topology;

@@ -10,7 +10,7 @@ use crate::configuration::Configuration;
 use crate::pose::Pose;
 
 /// Coordinates above this could overflow in f64; such scenes are answered in integers alone.
-const LARGEST: f64 = 1e150;
+pub(crate) const LARGEST: f64 = 1e150;
 
 /// Two shapes in one configuration.
 ///
@@ -80,7 +80,7 @@ impl Scene<'_> {
 }
 
 /// A bound of the mapped object's absolute coordinates.
-fn reach(pose: &Pose, shape: &Shape) -> f64 {
+pub(crate) fn reach(pose: &Pose, shape: &Shape) -> f64 {
     (0..3)
         .map(|row| {
             let turned: f64 = pose.linear.row(row).iter().map(|x| x.abs()).sum();

@@ -1,0 +1,31 @@
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+mod advice;
+mod certificate;
+mod choice;
+mod cover;
+mod detail;
+mod ladder;
+mod points;
+mod proxy;
+mod question;
+mod scene;
+mod share;
+mod shelf;
+mod target;
+mod timing;
+mod watch;
+
+pub use advice::{Advice, HeldOut, LevelFacts, Scene, advise};
+pub use certificate::{Certificate, Doubt, Paper, VERSION};
+pub use choice::Levels;
+pub use detail::Detail;
+pub use ladder::{Level, ladder, simplified};
+pub use points::{Kind, Point};
+pub use question::{Hybrid, Question, Told};
+pub use scene::{sample, usual_distances};
+pub use share::Share;
+pub use shelf::Shelf;
+pub use timing::Measured;
+pub use watch::{Unwatched, Watch};

@@ -1,0 +1,121 @@
+//! The card: advice in words and a table.
+
+use std::path::PathBuf;
+
+use ocb_advisor::{Advice, Kind, Measured, Point, Question, Share};
+
+use crate::output;
+
+/// The card, the curve behind it, and the files.
+pub fn card(advice: &Advice, written: &[PathBuf]) -> String {
+    let mut lines = vec![asked(advice), enough(advice)];
+    if let (Some(sure), Some(anywhere)) = (advice.guaranteed_error, advice.guaranteed_anywhere) {
+        let seen = advice.held_out.observed_error.map_or_else(String::new, |e| {
+            format!("; observed at most {} on {} others", length(advice, e), advice.held_out.wrong.of)
+        });
+        lines.push(format!(
+            "Error: certified at most {} on these {} configurations{seen}. These levels alone: at most {} anywhere.",
+            length(advice, sure),
+            advice.configurations,
+            length(advice, anywhere)
+        ));
+    }
+    let held = &advice.held_out;
+    lines.push(format!(
+        "Held out: {} wrong, {} intervals that contradict the oracle; {} had to ask the whole objects.",
+        share(&held.wrong),
+        share(&held.violations),
+        share(&held.falls_back)
+    ));
+    lines.push(String::new());
+    lines.push(table(advice));
+    lines.push(String::new());
+    lines.push(
+        "Times of one thread of this program's own search, [95 % interval]; hulls and boxes have no certificate. An error \
+         is a share of A's longest side."
+            .to_owned(),
+    );
+    lines.extend(written.iter().map(|path| path.display().to_string()));
+    lines.join("\n")
+}
+
+fn asked(advice: &Advice) -> String {
+    let what = match advice.question {
+        Question::Distance { tolerance } => format!("How far apart, within {}", length(advice, tolerance)),
+        Question::Clearance { clearance } => format!("Further apart than {}", length(advice, clearance)),
+    };
+    let distances: Vec<String> = advice.distances.iter().map(|d| format!("{d:.4}")).collect();
+    format!("{what}? {} configurations at relative distances {}.", advice.configurations, distances.join(", "))
+}
+
+fn enough(advice: &Advice) -> String {
+    let faster = format!(
+        "{} times faster than the distance of the whole objects, {} times than asking them just this",
+        estimate(&advice.faster),
+        estimate(&advice.faster_than_same_question)
+    );
+    if advice.stages.is_empty() {
+        return format!(
+            "The whole objects ({} triangles) are what answers this fastest: {faster}.",
+            advice.triangles_before
+        );
+    }
+    let times = f64::from(advice.triangles_before) / f64::from(advice.triangles_after);
+    format!(
+        "Enough: {} instead of {} triangles ({times:.1} times fewer); {faster}.",
+        stages(advice, &advice.stages),
+        advice.triangles_before
+    )
+}
+
+/// Triangles of A and B, stage by stage.
+fn stages(advice: &Advice, stages: &[[usize; 2]]) -> String {
+    let of = |[a, b]: &[usize; 2]| format!("{} + {}", advice.levels_a[*a].triangles, advice.levels_b[*b].triangles);
+    stages.iter().map(of).collect::<Vec<_>>().join(", then ")
+}
+
+fn table(advice: &Advice) -> String {
+    let row = |point: &Point| {
+        let name = match point.kind {
+            Kind::Whole => "whole objects, distance".to_owned(),
+            Kind::SameQuestion => "whole objects, this question".to_owned(),
+            Kind::YesNo => "whole objects, beyond the tolerance or not".to_owned(),
+            Kind::Levels => format!("levels {}", stages(advice, &point.stages)),
+            Kind::Advised => "ADVISED".to_owned(),
+            Kind::Hulls => "convex hulls (uncertified)".to_owned(),
+            Kind::Boxes => "boxes (uncertified)".to_owned(),
+        };
+        let error = |e: Option<f64>| e.map_or_else(|| "-".to_owned(), |e| format!("{:.5}", e / advice.longest_side));
+        let some = |s: &Option<Share>| s.as_ref().map_or_else(|| "-".to_owned(), share);
+        vec![
+            name,
+            point.triangles.to_string(),
+            estimate(&point.micros),
+            estimate(&point.faster),
+            error(point.guaranteed_error),
+            error(point.observed_error),
+            some(&point.falls_back),
+            some(&point.false_alarms),
+            some(&point.missed),
+        ]
+    };
+    let headings =
+        ["asked", "triangles", "us", "times faster", "guaranteed", "observed", "falls back", "false alarms", "missed"];
+    output::table(&headings, advice.points.iter().map(row).collect(), &[1, 2, 3, 4, 5, 6, 7, 8])
+}
+
+fn length(advice: &Advice, x: f64) -> String {
+    format!("{x:.4e} ({:.3} % of A's longest side)", 100.0 * x / advice.longest_side)
+}
+
+fn estimate(e: &Measured) -> String {
+    let digits = if e.value < 10.0 { 2 } else { 0 };
+    format!("{:.digits$} [{:.digits$}, {:.digits$}]", e.value, e.lo, e.hi)
+}
+
+fn share(s: &Share) -> String {
+    match s.seen {
+        0 if s.of > 0 => format!("0 of {} (< {:.2} %)", s.of, 100.0 * s.hi),
+        _ => format!("{} of {} ({:.1} %)", s.seen, s.of, 100.0 * s.value()),
+    }
+}
