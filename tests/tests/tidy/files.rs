@@ -107,3 +107,27 @@ fn nothing_is_left_undone_or_switched_off() {
     let found: Vec<_> = lines_with(&needles, is_code).into_iter().filter(|h| !in_rust(h)).collect();
     assert!(found.is_empty(), "no stub, no switched-off test:\n{}", found.join("\n"));
 }
+
+/// A library whose manifest says that it holds no tests is not built a second time to look for them, which saves minutes;
+/// so none may be there.
+#[test]
+fn libraries_without_tests_hold_none() {
+    let manifests = tracked().into_iter().filter(|p| p.ends_with("Cargo.toml"));
+    let mut told = 0;
+    let mut found = Vec::new();
+    for manifest in manifests {
+        let says = |line: &str| text(&manifest).is_some_and(|t| t.lines().any(|l| l == line));
+        let sources = manifest.with_file_name("src");
+        let below = |p: &Path| p.starts_with(&sources) && p.extension().is_some_and(|e| e == "rs");
+        for (line, needles) in
+            [("test = false", &["#[test]", "cfg(test)"][..]), ("doctest = false", &["/// ```", "//! ```"])]
+        {
+            if says(line) {
+                told += 1;
+                found.extend(lines_with(needles, below));
+            }
+        }
+    }
+    assert!(told > 10, "no manifest says so: is this the workspace?");
+    assert!(found.is_empty(), "tests that never run (mend the manifest beside them): {found:?}");
+}
