@@ -45,6 +45,8 @@ fn coloured(mesh: &Mesh, detail: &Detail, configurations: u32) -> Vec<u8> {
     let legend = Legend {
         run: "advice".to_owned(),
         algorithm: String::new(),
+        against: None,
+        selection: None,
         measure: "level that is enough".to_owned(),
         statistic: "max".to_owned(),
         outliers: "keep".to_owned(),
