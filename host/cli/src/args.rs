@@ -429,6 +429,9 @@ pub struct StabilityArgs {
     /// Seeds per value [default: 3].
     #[arg(long, value_name = "COUNT")]
     pub seeds: Option<u32>,
+    /// Begin nothing new after so long; the table says then that it is not complete.
+    #[arg(long, value_name = "SECONDS")]
+    pub budget: Option<u64>,
     /// Folder for the failing cases: both objects as OBJ, poses, expected and got, the command line.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

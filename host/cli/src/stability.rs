@@ -2,6 +2,7 @@
 
 use std::path::Path;
 use std::process::ExitCode;
+use std::time::Duration;
 
 use ocb_engine::model::{
     CellState, FailingCase, FamilyResult, SearchResult, Stability, StabilityTable, Tally, TessellationResult,
@@ -28,7 +29,7 @@ async fn work(engine: &Engine, args: &StabilityArgs, json: bool) -> Result<ExitC
         at: args.at,
         seed: args.seed,
         seeds: args.seeds.unwrap_or(0),
-        budget: None,
+        budget: args.budget.map(Duration::from_secs),
     };
     let mut table = engine.stability().await?;
     table.methods.clear();

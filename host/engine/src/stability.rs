@@ -176,10 +176,3 @@ pub fn run(
     found.offset_safe = families::offset_safe(&found.families);
     Ok(found)
 }
-
-/// Every family, relation and reported failure once on an algorithm, as far as the budget goes: what the check of a plugin
-/// that somebody brought asks for. Blocks, so it wants a thread of its own.
-pub fn check(registry: &Registry, contestant: &Contestant, budget: Duration) -> Result<Stability> {
-    let selection = Selection { seeds: 1, budget: Some(budget), ..Selection::default() };
-    run(registry, contestant, &selection, &Stop::default(), &|_| ())
-}

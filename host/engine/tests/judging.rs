@@ -104,7 +104,7 @@ async fn results_carry_contacts_resolution_and_agreement() {
         let contacts = result.contacts.expect("lists were asked for");
         assert_eq!((contacts.precision, contacts.recall), (Some(1.0), Some(1.0)), "{contacts:?}");
         assert!(contacts.robust > 0 && contacts.listed >= contacts.robust, "{contacts:?}");
-        let resolution = result.resolution.expect("it is always computed");
+        let resolution = result.resolution.as_ref().expect("it is always computed");
         assert!(!resolution.seen && resolution.eps.is_some_and(|eps| eps > 0.0), "{resolution:?}");
         assert_eq!((resolution.false_hits.n, resolution.false_hits.wrong, resolution.misses.wrong), (1, 0, 0));
         assert_eq!(result.grazing.n, result.grazing.agree, "{:?}", result.grazing);
@@ -118,6 +118,6 @@ async fn results_carry_contacts_resolution_and_agreement() {
     let (run, _) = common::finish(&engine, &run.id).await;
     assert!(run.stages[1].message.as_deref().is_some_and(|m| m.contains("Saved positions")), "truth is computed once");
     let result = &run.results[0];
-    assert!(result.contacts.is_none() && result.resolution.is_some_and(|r| r.distance.is_some_and(|d| d.n == 3)));
+    assert!(result.contacts.is_none() && result.resolution.as_ref().is_some_and(|r| r.distance.as_ref().is_some_and(|d| d.n == 3)));
     engine.shutdown().await;
 }

@@ -20,7 +20,7 @@ use crate::model::TessellationResult;
 const OBJECTS: [&str; 2] = ["box", "torus-knot"];
 const TRIANGLES: u32 = 500;
 /// Questions per object.
-const POSES: usize = 40;
+const POSES: usize = 12;
 
 /// Every cut of every object against itself.
 pub fn tessellations(asker: &mut Asker) -> Result<Vec<TessellationResult>> {
@@ -31,24 +31,27 @@ pub fn tessellations(asker: &mut Asker) -> Result<Vec<TessellationResult>> {
         let poses: Vec<Pose> = (0..POSES)
             .map(|_| Pose { linear: draw.rotation(), translation: draw.direction() * draw.between(0.2, 1.2) })
             .collect();
+        let poses = &poses;
+        let cuts = Cut::ALL.map(|cut| {
+            let cut_mesh = cut.of(&mesh);
+            let posed: Vec<Posed> = poses.iter().map(|pose| Posed::new(&cut_mesh, &cut_mesh, *pose)).collect();
+            let known: Vec<Known> = posed.iter().map(Known::of).collect();
+            (cut, cut_mesh, posed, known)
+        });
         for query in [Query::CollisionFirst, Query::Proximity] {
             if !asker.offers(query, Semantics::Surface) {
                 continue;
             }
             let mut original: Vec<Got> = Vec::new();
-            for cut in Cut::ALL {
-                let cut_mesh = cut.of(&mesh);
-                let posed: Vec<Posed> = poses.iter().map(|pose| Posed::new(&cut_mesh, &cut_mesh, *pose)).collect();
+            for (cut, cut_mesh, posed, known) in &cuts {
                 let questions: Vec<(Query, Configuration)> = posed.iter().map(|p| (query, p.configuration)).collect();
-                let got = asker.ask(&cut_mesh, &cut_mesh, Semantics::Surface, &questions)?;
-                if cut == Cut::Original {
+                let got = asker.ask(cut_mesh, cut_mesh, Semantics::Surface, &questions)?;
+                if *cut == Cut::Original {
                     original = got.clone();
                 }
-                let judged = posed
-                    .iter()
-                    .zip(&got)
-                    .map(|(posed, got)| Known::of(posed).tally(got, query, false, Rule::Judged, asker.precision, None));
-                let wrong = judged.filter(|tally| tally.failed()).count() as u32;
+                let tally =
+                    |(known, got): (&Known, &Got)| known.tally(got, query, false, Rule::Judged, asker.precision, None);
+                let wrong = known.iter().zip(&got).map(tally).filter(|tally| tally.failed()).count() as u32;
                 let mut found = compared(&original, &got, mesh.longest_side());
                 (found.object, found.cut, found.query, found.wrong) = (name.into(), cut.name().into(), query, wrong);
                 found.triangles = cut_mesh.triangles().len() as u32;
