@@ -118,6 +118,9 @@ async fn results_carry_contacts_resolution_and_agreement() {
     let (run, _) = common::finish(&engine, &run.id).await;
     assert!(run.stages[1].message.as_deref().is_some_and(|m| m.contains("Saved positions")), "truth is computed once");
     let result = &run.results[0];
-    assert!(result.contacts.is_none() && result.resolution.as_ref().is_some_and(|r| r.distance.as_ref().is_some_and(|d| d.n == 3)));
+    assert!(
+        result.contacts.is_none()
+            && result.resolution.as_ref().is_some_and(|r| r.distance.as_ref().is_some_and(|d| d.n == 3))
+    );
     engine.shutdown().await;
 }

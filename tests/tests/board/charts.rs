@@ -84,7 +84,7 @@ fn chart(data: &Path, run: &str, kind: &str) -> Value {
     chart
 }
 
-fn points<'a>(chart: &'a Value, of: impl Fn(&Value) -> bool) -> Vec<&'a Value> {
+fn points(chart: &Value, of: impl Fn(&Value) -> bool) -> Vec<&Value> {
     let series = chart["series"].as_array().expect("series").iter().filter(|series| of(series));
     series.flat_map(|series| series["points"].as_array().expect("points")).collect()
 }

@@ -23,7 +23,7 @@ pub fn geometry(mesh: &Mesh) -> Vec<u8> {
 /// Geometry with a heatmap on it.
 ///
 /// Besides [`geometry`]: `COLOR_0` (u16 normalised, **linear** light as glTF asks, grey where there is no value),
-/// `_VALUE` (f32, NaN-free: see [`no_value`]) and `_COUNT` (f32, values that went in). `extras.ocb` of the mesh holds the
+/// `_VALUE` (f32, NaN-free: see `no_value`) and `_COUNT` (f32, values that went in). `extras.ocb` of the mesh holds the
 /// legend.
 pub fn heatmap(mesh: &Mesh, values: &VertexValues, legend: &Legend) -> Vec<u8> {
     let mut file = File::new(mesh);

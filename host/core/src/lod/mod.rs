@@ -17,10 +17,10 @@
 //!
 //! # Rounding
 //!
-//! * A pose is no perfect rotation: where a [`Frame`](crate::bvh::Frame) exists, no entry of `M^T M - 1` exceeds 1e-6, so
+//! * A pose is no perfect rotation: where a frame of the hierarchies exists, no entry of `M^T M - 1` exceeds 1e-6, so
 //!   that `|M x|^2 <= (1 + 3e-6) |x|^2` and lengths of the object grow by less than 2e-6. Every length is stretched so much.
 //!   Other poses get the interval that says nothing.
-//! * `d_ij` is an interval that holds whatever f64 does ([`closest`]); sums and differences with it are rounded outwards.
+//! * `d_ij` is an interval that holds whatever f64 does (`oracle::closest`); sums and differences with it are rounded outwards.
 //! * In the hierarchy a box's bound is less by the largest thickness below it, in f32, rounded up.
 
 mod search;

@@ -1,8 +1,8 @@
 //! The families: each a construction that some library has failed at.
 //!
-//! They stand in the order of what is hard about them: how close ([`near`]), flat sides on flat sides ([`flat`]), thin and
-//! empty triangles ([`thin`]), numbers ([`units`]), whole objects ([`whole`]), what holds an object together ([`soup`]),
-//! what is not a rotation ([`matrices`]), and the order of the questions ([`order`]).
+//! They stand in the order of what is hard about them: how close (`near`), flat sides on flat sides (`flat`), thin and
+//! empty triangles (`thin`), numbers (`units`), whole objects (`whole`), what holds an object together (`soup`),
+//! what is not a rotation (`matrices`), and the order of the questions (`order`).
 
 mod flat;
 mod matrices;

@@ -147,6 +147,8 @@ const DOORS: &[(&str, &[&str])] = &[
             "post /account/login",
             "post /account/logout",
             "get /algorithms",
+            "get /board",
+            "get /board.csv",
             "post /estimates",
             "get /featured",
             "get /objects",
@@ -161,7 +163,12 @@ const DOORS: &[(&str, &[&str])] = &[
             "post /runs",
             "get /runs/{id}",
             "post /runs/{id}/cancel",
+            "get /runs/{id}/chart",
+            "get /runs/{id}/chart.csv",
+            "get /runs/{id}/chart.parquet",
+            "get /runs/{id}/columns.arrow",
             "get /runs/{id}/configurations.parquet",
+            "get /runs/{id}/configurations/{configuration}/contacts",
             "get /runs/{id}/ecdf",
             "get /runs/{id}/events",
             "get /runs/{id}/heatmap",
@@ -169,7 +176,11 @@ const DOORS: &[(&str, &[&str])] = &[
             "get /runs/{id}/heatmap.ply",
             "get /runs/{id}/records.csv",
             "get /runs/{id}/records.parquet",
+            "get /runs/{id}/selection",
             "get /runs/{id}/vertices/{vertex}",
+            "get /runs/{id}/witnesses.arrow",
+            "get /runs/{id}/worst",
+            "get /stability",
             "get /status",
         ],
     ),
@@ -217,7 +228,10 @@ async fn every_route_has_its_door() {
         // These end the session that asks; they are walked through above.
         for route in routes.iter().filter(|route| !route.contains("/logout")) {
             let (method, path) = route.split_once(' ').expect("method and path");
-            let path = path.replace("{id}", "0193f1a0-0000-7000-8000-000000000000").replace("{vertex}", "0");
+            let path = path
+                .replace("{id}", "0193f1a0-0000-7000-8000-000000000000")
+                .replace("{vertex}", "0")
+                .replace("{configuration}", "0");
             for (rank, (role, guest)) in roles.iter().enumerate() {
                 let method = Method::from_bytes(method.to_uppercase().as_bytes()).expect("a method");
                 let request = guest.client.request(method.clone(), format!("{}/api/v1{path}", service.url));
