@@ -1,9 +1,13 @@
 //! What can be said on the command line.
 
+mod plugins;
+
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+
+pub use plugins::{AdminCommand, PluginCommand, SubmitArgs};
 
 use ocb_engine::Profile;
 
@@ -330,65 +334,6 @@ pub enum Contacts {
     First,
     /// All intersecting pairs.
     All,
-}
-
-/// `ocb plugin`
-#[derive(Debug, Subcommand)]
-pub enum PluginCommand {
-    /// List all algorithms of all plugins.
-    List,
-    /// Check a plugin file, in the jail: format, ABI, descriptor, answers against the reference, conduct. A service gives
-    /// the same verdicts.
-    Check {
-        /// The shared library.
-        file: PathBuf,
-        /// Only what takes a second: no comparison with the reference beyond a few dozen questions.
-        #[arg(long)]
-        quick: bool,
-        /// What you say of it (JSON): compared with what the file says.
-        #[arg(long, value_name = "FILE")]
-        manifest: Option<PathBuf>,
-        /// Ask nothing but the question of this repro again.
-        #[arg(long, value_name = "FILE")]
-        repro: Option<PathBuf>,
-        /// Write each wrong answer's repro into this folder.
-        #[arg(long, value_name = "DIR")]
-        out: Option<PathBuf>,
-    },
-}
-
-/// `ocb submit`
-#[derive(Debug, Args)]
-pub struct SubmitArgs {
-    /// The shared library.
-    pub file: PathBuf,
-    /// What you say of it, as JSON: name, version, authors, license (SPDX), paper, source, queries, threads.
-    #[arg(long, value_name = "FILE")]
-    pub manifest: PathBuf,
-    /// The service.
-    #[arg(long, default_value = "http://127.0.0.1:8080", env = "OCB_SERVER", value_name = "URL")]
-    pub server: String,
-    /// A token of your account there, for plugins.
-    #[arg(long, env = "OCB_TOKEN", value_name = "TOKEN", hide_env_values = true)]
-    pub token: String,
-    /// Do not wait for the check.
-    #[arg(long)]
-    pub no_wait: bool,
-}
-
-/// `ocb admin`
-#[derive(Debug, Subcommand)]
-pub enum AdminCommand {
-    /// Make an account; the password comes from OCB_PASSWORD or the first line of the input.
-    Create {
-        /// User name or e-mail address.
-        name: String,
-        /// user, developer, curator or administrator.
-        #[arg(long, default_value = "administrator", value_name = "ROLE")]
-        role: String,
-    },
-    /// Tell whether every entry of the audit log is as it was written.
-    Audit,
 }
 
 /// `ocb object`
