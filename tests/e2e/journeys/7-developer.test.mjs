@@ -122,5 +122,5 @@ test('a developer publishes a plugin, a curator decides, a user benchmarks it', 
   const run = await runId(user.page)
   await until('the run to end', async () => (await user.api(`/runs/${run}`)).state === 'done', 180)
   const results = (await user.api(`/runs/${run}`)).results
-  assert.ok(results.some((result) => result.algorithm === 'my-algorithm-c' && result.n === 20 && result.wrong === 0), JSON.stringify(results.map((r) => [r.algorithm, r.n, r.wrong])))
+  assert.ok(results.some((result) => result.algorithm === 'my-algorithm-c' && result.outcome.name === 'Completed' && result.wrong === 0), JSON.stringify(results.map((r) => [r.algorithm, r.n, r.wrong, r.outcome])))
 })
