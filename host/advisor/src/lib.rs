@@ -24,7 +24,7 @@ pub use detail::Detail;
 pub use ladder::{Level, ladder, simplified};
 pub use points::{Kind, Point};
 pub use question::{Hybrid, Question, Told};
-pub use scene::{sample, usual_distances};
+pub use scene::{CONFIGURATIONS, HELD_OUT, sample, usual_distances};
 pub use share::Share;
 pub use shelf::Shelf;
 pub use timing::Measured;

@@ -8,6 +8,10 @@ use rayon::prelude::*;
 use crate::question::Question;
 use crate::watch::Watch;
 
+/// So many configurations are a good sample to choose by.
+pub const CONFIGURATIONS: u32 = 400;
+/// And so many others to check by.
+pub const HELD_OUT: u32 = 1_000;
 /// Relative distances of a scene that asks how far apart the objects are.
 const DISTANCES: [f64; 4] = [0.003, 0.03, 0.1, 0.3];
 /// The same for a clearance, as shares of it: on both sides, more and more clearly.

@@ -4,6 +4,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use ocb_core::configuration::{Configuration, Placed};
+use ocb_core::numbers::Numbers;
 use ocb_core::statistics::bootstrap_interval;
 use serde::{Deserialize, Serialize};
 
@@ -31,16 +32,20 @@ pub fn way<'a, T>(ask: impl Fn(&Configuration) -> T + 'a) -> Way<'a> {
 }
 
 /// For every way the nanoseconds of every configuration, the median of `passes`; in each pass every configuration is
-/// asked of all ways in turn, so that whatever disturbs the machine disturbs all of them. `None` when it was stopped.
+/// asked of all ways in turn, so that whatever disturbs the machine disturbs all of them. The turns are drawn anew each time:
+/// a way that always came second would find the caches as the first one left them. `None` when it was stopped.
 pub fn times(ways: &[Way], configurations: &[Placed], passes: usize, watch: &dyn Watch) -> Option<Vec<Vec<f64>>> {
     let mut all = vec![vec![Vec::with_capacity(passes); configurations.len()]; ways.len()];
     let total = (passes * configurations.len()) as u64;
+    let mut turns: Vec<usize> = (0..ways.len()).collect();
+    let mut numbers = Numbers::new(0);
     for pass in 0..passes {
         for (i, placed) in configurations.iter().enumerate() {
-            for (way, times) in ways.iter().zip(&mut all) {
+            numbers.shuffle(&mut turns);
+            for &turn in &turns {
                 let start = Instant::now();
-                way(black_box(&placed.configuration));
-                times[i].push(start.elapsed().as_nanos() as f64);
+                ways[turn](black_box(&placed.configuration));
+                all[turn][i].push(start.elapsed().as_nanos() as f64);
             }
             watch.step("measuring", (pass * configurations.len() + i + 1) as u64, total);
             if watch.stopped() {

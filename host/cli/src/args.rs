@@ -236,10 +236,10 @@ pub struct AdviseArgs {
     #[arg(long, value_enum, default_value_t = Unit::Mm)]
     pub unit: Unit,
     /// Configurations to choose by.
-    #[arg(long, default_value_t = 400, value_parser = clap::value_parser!(u32).range(8..=1_000_000), value_name = "N")]
+    #[arg(long, default_value_t = ocb_advisor::CONFIGURATIONS, value_parser = clap::value_parser!(u32).range(8..=1_000_000), value_name = "N")]
     pub configurations: u32,
     /// Other configurations to check the advice by.
-    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(0..=1_000_000), value_name = "N")]
+    #[arg(long, default_value_t = ocb_advisor::HELD_OUT, value_parser = clap::value_parser!(u32).range(0..=1_000_000), value_name = "N")]
     pub held_out: u32,
     /// Relative distances of the configurations, separated by commas [default: ones that fit the question].
     #[arg(long, value_delimiter = ',', value_name = "X")]

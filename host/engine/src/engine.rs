@@ -1,5 +1,6 @@
 //! The one handle for server and command line.
 
+mod advice;
 mod charts;
 mod featured;
 mod follow;
@@ -29,6 +30,7 @@ use ocb_core::oracle::Shape;
 use tokio::sync::Notify;
 use tokio::task::JoinHandle;
 
+use crate::advice::Advices;
 use crate::blobs::Blobs;
 use crate::cache::Cache;
 use crate::columns::RecordColumns;
@@ -73,6 +75,7 @@ pub struct Inner {
     pub records: Cache<RecordColumns>,
     pub maps: Cache<VertexMap>,
     pub shapes: Cache<Shape>,
+    pub advices: Advices,
     closing: AtomicBool,
     dispatcher: Mutex<VecDeque<JoinHandle<()>>>,
     /// Held as long as this process uses the folder.
@@ -110,6 +113,7 @@ impl Engine {
             records: Cache::new(16),
             maps: Cache::new(8),
             shapes: Cache::new(4),
+            advices: Advices::default(),
             closing: AtomicBool::new(false),
             dispatcher: Mutex::new(VecDeque::new()),
             _lock: lock,
@@ -122,6 +126,7 @@ impl Engine {
         engine.inner.renew_plugins().await?;
         if engine.inner.config.dispatch {
             dispatcher::recover(&engine.inner).await?;
+            engine.recover_advice().await?;
             engine.feature_a_run().await?;
             let task = tokio::spawn(dispatcher::work(engine.inner.clone()));
             engine.tasks().push_back(task);
@@ -133,6 +138,7 @@ impl Engine {
     pub async fn shutdown(&self) {
         self.inner.closing.store(true, Ordering::SeqCst);
         self.inner.stop_current(None);
+        self.inner.advices.stop_all();
         self.inner.wake.notify_one();
         let task = self.tasks().pop_front();
         if let Some(task) = task {

@@ -3,6 +3,7 @@
 //! One handle, [`Engine`], serves the web server and the command line alike; its values ([`model`]) are the JSON of both.
 #![forbid(unsafe_code)]
 
+mod advice;
 mod benchmark;
 mod blobs;
 pub mod board;

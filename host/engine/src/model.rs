@@ -2,6 +2,7 @@
 //!
 //! Ids are UUIDv7 text, times are microseconds since the Unix epoch (UTC), durations say their unit in their name.
 
+mod advice;
 mod board;
 mod chart;
 mod contract;
@@ -22,6 +23,7 @@ use ocb_core::resolution::Resolution;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+pub use advice::{AdviceInfo, AdviceSpec, Asked};
 pub use board::{Accuracy, Board, BoardFilter, BoardOption, BoardRequest, BoardRow};
 pub use chart::{ChartKind, ChartRequest};
 pub use contract::{ContractClass, Delivered, Order};

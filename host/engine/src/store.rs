@@ -4,6 +4,7 @@
 //! The subset that works on both: `$1` placeholders, TEXT, BIGINT, DOUBLE PRECISION, `ON CONFLICT`, `RETURNING`.
 
 mod accounts;
+mod advice;
 mod audit;
 mod blobs;
 mod objects;
@@ -28,6 +29,7 @@ use sqlx::{AnyPool, Executor, SqlSafeStr};
 
 use crate::{EngineError, Result};
 
+pub use advice::{AdviceRow, StoredPaper};
 pub use results::StoredResult;
 pub use runs::RunRow;
 pub use submissions::SubmissionRow;
@@ -88,6 +90,7 @@ fn migrations() -> Migrator {
         one(3, "people", include_str!("../migrations/0003_people.sql")),
         one(4, "plugins", include_str!("../migrations/0004_plugins.sql")),
         one(5, "stability", include_str!("../migrations/0005_stability.sql")),
+        one(6, "advice", include_str!("../migrations/0006_advice.sql")),
     ])
 }
 

@@ -95,7 +95,7 @@ fn a_floor_knows_only_the_floors_below() {
         ("ocb-advisor", &["ocb-core"]),
         ("ocb-sandbox", &["ocb-core", PLUGIN_API]),
         ("ocb-stability", &["ocb-core"]),
-        ("ocb-engine", &["ocb-chart", "ocb-core", "ocb-sandbox", "ocb-stability"]),
+        ("ocb-engine", &["ocb-advisor", "ocb-chart", "ocb-core", "ocb-sandbox", "ocb-stability"]),
         ("ocb-server", &["ocb-core", "ocb-engine"]),
         ("ocb-cli", &["ocb-core", "ocb-advisor", "ocb-engine", "ocb-server"]),
         ("ocb-tests", &["ocb-chart", "ocb-core", "ocb-sandbox", "ocb-engine", "ocb-server", "ocb-cli", PLUGIN_API]),

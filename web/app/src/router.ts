@@ -17,6 +17,7 @@ export const router = createRouter({
     { path: '/p/:id', component: () => import('./pages/PluginPage.vue'), props: true, meta: { title: 'Plugin' } },
     { path: '/curate', component: () => import('./pages/CuratePage.vue'), meta: { title: 'Curate' } },
     { path: '/stability', component: () => import('./pages/StabilityPage.vue'), meta: { title: 'Where methods fail' } },
+    { path: '/advisor/:id?', component: () => import('./pages/AdvisorPage.vue'), props: true, meta: { title: 'How much model is enough?' } },
     { path: '/about', component: () => import('./pages/AboutPage.vue'), meta: { title: 'How we measure' } },
     { path: '/truth', component: () => import('./pages/TruthPage.vue'), meta: { title: 'How answers are judged' } },
     { path: '/api', component: () => import('./pages/ApiPage.vue'), meta: { title: 'API' } },

@@ -1,6 +1,7 @@
 //! Every route on one page.
 
 mod account;
+mod advice;
 mod algorithms;
 mod charts;
 mod heatmaps;
@@ -42,6 +43,7 @@ use crate::{App, events, layers, pages, upload};
         (name = "account", description = "An account of one's own: optional, for those who publish"),
         (name = "plugins", description = "What developers bring"),
         (name = "curation", description = "What curators decide"),
+        (name = "advice", description = "How much of a model a question needs"),
         (name = "service", description = "The service itself"),
     )
 )]
@@ -97,6 +99,11 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(people::list_accounts))
         .routes(routes!(people::change_role))
         .routes(routes!(stability::show_stability))
+        .routes(routes!(advice::ask_advice))
+        .routes(routes!(advice::show_advice))
+        .routes(routes!(advice::cancel_advice))
+        .routes(routes!(advice::reduced_obj))
+        .routes(routes!(advice::reduced_certificate))
         .routes(routes!(service::show_status))
         .routes(routes!(service::show_document));
     OpenApiRouter::with_openapi(Document::openapi()).nest(PREFIX, routes)

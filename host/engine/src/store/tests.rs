@@ -8,7 +8,7 @@ mod people;
 use super::*;
 use crate::blobs::tests::from_harness;
 use crate::model::{
-    Agreement, AlgorithmInfo, AlgorithmResult, ClassCount, Draw, Environment, Estimated, ObjectInfo, OutcomeInfo,
+    AdviceInfo, Agreement, AlgorithmInfo, AlgorithmResult, ClassCount, Draw, Environment, Estimated, ObjectInfo, OutcomeInfo,
     Reference, RunSpec, SetInfo, Stability, State,
 };
 use crate::runlog::{fresh_stages, plain_event};
@@ -70,6 +70,7 @@ on_both!(
     objects_belong_to_their_owners,
     descriptions_are_replaced,
     stability_is_replaced,
+    advice_ends_once_and_is_found_again,
     sets_are_found_by_their_key,
     a_run_comes_back_as_it_was,
     events_are_numbered_from_one,
@@ -250,6 +251,24 @@ mod contract {
         store.keep_stability(&of(1)).await.unwrap();
         store.keep_stability(&of(2)).await.unwrap();
         assert_eq!(store.stability().await.unwrap(), [of(2)]);
+    }
+
+    pub async fn advice_ends_once_and_is_found_again(store: Store) {
+        let mut info: AdviceInfo = serde_json::from_value(serde_json::json!({
+            "id": "x", "spec": {"object_a": "stock:box@500", "question": {"kind": "distance", "tolerance": 0.01}},
+            "names": ["box", "box"], "state": "queued", "step": "", "done": 0, "total": 0, "message": null, "advice": null,
+        }))
+        .unwrap();
+        store.add_advice(&info, Some("me")).await.unwrap();
+        store.begin_advice("x").await.unwrap();
+        let [open] = store.open_advice().await.unwrap().try_into().ok().expect("one is open");
+        assert_eq!((open.info, open.owner.as_deref(), open.attempts), (info.clone(), Some("me"), 1));
+        info.state = State::Done;
+        let paper = StoredPaper { mesh: "m".into(), certificate: "c".into(), file: "a-1.obj".into() };
+        store.end_advice(&info, &[vec![paper], vec![]]).await.unwrap();
+        assert!(store.open_advice().await.unwrap().is_empty() && store.advice("y").await.unwrap().is_none());
+        let ended = store.advice("x").await.unwrap().unwrap();
+        assert_eq!((ended.info, ended.papers[0][0].file.as_str(), ended.papers[1].len()), (info, "a-1.obj", 0));
     }
 
     pub async fn sets_are_found_by_their_key(store: Store) {

@@ -2,7 +2,7 @@ import createClient from 'openapi-fetch'
 import { asApiError, fromResponse } from './errors'
 import type { paths } from './schema'
 import type {
-  Accuracy, AlgorithmInfo, Board, Chart, ChartKind, Ecdf, Estimate, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, StabilityTable, WorstCase,
+  Accuracy, AdviceInfo, AdviceSpec, AlgorithmInfo, Board, Chart, ChartKind, Ecdf, Estimate, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, StabilityTable, WorstCase,
 } from './types'
 
 export const http = createClient<paths>({ baseUrl: '/' })
@@ -70,6 +70,13 @@ export const getMeeting = (id: string, configuration: number): Promise<Meeting> 
   answer(http.GET('/api/v1/runs/{id}/configurations/{configuration}/contacts', { params: { path: { id, configuration } } }))
 /** Where methods fail, as far as they were tried. */
 export const getStability = (): Promise<StabilityTable> => answer(http.GET('/api/v1/stability'))
+
+export const askAdvice = (spec: AdviceSpec): Promise<AdviceInfo> => answer(http.POST('/api/v1/advice', { body: spec }))
+
+export const getAdvice = (id: string): Promise<AdviceInfo> => answer(http.GET('/api/v1/advice/{id}', { params: { path: { id } } }))
+
+export const cancelAdvice = (id: string): Promise<AdviceInfo> =>
+  answer(http.POST('/api/v1/advice/{id}/cancel', { params: { path: { id } } }))
 
 /** The run of the start page, or null while there is none. */
 export const getFeatured = (): Promise<RunInfo | null> => answer(http.GET('/api/v1/featured'))

@@ -30,6 +30,6 @@ function placement({ method, relative_distance: distance = 0, step, ladder }: Ru
 }
 
 /** A word that a POSIX shell takes as it is. */
-function quote(word: string): string {
+export function quote(word: string): string {
   return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", String.raw`'\''`)}'`
 }

@@ -3,6 +3,7 @@
 //! The engine starts the runner and asks plugins, so `cargo build --release` must have built them before; `make test`
 //! does so.
 
+mod advice;
 mod errors;
 mod objects;
 mod pages;

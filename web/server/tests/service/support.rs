@@ -16,7 +16,8 @@ pub struct Service {
     pub engine: Engine,
     stop: oneshot::Sender<()>,
     served: JoinHandle<std::io::Result<()>>,
-    _data: TempDir,
+    plugins: Vec<PathBuf>,
+    data: TempDir,
 }
 
 impl Service {
@@ -31,10 +32,13 @@ impl Service {
     }
 
     async fn open(plugins: Vec<PathBuf>) -> Self {
-        let data = tempfile::tempdir().expect("a temporary folder");
+        Self::open_in(tempfile::tempdir().expect("a temporary folder"), plugins).await
+    }
+
+    async fn open_in(data: TempDir, plugins: Vec<PathBuf>) -> Self {
         let mut config = EngineConfig::beside_executable(data.path());
         config.runner = built().join("ocb-runner");
-        config.plugins = plugins;
+        config.plugins.clone_from(&plugins);
         config.profile = Profile::Dev;
         let engine = Engine::open(config).await.expect("the engine opens");
         let listener = ocb_server::bind(([127, 0, 0, 1], 0).into()).await.expect("a free port");
@@ -43,7 +47,7 @@ impl Service {
         let served = tokio::spawn(ocb_server::serve(engine.clone(), listener, async {
             let _ = stopped.await;
         }));
-        Self { url, engine, stop, served, _data: data }
+        Self { url, engine, stop, served, plugins, data }
     }
 
     /// A browser with its own cookies.
@@ -54,9 +58,20 @@ impl Service {
 
     /// Ends the service and waits for it.
     pub async fn stop(self) {
+        self.end().await;
+    }
+
+    /// Ends the service and starts another one on the same data.
+    pub async fn restart(self) -> Self {
+        let (data, plugins) = self.end().await;
+        Self::open_in(data, plugins).await
+    }
+
+    async fn end(self) -> (TempDir, Vec<PathBuf>) {
         self.stop.send(()).expect("the service runs");
         self.served.await.expect("no panic").expect("no fault");
         self.engine.shutdown().await;
+        (self.data, self.plugins)
     }
 }
 

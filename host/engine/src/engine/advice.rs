@@ -1,0 +1,181 @@
+//! Asking for advice, looking at it, taking it away.
+
+use std::sync::Arc;
+
+use ocb_advisor::{Paper, Shelf};
+use ocb_core::mesh::{Mesh, obj};
+
+use super::{Engine, Inner};
+use crate::advice::{Found, Job};
+use crate::model::{AdviceInfo, AdviceSpec, Asked, Side, State};
+use crate::store::{AdviceRow, StoredPaper};
+use crate::{EngineError, Result};
+
+/// Where certificates are kept below the data folder.
+const SHELF: &str = "certificates";
+/// So many requests may wait or be at work.
+const MOST_OPEN: usize = 8;
+/// A request whose work was begun this often is not tried again: it may be what ends the service.
+const MAX_ATTEMPTS: i64 = 3;
+
+impl Engine {
+    /// Asks how much of two objects a question needs; the work begins when its turn comes.
+    ///
+    /// # Errors
+    /// `NotFound` without such an object, `Invalid` for a question that cannot be asked, `Busy` when too many wait.
+    pub async fn ask_advice(&self, spec: AdviceSpec, owner: Option<&str>) -> Result<AdviceInfo> {
+        check(spec.question)?;
+        let inner = &self.inner;
+        let names = inner.objects_of(&spec).await?;
+        if inner.advices.count() >= MOST_OPEN {
+            return Err(EngineError::Busy("Others wait for advice already; try again in some minutes.".to_owned()));
+        }
+        let id = uuid::Uuid::now_v7().to_string();
+        let step = "waiting".to_owned();
+        let info =
+            AdviceInfo { id, spec, names, state: State::Queued, step, done: 0, total: 0, message: None, advice: None };
+        inner.store.add_advice(&info, owner).await?;
+        inner.clone().begin_advice(inner.advices.add(info.clone()));
+        Ok(info)
+    }
+
+    /// Begins again what an ended process left behind.
+    pub(super) async fn recover_advice(&self) -> Result<()> {
+        for AdviceRow { mut info, attempts, .. } in self.inner.store.open_advice().await? {
+            if attempts >= MAX_ATTEMPTS {
+                info.state = State::Failed;
+                info.message =
+                    Some(format!("The service ended {attempts} times during this work; it is not tried again."));
+                self.inner.store.end_advice(&info, &Default::default()).await?;
+                continue;
+            }
+            self.inner.clone().begin_advice(self.inner.advices.add(info));
+        }
+        Ok(())
+    }
+
+    /// How far it is, and the advice when it is done.
+    pub async fn advice(&self, id: &str) -> Result<AdviceInfo> {
+        match self.inner.advices.find(id) {
+            Some(job) => Ok(job.info()),
+            None => Ok(self.inner.advice_row(id).await?.info),
+        }
+    }
+
+    /// Ends it; only its owner may.
+    pub async fn cancel_advice(&self, id: &str, caller: Option<&str>) -> Result<AdviceInfo> {
+        let row = self.inner.advice_row(id).await?;
+        if row.owner.as_deref() != caller {
+            return Err(EngineError::Forbidden("Only who asked for the advice may cancel it.".to_owned()));
+        }
+        let Some(job) = self.inner.advices.find(id) else { return Ok(row.info) };
+        job.stop();
+        Ok(job.info())
+    }
+
+    /// A reduced object as OBJ, and the name of its file; `stage` counts from the coarsest.
+    pub async fn reduced(&self, id: &str, side: Side, stage: usize) -> Result<(Vec<u8>, String)> {
+        let paper = self.inner.paper(id, side, stage).await?;
+        Ok((self.inner.blobs.get(&paper.mesh).await?, paper.file))
+    }
+
+    /// The certificate of a reduced object as JSON, and the name of its file.
+    pub async fn certificate(&self, id: &str, side: Side, stage: usize) -> Result<(Vec<u8>, String)> {
+        let paper = self.inner.paper(id, side, stage).await?;
+        Ok((self.inner.blobs.get(&paper.certificate).await?, paper.file.replace(".obj", ".certificate.json")))
+    }
+}
+
+impl Inner {
+    /// Names of both objects.
+    async fn objects_of(&self, spec: &AdviceSpec) -> Result<[String; 2]> {
+        let b = spec.object_b.as_deref().unwrap_or(&spec.object_a);
+        Ok([self.objects.info(&spec.object_a).await?.name, self.objects.info(b).await?.name])
+    }
+
+    async fn advice_row(&self, id: &str) -> Result<AdviceRow> {
+        let unknown = || EngineError::NotFound(format!("There is no advice {id:?}; check the link."));
+        self.store.advice(id).await?.ok_or_else(unknown)
+    }
+
+    async fn paper(&self, id: &str, side: Side, stage: usize) -> Result<StoredPaper> {
+        let row = self.advice_row(id).await?;
+        let none = || EngineError::NotFound("This advice has no reduced object there.".to_owned());
+        row.papers[side as usize].get(stage).cloned().ok_or_else(none)
+    }
+
+    fn begin_advice(self: Arc<Self>, job: Arc<Job>) {
+        tokio::spawn(async move {
+            let id = job.info().id;
+            let found = self.work_on_advice(&job).await;
+            // What closing interrupted stays open, and is begun again.
+            if !self.closing()
+                && let Err(e) = self.end_advice(job.info(), found).await
+            {
+                tracing::error!("advice {id}: {e}");
+            }
+            self.advices.remove(&id);
+        });
+    }
+
+    async fn work_on_advice(&self, job: &Arc<Job>) -> Result<Option<Found>> {
+        let _turn = tokio::select! {
+            Ok(turn) = self.advices.turn.acquire() => turn,
+            () = job.ended() => return Ok(None),
+        };
+        let AdviceInfo { id, spec, names, .. } = job.info();
+        self.store.begin_advice(&id).await?;
+        let a = self.objects.mesh(&spec.object_a).await?;
+        let b = match &spec.object_b {
+            Some(b) if *b != spec.object_a => self.objects.mesh(b).await?,
+            _ => a.clone(),
+        };
+        let (job, shelf) = (job.clone(), Shelf::folder(&self.config.data.join(SHELF)));
+        let work = tokio::task::spawn_blocking(move || job.work(&names, &[a, b], &shelf));
+        work.await.unwrap_or_else(|_| Err(EngineError::Fault("The advisor broke down; see the log.".to_owned())))
+    }
+
+    async fn end_advice(&self, mut info: AdviceInfo, found: Result<Option<Found>>) -> Result<()> {
+        let mut papers: [Vec<StoredPaper>; 2] = Default::default();
+        (info.state, info.message) = match found {
+            Ok(Some((advice, found))) => {
+                for (side, all) in found.iter().enumerate() {
+                    for (paper, mesh) in all {
+                        papers[side].push(self.keep_paper(paper, mesh).await?);
+                    }
+                }
+                info.advice = Some(advice);
+                (State::Done, None)
+            }
+            Ok(None) => (State::Cancelled, None),
+            Err(e) => (State::Failed, Some(e.to_string())),
+        };
+        self.store.end_advice(&info, &papers).await
+    }
+
+    async fn keep_paper(&self, paper: &Paper, mesh: &Mesh) -> Result<StoredPaper> {
+        let json = serde_json::to_vec(paper).map_err(|e| EngineError::fault("Writing a certificate failed", e))?;
+        let mut kept = Vec::new();
+        for (bytes, media_type) in [(obj::write(mesh).into_bytes(), "model/obj"), (json, "application/json")] {
+            let length = bytes.len();
+            let sha256 = self.blobs.put(bytes).await?;
+            self.store.add_blob(&sha256, length, media_type).await?;
+            kept.push(sha256);
+        }
+        let [mesh, certificate] = kept.try_into().expect("two blobs");
+        Ok(StoredPaper { mesh, certificate, file: paper.file.clone() })
+    }
+}
+
+fn check(question: Asked) -> Result<()> {
+    // Written so that NaN fails.
+    match question {
+        Asked::Distance { tolerance } if !(tolerance > 0.0 && tolerance <= 1.0) => Err(EngineError::Invalid(format!(
+            "The tolerance is a share of A's longest side, more than 0 and at most 1, not {tolerance}."
+        ))),
+        Asked::Clearance { clearance } if !(0.0..=100.0).contains(&clearance) => Err(EngineError::Invalid(format!(
+            "The clearance is a share of A's longest side from 0 to 100, not {clearance}."
+        ))),
+        Asked::Distance { .. } | Asked::Clearance { .. } => Ok(()),
+    }
+}

@@ -1,0 +1,104 @@
+//! Advice: how much of two objects a question needs.
+
+use axum::Json as Answer;
+use axum::extract::State;
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use ocb_engine::model::{AdviceInfo, AdviceSpec, Side};
+use serde::Deserialize;
+use utoipa::IntoParams;
+
+use super::records::download;
+use crate::App;
+use crate::extract::{Json, Path, Query};
+use crate::guest::Guest;
+use crate::problem::{Problem, Result};
+
+/// Asks for advice; it is worked on when its turn comes.
+#[utoipa::path(post, path = "/advice", tag = "advice", request_body = AdviceSpec,
+    responses(
+        (status = 201, description = "Queued; `Location` names it", body = AdviceInfo),
+        (status = 400, description = "No JSON", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Too many wait already", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The question cannot be asked", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn ask_advice(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Json(spec): Json<AdviceSpec>,
+) -> Result<Response> {
+    let info = app.engine.ask_advice(spec, Some(&guest)).await?;
+    let location = format!("/api/v1/advice/{}", info.id);
+    Ok((StatusCode::CREATED, [(header::LOCATION, location)], Answer(info)).into_response())
+}
+
+/// How far it is, and the advice when it is done.
+#[utoipa::path(get, path = "/advice/{id}", tag = "advice",
+    params(("id" = String, Path, description = "Advice id")),
+    responses(
+        (status = 200, body = AdviceInfo),
+        (status = 404, description = "No such advice", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn show_advice(State(app): State<App>, Path(id): Path<String>) -> Result<Answer<AdviceInfo>> {
+    Ok(Answer(app.engine.advice(&id).await?))
+}
+
+/// Ends it; what has ended stays as it is.
+#[utoipa::path(post, path = "/advice/{id}/cancel", tag = "advice",
+    params(("id" = String, Path, description = "Advice id")),
+    responses(
+        (status = 200, description = "As it is now", body = AdviceInfo),
+        (status = 403, description = "Somebody else's", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such advice", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn cancel_advice(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Path(id): Path<String>,
+) -> Result<Answer<AdviceInfo>> {
+    Ok(Answer(app.engine.cancel_advice(&id, Some(&guest)).await?))
+}
+
+/// Which reduced object.
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(crate) struct OfObject {
+    /// Of which object.
+    side: Side,
+    /// Which of its reduced objects, from 0: the coarsest first.
+    #[serde(default)]
+    stage: usize,
+}
+
+/// A reduced object as OBJ.
+#[utoipa::path(get, path = "/advice/{id}/reduced.obj", tag = "advice",
+    params(("id" = String, Path, description = "Advice id"), OfObject),
+    responses(
+        (status = 200, description = "The mesh", body = String, content_type = "model/obj"),
+        (status = 404, description = "No such advice, or it reduces nothing there", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn reduced_obj(
+    State(app): State<App>,
+    Path(id): Path<String>,
+    Query(of): Query<OfObject>,
+) -> Result<Response> {
+    let (bytes, file) = app.engine.reduced(&id, of.side, of.stage).await?;
+    Ok(download("model/obj", &file, bytes))
+}
+
+/// The certificate of a reduced object; `ocb advise --verify` checks it beside the OBJ file.
+#[utoipa::path(get, path = "/advice/{id}/certificate.json", tag = "advice",
+    params(("id" = String, Path, description = "Advice id"), OfObject),
+    responses(
+        (status = 200, description = "Content hashes, thickness and deviation of every triangle", body = String, content_type = "application/json"),
+        (status = 404, description = "No such advice, or it reduces nothing there", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn reduced_certificate(
+    State(app): State<App>,
+    Path(id): Path<String>,
+    Query(of): Query<OfObject>,
+) -> Result<Response> {
+    let (bytes, file) = app.engine.certificate(&id, of.side, of.stage).await?;
+    Ok(download("application/json", &file, bytes))
+}
