@@ -42,7 +42,7 @@ pub struct BoardArgs {
     pub svg: Option<PathBuf>,
 }
 
-const HEADINGS: [&str; 12] = [
+const HEADINGS: [&str; 13] = [
     "rank",
     "algorithm",
     "family",
@@ -54,6 +54,7 @@ const HEADINGS: [&str; 12] = [
     "eps*",
     "build",
     "memory",
+    "stability",
     "measured",
 ];
 
@@ -90,11 +91,11 @@ fn text(board: &Board) -> String {
         return lines.join("\n");
     }
     lines.push(board.finding.clone());
-    lines.push(output::table(&HEADINGS, board.rows.iter().map(row).collect(), &[0, 3, 4, 5, 6, 7, 8, 9, 10, 11]));
+    lines.push(output::table(&HEADINGS, board.rows.iter().map(row).collect(), &[0, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]));
     lines.push(
         "Questions per second by the mean time, with the 95 % interval over the processes; ranks go by it, overlapping \
          intervals are ties (=). Wrong answers with Wilson's 95 % interval of their share; none seen: below 3/n. *: on the \
-         frontier of speed and accuracy."
+         frontier of speed and accuracy. stability: stress families without a wrong answer (`ocb stability`)."
             .to_owned(),
     );
     let reason = |row: &BoardRow| Some(format!("{}: no rank. {}", row.algorithm, row.reason.as_ref()?));
@@ -137,6 +138,7 @@ fn row(row: &BoardRow) -> Vec<String> {
         row.eps.map_or_else(dash, |eps| format!("{bound}{eps:.1e}")),
         row.build_ms.map_or_else(dash, |ms| units::time(ms * 1e6)),
         row.memory_bytes.map_or_else(dash, units::bytes),
+        row.stability.map_or_else(dash, |s| format!("{} of {}", s.passed, s.of)),
         format!("{} ago", units::wait(seconds_since(row.finished_us))),
     ]
 }

@@ -14,7 +14,10 @@ mod row;
 
 use ocb_chart::Chart;
 
-use crate::model::{Accuracy, AlgorithmResult, Board, BoardRequest, BoardRow, RunSpec, SetInfo};
+use crate::model::{
+    Accuracy, AlgorithmResult, Board, BoardRequest, BoardRow, CellState, FamilyResult, RunSpec, SetInfo, Stability,
+    StabilityPassed, StabilityTable,
+};
 use crate::{EngineError, Result};
 
 /// A value of a filter, for programs and for people.
@@ -117,6 +120,27 @@ pub fn of_run(measured: &[Measured], accuracy: Accuracy) -> Chart {
     }
     let finding = frontier::finding(&rows);
     picture::chart(&rows, accuracy, "accuracy", &finding)
+}
+
+/// Says of every row how many stress families the same plugin file got through.
+pub fn add_stability(rows: &mut [BoardRow], table: &StabilityTable) {
+    for row in rows {
+        let same = |tried: &&Stability| tried.algorithm == row.algorithm && tried.plugin_sha256 == row.plugin_sha256;
+        row.stability = table.methods.iter().find(same).map(|tried| passed(tried, table));
+    }
+}
+
+fn passed(tried: &Stability, table: &StabilityTable) -> StabilityPassed {
+    let beyond = |id: &str| table.families.iter().any(|family| family.id == id && family.beyond);
+    let sound = |family: &&FamilyResult| match family.state {
+        CellState::Agrees | CellState::Slow => true,
+        // Beyond what the interface promises, a wrong answer is no fault.
+        CellState::Wrong => beyond(&family.family),
+        CellState::Broken | CellState::Unsupported | CellState::Refused => false,
+    };
+    let asked = |family: &&FamilyResult| !matches!(family.state, CellState::Unsupported | CellState::Refused);
+    let count = |these: &dyn Fn(&&FamilyResult) -> bool| tried.families.iter().filter(these).count() as u32;
+    StabilityPassed { passed: count(&sound), of: count(&asked) }
 }
 
 /// How right an algorithm has to be to stay on the board.

@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 pub use advice::{AdviceInfo, AdviceSpec, Asked};
-pub use board::{Accuracy, Board, BoardFilter, BoardOption, BoardRequest, BoardRow};
+pub use board::{Accuracy, Board, BoardFilter, BoardOption, BoardRequest, BoardRow, StabilityPassed};
 pub use chart::{ChartKind, ChartRequest};
 pub use contract::{ContractClass, Delivered, Order};
 pub use environment::Environment;

@@ -1,7 +1,7 @@
 //! What the board makes of given results.
 
-use ocb_engine::board::{Measured, Named, board};
-use ocb_engine::model::{Accuracy, Board, BoardRequest, BoardRow};
+use ocb_engine::board::{Measured, Named, add_stability, board};
+use ocb_engine::model::{Accuracy, Board, BoardRequest, BoardRow, Tally};
 use serde_json::{Value, json};
 
 fn named(value: &str) -> Named {
@@ -185,4 +185,36 @@ fn a_precision_that_is_none_is_refused() {
         let refused = board(five(), &request).expect_err("it is no precision").to_string();
         assert!(refused.contains(bad) && refused.contains("1e-6"), "{refused}");
     }
+}
+
+#[test]
+fn the_same_plugin_file_brings_its_stability_and_another_one_none() {
+    let mut board = ask(five(), &json!({}));
+    let family = |state: &str, family: &str| json!({ "family": family, "state": state, "tally": Tally::default(), "steps": [], "thresholds": [], "first": null });
+    let of = |algorithm: &str, sha256: &str| {
+        json!({
+            "algorithm": algorithm, "name": "A", "version": "1", "plugin_sha256": sha256, "single_precision": false,
+            "seeds": 1, "created_us": 0, "complete": true, "relations": [], "failures": [], "tessellations": [],
+            "search": null, "unit_safe": null, "offset_safe": null,
+            "families": [
+                family("agrees", "one"), family("slow", "two"), family("wrong", "three"), family("broken", "four"),
+                family("wrong", "beyond"), family("unsupported", "six"),
+            ],
+        })
+    };
+    let known = board.rows[0].plugin_sha256.clone();
+    let info = |id: &str| {
+        json!({
+            "id": id, "name": id, "sentence": "", "source": "", "parameter": "", "continuous": true,
+            "beyond": id == "beyond",
+        })
+    };
+    let table = serde_json::from_value(json!({
+        "families": [info("one"), info("beyond")], "relations": [], "failures": [],
+        "methods": [of("box-tree", &known), of("parry", "another file")],
+    }));
+    add_stability(&mut board.rows, &table.expect("a table"));
+    let passed = row(&board, "box-tree").stability.expect("it was tried");
+    assert_eq!((passed.passed, passed.of), (3, 5));
+    assert_eq!(row(&board, "parry").stability, None);
 }

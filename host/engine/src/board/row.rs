@@ -67,12 +67,14 @@ fn combined(best: &[&Measured], of: u32) -> Option<BoardRow> {
         rate: rate(best),
         build_ms: results().filter_map(|r| r.build_ms).reduce(f64::max),
         memory_bytes: results().filter_map(|r| r.memory_bytes).max(),
+        stability: None,
         scenarios,
         of,
         finished_us: best.iter().map(|m| m.finished_us).min().unwrap_or_default(),
         runs: best.iter().map(|m| m.run.clone()).collect(),
         oracle: best.iter().filter_map(|m| m.oracle).min(),
         hardware_class: first.hardware.value.clone(),
+        plugin_sha256: first.plugin_sha256.clone(),
     })
 }
 

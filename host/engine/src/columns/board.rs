@@ -51,11 +51,14 @@ pub fn board_parquet(rows: &[BoardRow]) -> Result<Vec<u8>> {
     put("distance_error", number(&|r| r.distance_error));
     put("build_ms", number(&|r| r.build_ms));
     put("memory_bytes", count(|r| r.memory_bytes));
+    put("stability_passed", small(|r| r.stability.map(|s| s.passed)));
+    put("stability_of", small(|r| r.stability.map(|s| s.of)));
     put("scenarios", small(|r| Some(r.scenarios)));
     put("of", small(|r| Some(r.of)));
     put("finished_us", count(|r| u64::try_from(r.finished_us).ok()));
     put("oracle", small(|r| r.oracle));
     put("hardware_class", text(|r| Some(&r.hardware_class)));
+    put("plugin_sha256", text(|r| Some(&r.plugin_sha256)));
     put("reason", text(|r| r.reason.as_deref()));
     let metadata = HashMap::from([("opencollbench.schema".to_owned(), SCHEMA_VERSION.to_owned())]);
     to_parquet(&batch(metadata, columns.iter().map(|(name, column)| (name.as_str(), column.clone())).collect())?)

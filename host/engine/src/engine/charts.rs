@@ -18,7 +18,9 @@ impl Engine {
         for row in self.inner.visible_runs(viewer).await? {
             measured.extend(self.inner.measured_of(&row).await?);
         }
-        board::board(measured, request)
+        let mut board = board::board(measured, request)?;
+        board::add_stability(&mut board.rows, &self.stability().await?);
+        Ok(board)
     }
 
     /// One chart of a run. Others of its kind are taken from the runs that the viewer may see.

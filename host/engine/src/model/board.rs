@@ -129,6 +129,8 @@ pub struct BoardRow {
     pub build_ms: Option<f64>,
     /// Memory in bytes; the most.
     pub memory_bytes: Option<u64>,
+    /// What the same plugin file did with hard questions, if it was tried.
+    pub stability: Option<StabilityPassed>,
     /// Scenes and distances it was measured on.
     pub scenarios: u32,
     /// Of so many.
@@ -141,4 +143,15 @@ pub struct BoardRow {
     pub oracle: Option<u32>,
     /// Hardware class.
     pub hardware_class: String,
+    /// SHA-256 of the plugin file.
+    pub plugin_sha256: String,
+}
+
+/// Stress families that a method got through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct StabilityPassed {
+    /// Families without a wrong answer, a crash or a hang.
+    pub passed: u32,
+    /// Of those that it answers.
+    pub of: u32,
 }

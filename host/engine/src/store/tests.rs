@@ -8,8 +8,8 @@ mod people;
 use super::*;
 use crate::blobs::tests::from_harness;
 use crate::model::{
-    AdviceInfo, Agreement, AlgorithmInfo, AlgorithmResult, ClassCount, Draw, Environment, Estimated, ObjectInfo, OutcomeInfo,
-    Reference, RunSpec, SetInfo, Stability, State,
+    AdviceInfo, Agreement, AlgorithmInfo, AlgorithmResult, ClassCount, Draw, Environment, Estimated, ObjectInfo,
+    OutcomeInfo, Reference, RunSpec, SetInfo, Stability, State,
 };
 use crate::runlog::{fresh_stages, plain_event};
 

@@ -36,7 +36,10 @@ async fn advice_is_certified_and_its_objects_are_taken_away() {
     assert_eq!(info["state"], "done", "{}", info["message"]);
     let advice = &info["advice"];
     assert!(advice["triangles_after"].as_u64() < advice["triangles_before"].as_u64());
-    assert_eq!((&advice["held_out"]["wrong"]["seen"], &advice["held_out"]["violations"]["seen"]), (&json!(0), &json!(0)));
+    assert_eq!(
+        (&advice["held_out"]["wrong"]["seen"], &advice["held_out"]["violations"]["seen"]),
+        (&json!(0), &json!(0))
+    );
     let side = advice["longest_side"].as_f64().expect("a length");
     assert!(advice["guaranteed_error"].as_f64().expect("an error") <= 0.02 * side * (1.0 + 1e-9));
 
