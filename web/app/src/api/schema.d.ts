@@ -172,6 +172,91 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/advice": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Asks for advice; it is worked on when its turn comes. */
+        post: operations["ask_advice"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/advice/{id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** How far it is, and the advice when it is done. */
+        get: operations["show_advice"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/advice/{id}/cancel": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Ends it; what has ended stays as it is. */
+        post: operations["cancel_advice"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/advice/{id}/certificate.json": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The certificate of a reduced object; `ocb advise --verify` checks it beside the OBJ file. */
+        get: operations["reduced_certificate"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/advice/{id}/reduced.obj": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** A reduced object as OBJ. */
+        get: operations["reduced_obj"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/algorithms": {
         parameters: {
             query?: never;
@@ -837,6 +922,165 @@ export interface components {
          * @enum {string}
          */
         Action: "offer" | "answer" | "withdraw" | "approve" | "ask" | "reject" | "suspend" | "exclude" | "reinstate";
+        /** @description What is advised for a scene. */
+        Advice: {
+            /**
+             * Format: int32
+             * @description Configurations from which the advice was made.
+             */
+            configurations: number;
+            /** @description Where on the objects detail is needed. */
+            detail: components["schemas"]["AdviceDetail"][];
+            /** @description Relative distances at which configurations were looked for. */
+            distances: number[];
+            /** @description Time of the whole objects, asked for the distance, over that of the advice. */
+            faster: components["schemas"]["Measured"];
+            /** @description The same, the whole objects being asked the same question: a yes or no, or a distance only within the tolerance. */
+            faster_than_same_question: components["schemas"]["Measured"];
+            /**
+             * Format: double
+             * @description The same for any configuration whatever, if the whole objects were never asked.
+             */
+            guaranteed_anywhere?: number | null;
+            /**
+             * Format: double
+             * @description Half the widest interval on the configurations, for a distance: no answer was or could have been further off.
+             */
+            guaranteed_error?: number | null;
+            /** @description What advice says of configurations it was not made from. */
+            held_out: components["schemas"]["HeldOut"];
+            /** @description The levels of A, finest first; the first is the object. */
+            levels_a: components["schemas"]["LevelFacts"][];
+            /** @description The levels of B. */
+            levels_b: components["schemas"]["LevelFacts"][];
+            /**
+             * Format: double
+             * @description L, the longest side of A's bounding box.
+             */
+            longest_side: number;
+            /** @description Ways to answer, measured on the same configurations. */
+            points: components["schemas"]["AdvicePoint"][];
+            /** @description What was asked. */
+            question: components["schemas"]["AdviceQuestion"];
+            /**
+             * Format: double
+             * @description What the work took, seconds.
+             */
+            seconds: number;
+            /** @description Levels to ask one after the other before the whole objects; none when those are the fastest. */
+            stages: number[][];
+            /**
+             * Format: int32
+             * @description Triangles of the first stage.
+             */
+            triangles_after: number;
+            /**
+             * Format: int32
+             * @description Triangles of both objects.
+             */
+            triangles_before: number;
+        };
+        /** @description One object's vertices. */
+        AdviceDetail: {
+            /** @description Configurations at the vertex. */
+            counts: number[];
+            /**
+             * @description Triangles of the coarsest level of the object that was enough for every configuration whose witness point is at
+             *     the vertex; absent where there is none.
+             */
+            triangles: (number | null)[];
+        };
+        /** @description A request for advice and what became of it. */
+        AdviceInfo: {
+            advice?: components["schemas"]["Advice"] | null;
+            /**
+             * Format: int64
+             * @description Steps done of `total`.
+             */
+            done: number;
+            /** @description Id; whoever knows it may look. */
+            id: string;
+            /** @description Why it failed. */
+            message?: string | null;
+            /** @description Names of the objects. */
+            names: string[];
+            /** @description What was asked. */
+            spec: components["schemas"]["AdviceSpec"];
+            /** @description How far it is. */
+            state: components["schemas"]["State"];
+            /** @description What is being done. */
+            step: string;
+            /**
+             * Format: int64
+             * @description All steps.
+             */
+            total: number;
+        };
+        /**
+         * @description What kind of model a way asks.
+         * @enum {string}
+         */
+        AdviceKind: "whole" | "same_question" | "yes_no" | "levels" | "advised" | "hulls" | "boxes";
+        /** @description A way to answer. */
+        AdvicePoint: {
+            /** @description Is it the advice? */
+            advised: boolean;
+            /** @description Can it not be wrong by more than it says? */
+            certified: boolean;
+            falls_back?: components["schemas"]["Share"] | null;
+            false_alarms?: components["schemas"]["Share"] | null;
+            /** @description How many times faster than the whole objects asked for their distance. */
+            faster: components["schemas"]["Measured"];
+            /**
+             * Format: double
+             * @description No answer was or could have been further off (half the widest interval); absent where nothing is certified.
+             */
+            guaranteed_error?: number | null;
+            /** @description What is asked. */
+            kind: components["schemas"]["AdviceKind"];
+            /** @description Time of a query, microseconds. */
+            micros: components["schemas"]["Measured"];
+            missed?: components["schemas"]["Share"] | null;
+            /**
+             * Format: double
+             * @description The largest error seen.
+             */
+            observed_error?: number | null;
+            /** @description Numbers of the levels, coarsest stage first; none for what is no level. */
+            stages: number[][];
+            /**
+             * Format: int32
+             * @description Triangles of the first model asked, of both objects together.
+             */
+            triangles: number;
+        };
+        /** @description What is asked of every configuration; lengths are the objects' own. */
+        AdviceQuestion: {
+            /** @enum {string} */
+            kind: "distance";
+            /**
+             * Format: double
+             * @description Largest error of an answer; more than 0.
+             */
+            tolerance: number;
+        } | {
+            /**
+             * Format: double
+             * @description The distance; 0 asks whether the surfaces meet.
+             */
+            clearance: number;
+            /** @enum {string} */
+            kind: "clearance";
+        };
+        /** @description A request for advice. */
+        AdviceSpec: {
+            /** @description Object A. */
+            object_a: string;
+            /** @description Object B; absent: the same as A. */
+            object_b?: string | null;
+            /** @description What is asked of every configuration. */
+            question: components["schemas"]["Asked"];
+        };
         /** @description How many of some answers agree with exact arithmetic. */
         Agreement: {
             /**
@@ -960,6 +1204,24 @@ export interface components {
              * @description Seconds.
              */
             seconds: number;
+        };
+        /** @description What is asked; lengths are shares of L, the longest side of A's bounding box. */
+        Asked: {
+            /** @enum {string} */
+            kind: "distance";
+            /**
+             * Format: double
+             * @description Largest error of an answer; more than 0, at most 1.
+             */
+            tolerance: number;
+        } | {
+            /**
+             * Format: double
+             * @description The distance; 0 asks whether the surfaces meet.
+             */
+            clearance: number;
+            /** @enum {string} */
+            kind: "clearance";
         };
         /** @description One thing that somebody did. */
         AuditEntry: {
@@ -1103,6 +1365,8 @@ export interface components {
              * @description Version of the oracle that judged it.
              */
             oracle?: number | null;
+            /** @description SHA-256 of the plugin file. */
+            plugin_sha256: string;
             /**
              * Format: int32
              * @description Place by speed, from 1; overlapping intervals share one. Absent for what failed or answered wrongly.
@@ -1118,6 +1382,7 @@ export interface components {
              * @description Scenes and distances it was measured on.
              */
             scenarios: number;
+            stability?: components["schemas"]["StabilityPassed"] | null;
             /** @description Shares its place. */
             tied: boolean;
             /**
@@ -1531,9 +1796,41 @@ export interface components {
             /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
             where?: string | null;
         };
+        /** @description Fresh configurations, compared with the oracle. */
+        HeldOut: {
+            /** @description Configurations for which the whole objects had to be asked. */
+            falls_back: components["schemas"]["Share"];
+            /**
+             * Format: double
+             * @description The largest difference to the oracle's distance, where a distance was asked.
+             */
+            observed_error?: number | null;
+            /** @description Intervals or answers of the levels themselves that contradict the oracle. */
+            violations: components["schemas"]["Share"];
+            /** @description Wrong answers of the advice as a whole. */
+            wrong: components["schemas"]["Share"];
+        };
         /** @description Who asks: a guest has no account. */
         Identity: {
             account?: components["schemas"]["AccountInfo"] | null;
+        };
+        /** @description One level of one object. */
+        LevelFacts: {
+            /**
+             * Format: double
+             * @description The largest deviation.
+             */
+            deviation: number;
+            /**
+             * Format: double
+             * @description The largest thickness; 0 of the object.
+             */
+            thickness: number;
+            /**
+             * Format: int32
+             * @description Its triangles.
+             */
+            triangles: number;
         };
         /** @description What a developer says of a plugin. */
         Manifest: {
@@ -1559,6 +1856,24 @@ export interface components {
          * @enum {string}
          */
         Measure: "time" | "bv_tests" | "primitive_tests" | "density" | "wrong" | "missed" | "false_alarms" | "distance_error" | "flips" | "disagreement";
+        /** @description A number with its 95 % interval. */
+        Measured: {
+            /**
+             * Format: double
+             * @description Upper end.
+             */
+            hi: number;
+            /**
+             * Format: double
+             * @description Lower end.
+             */
+            lo: number;
+            /**
+             * Format: double
+             * @description The number.
+             */
+            value: number;
+        };
         /** @description All pairs of triangles that meet in one configuration. */
         Meeting: {
             /**
@@ -2292,6 +2607,29 @@ export interface components {
              */
             spacing?: number | null;
         };
+        /** @description A share of some cases with its 95 % interval. */
+        Share: {
+            /**
+             * Format: double
+             * @description Upper end; where none was seen, three divided by the number of cases.
+             */
+            hi: number;
+            /**
+             * Format: double
+             * @description Lower end of the interval (Wilson 1927).
+             */
+            lo: number;
+            /**
+             * Format: int32
+             * @description Of how many.
+             */
+            of: number;
+            /**
+             * Format: int32
+             * @description How many were seen.
+             */
+            seen: number;
+        };
         /**
          * @description Which object of the scene.
          * @enum {string}
@@ -2340,6 +2678,19 @@ export interface components {
             unit_safe?: number[] | null;
             /** @description Its version. */
             version: string;
+        };
+        /** @description Stress families that a method got through. */
+        StabilityPassed: {
+            /**
+             * Format: int32
+             * @description Of those that it answers.
+             */
+            of: number;
+            /**
+             * Format: int32
+             * @description Families without a wrong answer, a crash or a hang.
+             */
+            passed: number;
         };
         /** @description Everything known, and what it means. */
         StabilityTable: {
@@ -3222,6 +3573,212 @@ export interface operations {
             };
             /** @description No role */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    ask_advice: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AdviceSpec"];
+            };
+        };
+        responses: {
+            /** @description Queued; `Location` names it */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AdviceInfo"];
+                };
+            };
+            /** @description No JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such object */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many wait already */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The question cannot be asked */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_advice: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Advice id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AdviceInfo"];
+                };
+            };
+            /** @description No such advice */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    cancel_advice: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Advice id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description As it is now */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AdviceInfo"];
+                };
+            };
+            /** @description Somebody else's */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such advice */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    reduced_certificate: {
+        parameters: {
+            query: {
+                /** @description Of which object. */
+                side: components["schemas"]["Side"];
+                /** @description Which of its reduced objects, from 0: the coarsest first. */
+                stage?: number;
+            };
+            header?: never;
+            path: {
+                /** @description Advice id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Content hashes, thickness and deviation of every triangle */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": string;
+                };
+            };
+            /** @description No such advice, or it reduces nothing there */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    reduced_obj: {
+        parameters: {
+            query: {
+                /** @description Of which object. */
+                side: components["schemas"]["Side"];
+                /** @description Which of its reduced objects, from 0: the coarsest first. */
+                stage?: number;
+            };
+            header?: never;
+            path: {
+                /** @description Advice id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The mesh */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "model/obj": string;
+                };
+            };
+            /** @description No such advice, or it reduces nothing there */
+            404: {
                 headers: {
                     [name: string]: unknown;
                 };
