@@ -15,7 +15,7 @@ pub struct Service {
     pub url: String,
     pub engine: Engine,
     stop: oneshot::Sender<()>,
-    served: JoinHandle<std::io::Result<()>>,
+    served: JoinHandle<()>,
     _data: TempDir,
 }
 
@@ -55,7 +55,7 @@ impl Service {
     /// Ends the service and waits for it.
     pub async fn stop(self) {
         self.stop.send(()).expect("the service runs");
-        self.served.await.expect("no panic").expect("no fault");
+        self.served.await.expect("no panic");
         self.engine.shutdown().await;
     }
 }
