@@ -2,7 +2,9 @@
 # soak.sh MINUTES: first at full size what the tests do in slices: a million files for the jail's gate, ten million messages
 # for the supervisor, a thousand trials, a hundred rounds of honest plugins (OCB_FUZZ, OCB_TRIALS, OCB_HONEST), ten million
 # pairs of triangles for the oracle's filters (OCB_PAIRS), a hundred thousand configurations that no certified level of detail
-# may contradict (OCB_HELD_OUT). Then the restart tests (the service is killed at every stage of a run) over and over. The
+# may contradict (OCB_HELD_OUT); the power goes two hundred times (OCB_POWER_CUTS), two hundred visitors come for a minute and
+# must not change what is measured meanwhile (OCB_LOAD_SECONDS), every route is asked a hundred times and more
+# (OCB_API_EXAMPLES). Then the restart tests (the service is killed at every stage of a run) over and over. The
 # first failure ends it; the last line says how often they passed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -12,6 +14,9 @@ export OCB_PAIRS=${OCB_PAIRS:-10000000}
 cargo test --release --workspace --test fuzz --test leftovers --test honest_plugins -- --nocapture
 cargo test --release --workspace --lib troublesome_pairs -- --nocapture
 cargo build --release --workspace
+tests/setup/tools.sh test
+OCB_POWER_CUTS=${OCB_POWER_CUTS:-200} OCB_LOAD_SECONDS=${OCB_LOAD_SECONDS:-60} OCB_API_EXAMPLES=${OCB_API_EXAMPLES:-100} \
+  cargo test --release --workspace --test whole -- --nocapture
 meshes=${OCB_SHARED:-../shared}/meshes
 target/release/ocb --data "$(mktemp -d)" advise "$meshes/bunny65k.obj" "$meshes/rocker-arm.obj" --held-out "${OCB_HELD_OUT:-100000}"
 rounds=0

@@ -94,3 +94,10 @@ if [ "$purpose" = test ] && [ ! -x .tools/s3/bin/moto_server ]; then
   python3 -m venv .tools/s3
   .tools/s3/bin/pip install --quiet --disable-pip-version-check -r tests/setup/requirements.txt
 fi
+
+if [ "$purpose" = test ] && [ ! -x .tools/schemathesis/bin/st ]; then
+  say "installing the API tester (schemathesis) from PyPI into .tools/schemathesis"
+  rm -rf .tools/schemathesis
+  python3 -m venv .tools/schemathesis
+  .tools/schemathesis/bin/pip install --quiet --disable-pip-version-check -r tests/setup/schemathesis.txt
+fi

@@ -18,12 +18,20 @@ pub struct Service {
 }
 
 impl Service {
-    /// Starts on a free port of the loopback interface and waits until it answers.
+    /// Starts on a free port of the loopback interface, with every plugin that is built, and waits until it answers.
     pub fn start(data: &Path) -> Self {
+        Self::start_with(data, &[])
+    }
+
+    /// The same with these plugins alone, or with every one when none is named.
+    pub fn start_with(data: &Path, plugins: &[&str]) -> Self {
         let port = TcpListener::bind("127.0.0.1:0").and_then(|l| l.local_addr()).expect("a free port").port();
         let address = format!("127.0.0.1:{port}");
         let mut serve = command(built("ocb"));
         serve.arg("serve").arg("--data").arg(data).args(["--listen", &address]);
+        for plugin in plugins {
+            serve.arg("--plugins").arg(built(plugin));
+        }
         let child = serve.stdout(Stdio::null()).spawn().expect("the service starts");
         let mut service = Self { child, url: format!("http://{address}/api/v1") };
         let client = Client::new();
@@ -36,6 +44,16 @@ impl Service {
             std::thread::sleep(Duration::from_millis(20));
         }
         service
+    }
+
+    /// Where its API begins.
+    pub fn url(&self) -> &str {
+        &self.url
+    }
+
+    /// Where its pages begin.
+    pub fn pages(&self) -> &str {
+        self.url.trim_end_matches("/api/v1")
     }
 
     /// Process id of the service.
@@ -58,6 +76,16 @@ impl Drop for Service {
     }
 }
 
+/// The password of every account that tests make.
+pub const PASSWORD: &str = "a long enough password";
+
+/// Makes an account of this role and name on a data folder that no service has open.
+pub fn add_account(data: &Path, role: &str) {
+    let mut admin = command(built("ocb"));
+    admin.args(["admin", "create", role, "--role", role, "--data"]).arg(data).env("OCB_PASSWORD", PASSWORD);
+    crate::process::output(&mut admin);
+}
+
 /// A visitor with a cookie of their own, who may talk to the service again after it was restarted on another port.
 pub struct Guest {
     client: Client,
@@ -71,6 +99,34 @@ impl Default for Guest {
 }
 
 impl Guest {
+    /// A visitor who has entered the account of this name.
+    pub fn member(service: &Service, name: &str) -> Self {
+        let guest = Self::default();
+        let body = serde_json::json!({ "name": name, "password": PASSWORD });
+        let (status, told) = guest.post(service, "/account/login", &body);
+        assert_eq!(status, 200, "{name} cannot log in: {told}");
+        guest
+    }
+
+    /// Status and JSON of an upload of a plugin; `None` when the connection was cut.
+    pub fn send_plugin(&self, service: &Service, manifest: &Value, bytes: Vec<u8>) -> Option<(u16, Value)> {
+        let file = reqwest::blocking::multipart::Part::bytes(bytes).file_name("plugin.so");
+        let form = reqwest::blocking::multipart::Form::new().text("manifest", manifest.to_string()).part("file", file);
+        whole(self.client.post(format!("{}/plugins", service.url)).multipart(form))
+    }
+
+    /// Status and JSON of an upload of an object; `None` when the connection was cut.
+    pub fn send_object(&self, service: &Service, name: &str, bytes: Vec<u8>) -> Option<(u16, Value)> {
+        let part = reqwest::blocking::multipart::Part::bytes(bytes).file_name(name.to_owned());
+        let form = reqwest::blocking::multipart::Form::new().part("file", part);
+        whole(self.client.post(format!("{}/objects", service.url)).multipart(form))
+    }
+
+    /// Status and JSON of a POST of JSON; `None` when the connection was cut.
+    pub fn send(&self, service: &Service, path: &str, body: &Value) -> Option<(u16, Value)> {
+        whole(self.client.post(format!("{}{path}", service.url)).json(body))
+    }
+
     /// The answer to a GET below `/api/v1`.
     pub fn look(&self, service: &Service, path: &str) -> Response {
         self.client.get(format!("{}{path}", service.url)).send().unwrap_or_else(|e| panic!("GET {path}: {e}"))
@@ -87,16 +143,12 @@ impl Guest {
 
     /// Status and JSON of a POST of JSON.
     pub fn post(&self, service: &Service, path: &str, body: &Value) -> (u16, Value) {
-        let request = self.client.post(format!("{}{path}", service.url)).json(body);
-        answer(path, request.send().unwrap_or_else(|e| panic!("POST {path}: {e}")))
+        self.send(service, path, body).unwrap_or_else(|| panic!("POST {path}: no answer"))
     }
 
     /// Status and JSON of an upload.
     pub fn upload(&self, service: &Service, name: &str, bytes: Vec<u8>) -> (u16, Value) {
-        let part = reqwest::blocking::multipart::Part::bytes(bytes).file_name(name.to_owned());
-        let form = reqwest::blocking::multipart::Form::new().part("file", part);
-        let request = self.client.post(format!("{}/objects", service.url)).multipart(form);
-        answer("/objects", request.send().unwrap_or_else(|e| panic!("upload of {name}: {e}")))
+        self.send_object(service, name, bytes).unwrap_or_else(|| panic!("upload of {name}: no answer"))
     }
 
     /// Asks for a run that must be accepted; gives its id.
@@ -133,10 +185,13 @@ impl Guest {
     }
 }
 
-fn answer(path: &str, response: Response) -> (u16, Value) {
+/// The whole answer, or nothing: half of one tells nothing. An answer without a body is null.
+fn whole(request: reqwest::blocking::RequestBuilder) -> Option<(u16, Value)> {
+    let response = request.send().ok()?;
     let status = response.status().as_u16();
-    let text = response.text().expect("a body");
-    (status, serde_json::from_str(&text).unwrap_or_else(|e| panic!("{path}: {status}: {e}: {text}")))
+    let text = response.text().ok()?;
+    let body = if text.is_empty() { Value::Null } else { serde_json::from_str(&text).ok()? };
+    Some((status, body))
 }
 
 /// Process ids of everything that `pid` started and that still runs, and what that started.

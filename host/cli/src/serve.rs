@@ -33,9 +33,8 @@ pub async fn serve(store: &Store, args: &ServeArgs, json: bool) -> Result<ExitCo
     } else {
         eprintln!("OpenCollBench serves on {url}; stop it with Ctrl-C.");
     }
-    let served = ocb_server::serve(engine.clone(), listener, stop).await;
+    ocb_server::serve(engine.clone(), listener, stop).await;
     engine.shutdown().await;
-    served.map_err(|e| Failure::Fault(format!("the service ended: {e}.")))?;
     Ok(ExitCode::SUCCESS)
 }
 

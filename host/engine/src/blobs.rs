@@ -23,7 +23,10 @@ impl Blobs {
     pub fn open(data: &Path, url: Option<&str>) -> Result<Self> {
         let store: Arc<dyn ObjectStore> = match url {
             None => Arc::new(
-                LocalFileSystem::new_with_prefix(data).map_err(|e| fault("Opening the blob folder failed", e))?,
+                // On the disk before the database speaks of it, also when the power goes.
+                LocalFileSystem::new_with_prefix(data)
+                    .map_err(|e| fault("Opening the blob folder failed", e))?
+                    .with_fsync(true),
             ),
             Some(url) => s3(url)?,
         };

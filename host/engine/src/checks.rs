@@ -11,7 +11,7 @@ use crate::machine::MeasuringRight;
 use crate::measure::Stop;
 use crate::model::{CheckLine, CheckVerdict, PluginReport, PluginState};
 use crate::registry::{Extent, brought, check_plugin};
-use crate::store::SubmissionRow;
+use crate::store::{Note, SubmissionRow, THE_SERVICE};
 use crate::{EngineError, Result};
 
 /// A check that was begun this often is not begun again: it may be what ends the service.
@@ -66,7 +66,7 @@ fn check(
             inner.store.add_line(&row.id, seq, line).await?;
             // The file may be loaded: what follows is about its answers.
             if line.check == "load and describe" && line.verdict == CheckVerdict::Pass {
-                inner.store.move_submission(&row.id, PluginState::Uploaded, PluginState::Vetted, "").await?;
+                inner.store.move_submission(&row.id, PluginState::Uploaded, PluginState::Vetted, "", None).await?;
             }
             Ok(())
         });
@@ -97,9 +97,8 @@ async fn settle(inner: &Inner, row: &SubmissionRow, report: PluginReport) -> Res
         None => (PluginState::Validated, "validated", format!("Passed on hardware class {class}.")),
     };
     for from in [PluginState::Uploaded, PluginState::Vetted] {
-        if store.move_submission(&row.id, from, state, &reason).await? {
-            store.note("the service", word, &row.id, &reason).await?;
-        }
+        let note = Note { actor: THE_SERVICE, action: word, subject: &row.id, detail: &reason };
+        store.move_submission(&row.id, from, state, &reason, Some(note)).await?;
     }
     inner.renew_plugins().await
 }

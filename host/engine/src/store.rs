@@ -30,9 +30,10 @@ use sqlx::{AnyPool, Executor, SqlSafeStr};
 use crate::{EngineError, Result};
 
 pub use advice::{AdviceRow, StoredPaper};
+pub use audit::Note;
 pub use results::StoredResult;
 pub use runs::RunRow;
-pub use submissions::SubmissionRow;
+pub use submissions::{SubmissionRow, THE_SERVICE};
 
 /// All tables of one data folder.
 #[derive(Clone)]

@@ -12,7 +12,7 @@ use tower_http::compression::CompressionLayer;
 use tower_http::compression::predicate::{DefaultPredicate, NotForContentType, Predicate};
 use tower_http::trace::TraceLayer;
 
-use crate::{App, Problem, guest, origin, privacy};
+use crate::{App, Problem, guest, origin, pace, privacy};
 
 /// Scripts only from here and never inline. Style attributes are what Vue and the chart kit write; `blob:` is how the
 /// viewer loads workers, textures and pictures that the page itself has made.
@@ -40,6 +40,7 @@ pub(crate) fn wrap(router: Router<App>, app: &App) -> Router<App> {
         .layer(middleware::from_fn_with_state(app.clone(), privacy::hide_private_runs))
         .layer(middleware::from_fn_with_state(app.clone(), guest::recognise))
         .layer(middleware::from_fn(origin::refuse_other_sites))
+        .layer(middleware::from_fn(pace::refuse_slow_bodies))
         .layer(CatchPanicLayer::custom(after_panic))
         .layer(middleware::from_fn(protect))
         .layer(CompressionLayer::new().compress_when(worth_it))

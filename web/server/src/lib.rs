@@ -3,26 +3,29 @@
 //! Everything that is known comes from one [`Engine`]; its values ([`ocb_engine::model`]) are the JSON of this API. The
 //! server sends numbers, never colours (except in the downloads that are pictures of a heatmap).
 
+mod connections;
+mod document;
 mod events;
 mod extract;
 mod guest;
 mod layers;
 mod limits;
 mod origin;
+mod pace;
 mod pages;
 mod privacy;
 mod problem;
 mod routes;
 mod upload;
 
-use std::future::{Future, IntoFuture};
+use std::future::Future;
 use std::io;
 use std::net::SocketAddr;
 use std::time::Duration;
 
 use ocb_engine::Engine;
 use tokio::net::TcpListener;
-use tokio::sync::{Semaphore, watch};
+use tokio::sync::watch;
 
 pub use problem::Problem;
 pub use routes::{document, router};
@@ -30,14 +33,13 @@ pub use routes::{document, router};
 /// How long open requests may take to end after the service was asked to stop.
 const GRACE: Duration = Duration::from_secs(10);
 
-/// Large uploads that are held in memory at a time; others wait.
-const UPLOADS_AT_A_TIME: usize = 2;
-
 /// What every handler may use.
 #[derive(Clone)]
 pub struct App {
     engine: Engine,
-    uploads: std::sync::Arc<Semaphore>,
+    uploads: std::sync::Arc<upload::Turns>,
+    /// Held while a plugin is taken: what room its account has is looked at first, and must be there still when it is added.
+    submitting: std::sync::Arc<tokio::sync::Mutex<()>>,
     limits: std::sync::Arc<limits::Limits>,
     /// True from the moment the service is asked to stop: progress streams end, so that their connections can.
     stopping: watch::Receiver<bool>,
@@ -46,8 +48,13 @@ pub struct App {
 impl App {
     /// The engine behind HTTP; `stopping` ends the progress streams.
     pub fn new(engine: Engine, stopping: watch::Receiver<bool>) -> Self {
-        let uploads = std::sync::Arc::new(Semaphore::new(UPLOADS_AT_A_TIME));
-        Self { engine, uploads, limits: std::sync::Arc::default(), stopping }
+        Self {
+            engine,
+            uploads: std::sync::Arc::default(),
+            submitting: std::sync::Arc::default(),
+            limits: std::sync::Arc::default(),
+            stopping,
+        }
     }
 }
 
@@ -60,28 +67,17 @@ pub async fn bind(address: SocketAddr) -> io::Result<TcpListener> {
 }
 
 /// Serves until `shutdown` is ready, then ends open requests; the engine stays open.
-///
-/// # Errors
-/// When the listener fails.
-pub async fn serve(
-    engine: Engine,
-    listener: TcpListener,
-    shutdown: impl Future<Output = ()> + Send + 'static,
-) -> io::Result<()> {
+pub async fn serve(engine: Engine, listener: TcpListener, shutdown: impl Future<Output = ()> + Send + 'static) {
     let (stop, stopping) = watch::channel(false);
     let app = router(App::new(engine, stopping.clone()));
-    let graceful = axum::serve(listener, app.into_make_service_with_connect_info::<SocketAddr>())
-        .with_graceful_shutdown(async move {
-            shutdown.await;
-            let _ = stop.send(true);
-        });
-    let mut stopped = stopping;
+    let serving = connections::serve(listener, app, stopping);
+    let ended = async {
+        shutdown.await;
+        let _ = stop.send(true);
+        tokio::time::sleep(GRACE).await;
+    };
     tokio::select! {
-        ended = graceful.into_future() => ended,
-        () = async {
-            // An error means that the sender is gone, which happens only behind the signal.
-            let _ = stopped.wait_for(|stop| *stop).await;
-            tokio::time::sleep(GRACE).await;
-        } => Ok(()),
+        () = serving => {}
+        () = ended => {}
     }
 }

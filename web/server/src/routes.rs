@@ -111,7 +111,7 @@ fn api() -> OpenApiRouter<App> {
 
 /// The OpenAPI document of this server.
 pub fn document() -> utoipa::openapi::OpenApi {
-    api().into_openapi()
+    crate::document::completed(api().into_openapi())
 }
 
 /// The whole service: API, progress stream and pages.

@@ -12,7 +12,7 @@ use axum::response::{IntoResponse, Response};
 use futures::StreamExt;
 use ocb_engine::MAX_PLUGIN_BYTES;
 use ocb_engine::model::Manifest;
-use tokio::sync::Mutex;
+use tokio::sync::{Mutex, Semaphore, SemaphorePermit};
 
 use crate::problem::{Problem, Result};
 
@@ -25,9 +25,36 @@ pub(crate) const MAX_BODY_BYTES: u64 = MAX_BYTES as u64 + (1 << 20);
 /// The most that a manifest may have.
 const MANIFEST_BYTES: usize = 64 << 10;
 
+/// What counts as a small upload, and how many small and large ones are held in memory at a time; others wait. A large one may
+/// take long to come, and must not keep the small ones waiting.
+const SMALL_BYTES: u64 = 8 << 20;
+const SMALL_AT_A_TIME: usize = 16;
+const LARGE_AT_A_TIME: usize = 2;
+
 /// How much and for how long a refused body is read on.
 const DRAIN_BYTES: u64 = 4 << 30;
 const DRAIN_TIME: Duration = Duration::from_secs(60);
+
+/// Uploads take turns: that bounds the memory of many at once.
+pub(crate) struct Turns {
+    small: Semaphore,
+    large: Semaphore,
+}
+
+impl Default for Turns {
+    fn default() -> Self {
+        Self { small: Semaphore::new(SMALL_AT_A_TIME), large: Semaphore::new(LARGE_AT_A_TIME) }
+    }
+}
+
+impl Turns {
+    /// Waits for its turn, which is held until the file is stored.
+    pub(crate) async fn take(&self, headers: &HeaderMap) -> Result<SemaphorePermit<'_>> {
+        let small = content_length(headers).is_some_and(|length| length <= SMALL_BYTES);
+        let pool = if small { &self.small } else { &self.large };
+        pool.acquire().await.map_err(Problem::fault)
+    }
+}
 
 /// An uploaded file.
 pub(crate) struct Upload {

@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::Engine;
 use crate::blobs::sha256_hex;
 use crate::model::{AccountInfo, AuditEntry, NewToken, Role, Scope, TokenInfo, TokenRequest};
-use crate::store::now_us;
+use crate::store::{Note, now_us};
 use crate::{EngineError, Result, draw, passwords};
 
 /// How long a browser stays logged in, and how long a token lives.
@@ -172,9 +172,9 @@ impl Engine {
                 "Only an administrator decides about curators and administrators.".into(),
             ));
         }
-        store.set_role(id, role).await?;
-        let change = format!("{} to {}", of.role.name(), role.name());
-        store.note(&by.name, "role changed", &of.owner(), &change).await?;
+        let (subject, change) = (of.owner(), format!("{} to {}", of.role.name(), role.name()));
+        let note = Note { actor: &by.name, action: "role changed", subject: &subject, detail: &change };
+        store.set_role(id, role, note).await?;
         store.account(id).await?.ok_or_else(missing)
     }
 

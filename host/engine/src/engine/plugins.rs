@@ -5,7 +5,7 @@ use super::people::said;
 use crate::blobs::sha256_hex;
 use crate::model::{AccountInfo, Action, CheckLine, CheckVerdict, Decision, Manifest, PluginInfo, PluginState, Role};
 use crate::registry::{brought, check_manifest, is_free};
-use crate::store::{SubmissionRow, now_us};
+use crate::store::{Note, SubmissionRow, now_us};
 use crate::{EngineError, Result};
 
 /// Largest plugin file that may be sent, and bytes of all that one account keeps.
@@ -68,11 +68,11 @@ impl Engine {
             changed_us: now,
         };
         // Two uploads of the same bytes at once: the first stands.
-        let new = store.add_submission(&row).await?;
+        let note = Note { actor: &account.name, action: "submitted", subject: &row.id, detail: &row.manifest.version };
+        let new = store.add_submission(&row, note).await?;
         let missing = || EngineError::Fault("A plugin was lost while it was stored.".into());
         let kept = store.submission_of(&account.id, &row.blob).await?.ok_or_else(missing)?;
         if new {
-            store.note(&account.name, "submitted", &kept.id, &kept.manifest.version).await?;
             self.inner.wake.notify_one();
         }
         Ok((self.plugin(&kept.id, Some(account)).await?, new))
@@ -208,10 +208,10 @@ impl Engine {
             self.is_free_to_publish(&row).await?;
         }
         let store = &self.inner.store;
-        if !store.move_submission(id, row.state, step.to, &reason).await? {
+        let note = Note { actor: &by.name, action: step.word, subject: id, detail: &reason };
+        if !store.move_submission(id, row.state, step.to, &reason, Some(note)).await? {
             return Err(EngineError::Busy("Somebody else has just decided about this plugin; look again.".into()));
         }
-        store.note(&by.name, step.word, id, &reason).await?;
         self.inner.renew_plugins().await?;
         self.plugin(id, Some(by)).await
     }

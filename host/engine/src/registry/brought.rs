@@ -1,5 +1,6 @@
 //! Plugins that developers brought, as far as somebody may benchmark them.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -60,9 +61,15 @@ pub async fn plugin_file(blobs: &Blobs, data: &Path, sha256: &str) -> Result<Pat
         let bytes = blobs.get(sha256).await?;
         let fault = |e: std::io::Error| EngineError::fault("Writing a plugin file failed", e);
         std::fs::create_dir_all(&folder).map_err(fault)?;
-        // Whole under its name or not at all.
+        // Whole under its name or not at all, also after a power cut: on the disk before it gets the name.
         let draft = folder.join(format!("{sha256}.{}", uuid::Uuid::new_v4().simple()));
-        std::fs::write(&draft, bytes).and_then(|()| std::fs::rename(&draft, &file)).map_err(fault)?;
+        let write = || {
+            let mut opened = std::fs::File::create(&draft)?;
+            opened.write_all(&bytes)?;
+            opened.sync_all()?;
+            std::fs::rename(&draft, &file)
+        };
+        write().map_err(fault)?;
     }
     Ok(file)
 }

@@ -1,6 +1,7 @@
 //! Accounts and the keys that open them: sessions of browsers, tokens of programs.
 
-use super::{Store, from_json, now_us, to_json};
+use super::audit::append;
+use super::{Note, Store, from_json, now_us, to_json};
 use crate::model::{AccountInfo, Role, Scope, TokenInfo};
 use crate::{EngineError, Result};
 
@@ -67,14 +68,20 @@ impl Store {
         Ok(())
     }
 
-    /// Gives the account a role and settles its wish; false when there is no such account.
-    pub async fn set_role(&self, id: &str, role: Role) -> Result<bool> {
+    /// Gives the account a role, settles its wish, and notes it; false when there is no such account.
+    pub async fn set_role(&self, id: &str, role: Role, note: Note<'_>) -> Result<bool> {
+        let mut transaction = self.pool.begin().await?;
         let done = sqlx::query("UPDATE accounts SET role = $1, wish = NULL WHERE id = $2")
             .bind(role.name())
             .bind(id)
-            .execute(&self.pool)
+            .execute(&mut *transaction)
             .await?;
-        Ok(done.rows_affected() == 1)
+        let there = done.rows_affected() == 1;
+        if there {
+            append(&mut transaction, note).await?;
+        }
+        transaction.commit().await?;
+        Ok(there)
     }
 
     /// Notes why the account's owner wants to be a developer.

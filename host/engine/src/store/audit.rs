@@ -1,5 +1,7 @@
 //! The audit log: rows are added and read, never changed.
 
+use sqlx::AnyConnection;
+
 use super::{Store, now_us};
 use crate::Result;
 use crate::blobs::sha256_hex;
@@ -7,40 +9,60 @@ use crate::model::AuditEntry;
 
 type AuditRow = (i64, i64, String, String, String, String, String);
 
+/// An entry to come. With what it tells of in one transaction, a crash leaves both or neither.
+#[derive(Clone, Copy, Debug)]
+pub struct Note<'a> {
+    /// Who did it.
+    pub actor: &'a str,
+    /// What.
+    pub action: &'a str,
+    /// To what.
+    pub subject: &'a str,
+    /// Why.
+    pub detail: &'a str,
+}
+
+/// Adds an entry at the end. In a transaction it comes last: whatever was changed before it holds the lock on writing that
+/// SQLite would not give to a transaction that has read.
+pub(super) async fn append(connection: &mut AnyConnection, note: Note<'_>) -> Result<()> {
+    // Two writers at once want the same number; one of them finds it taken and looks again.
+    loop {
+        let last: Option<(i64, String)> = sqlx::query_as("SELECT seq, chain FROM audit ORDER BY seq DESC LIMIT 1")
+            .fetch_optional(&mut *connection)
+            .await?;
+        let (seq, before) = last.map_or_else(|| (1, String::new()), |(seq, chain)| (seq + 1, chain));
+        let entry = AuditEntry {
+            seq,
+            at_us: now_us(),
+            actor: note.actor.into(),
+            action: note.action.into(),
+            subject: note.subject.into(),
+            detail: note.detail.into(),
+        };
+        let added = sqlx::query(
+            "INSERT INTO audit (seq, at_us, actor, action, subject, detail, chain) \
+             VALUES ($1, $2, $3, $4, $5, $6, $7) ON CONFLICT (seq) DO NOTHING",
+        )
+        .bind(seq)
+        .bind(entry.at_us)
+        .bind(note.actor)
+        .bind(note.action)
+        .bind(note.subject)
+        .bind(note.detail)
+        .bind(chained(&before, &entry))
+        .execute(&mut *connection)
+        .await?;
+        if added.rows_affected() == 1 {
+            return Ok(());
+        }
+    }
+}
+
 impl Store {
     /// Adds an entry at the end.
     pub async fn note(&self, actor: &str, action: &str, subject: &str, detail: &str) -> Result<()> {
-        // Two writers at once want the same number; one of them finds it taken and looks again.
-        loop {
-            let last: Option<(i64, String)> = sqlx::query_as("SELECT seq, chain FROM audit ORDER BY seq DESC LIMIT 1")
-                .fetch_optional(&self.pool)
-                .await?;
-            let (seq, before) = last.map_or_else(|| (1, String::new()), |(seq, chain)| (seq + 1, chain));
-            let entry = AuditEntry {
-                seq,
-                at_us: now_us(),
-                actor: actor.into(),
-                action: action.into(),
-                subject: subject.into(),
-                detail: detail.into(),
-            };
-            let added = sqlx::query(
-                "INSERT INTO audit (seq, at_us, actor, action, subject, detail, chain) \
-                 VALUES ($1, $2, $3, $4, $5, $6, $7) ON CONFLICT (seq) DO NOTHING",
-            )
-            .bind(seq)
-            .bind(entry.at_us)
-            .bind(actor)
-            .bind(action)
-            .bind(subject)
-            .bind(detail)
-            .bind(chained(&before, &entry))
-            .execute(&self.pool)
-            .await?;
-            if added.rows_affected() == 1 {
-                return Ok(());
-            }
-        }
+        let mut connection = self.pool.acquire().await?;
+        append(&mut connection, Note { actor, action, subject, detail }).await
     }
 
     /// What was done to this subject, oldest first.

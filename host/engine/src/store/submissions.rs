@@ -3,9 +3,13 @@
 use sqlx::Row;
 use sqlx::any::AnyRow;
 
-use super::{Store, from_json, now_us, to_json};
+use super::audit::append;
+use super::{Note, Store, from_json, now_us, to_json};
 use crate::model::{AlgorithmInfo, CheckLine, Manifest, PluginState};
 use crate::{EngineError, Result};
+
+/// Who acts when nobody does.
+pub const THE_SERVICE: &str = "the service";
 
 /// One row of the table of submissions.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,8 +51,9 @@ macro_rules! select_submissions {
 }
 
 impl Store {
-    /// Adds a submission; false when the account has sent these bytes before.
-    pub async fn add_submission(&self, row: &SubmissionRow) -> Result<bool> {
+    /// Adds a submission, and notes it; false when the account has sent these bytes before.
+    pub async fn add_submission(&self, row: &SubmissionRow, note: Note<'_>) -> Result<bool> {
+        let mut transaction = self.pool.begin().await?;
         let added = sqlx::query(
             "INSERT INTO submissions (id, account, blob, file, bytes, manifest, state, reason, algorithms, attempts, \
              created_us, changed_us) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, 0, $10, $11) \
@@ -65,9 +70,14 @@ impl Store {
         .bind(to_json(&row.algorithms)?)
         .bind(row.created_us)
         .bind(row.changed_us)
-        .execute(&self.pool)
+        .execute(&mut *transaction)
         .await?;
-        Ok(added.rows_affected() == 1)
+        let new = added.rows_affected() == 1;
+        if new {
+            append(&mut transaction, note).await?;
+        }
+        transaction.commit().await?;
+        Ok(new)
     }
 
     /// One submission.
@@ -92,8 +102,16 @@ impl Store {
         rows.iter().map(read).collect()
     }
 
-    /// Moves a submission from one state to another; false when it was not in the first.
-    pub async fn move_submission(&self, id: &str, from: PluginState, to: PluginState, reason: &str) -> Result<bool> {
+    /// Moves a submission from one state to another, and notes it; false when it was not in the first.
+    pub async fn move_submission(
+        &self,
+        id: &str,
+        from: PluginState,
+        to: PluginState,
+        reason: &str,
+        note: Option<Note<'_>>,
+    ) -> Result<bool> {
+        let mut transaction = self.pool.begin().await?;
         let done =
             sqlx::query("UPDATE submissions SET state = $1, reason = $2, changed_us = $3 WHERE id = $4 AND state = $5")
                 .bind(to.name())
@@ -101,9 +119,14 @@ impl Store {
                 .bind(now_us())
                 .bind(id)
                 .bind(from.name())
-                .execute(&self.pool)
+                .execute(&mut *transaction)
                 .await?;
-        Ok(done.rows_affected() == 1)
+        let moved = done.rows_affected() == 1;
+        if let Some(note) = note.filter(|_| moved) {
+            append(&mut transaction, note).await?;
+        }
+        transaction.commit().await?;
+        Ok(moved)
     }
 
     /// Notes what a check found out beside its lines.
@@ -132,18 +155,27 @@ impl Store {
         self.submission(&id).await
     }
 
-    /// Checks that an ended process left behind wait again; those begun `most` times fail.
+    /// Checks that an ended process left behind wait again; those begun `most` times fail, which is noted.
     pub async fn recover_checks(&self, most: i64) -> Result<()> {
-        sqlx::query("UPDATE submissions SET state = 'uploaded' WHERE state = 'vetted'").execute(&self.pool).await?;
-        sqlx::query(
+        let reason = format!("The service ended {most} times in the middle of this check, so it is not tried again.");
+        let mut transaction = self.pool.begin().await?;
+        sqlx::query("UPDATE submissions SET state = 'uploaded' WHERE state = 'vetted'")
+            .execute(&mut *transaction)
+            .await?;
+        let failed: Vec<String> = sqlx::query_scalar(
             "UPDATE submissions SET state = 'failed', reason = $1, changed_us = $2 \
-             WHERE state = 'uploaded' AND attempts >= $3",
+             WHERE state = 'uploaded' AND attempts >= $3 RETURNING id",
         )
-        .bind(format!("The service ended {most} times in the middle of this check, so it is not tried again."))
+        .bind(&reason)
         .bind(now_us())
         .bind(most)
-        .execute(&self.pool)
+        .fetch_all(&mut *transaction)
         .await?;
+        for id in &failed {
+            let note = Note { actor: THE_SERVICE, action: "failed the check", subject: id, detail: &reason };
+            append(&mut transaction, note).await?;
+        }
+        transaction.commit().await?;
         Ok(())
     }
 

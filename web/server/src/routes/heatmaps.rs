@@ -77,6 +77,7 @@ pub(crate) async fn show_vertex(
         (status = 200, description = "The coloured mesh", body = [u8], content_type = "model/gltf-binary"),
         (status = 404, description = "No such run, or no such values in it", body = Problem, content_type = "application/problem+json"),
         (status = 400, description = "Unknown measure, colormap, ...", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No such values: errors of a run that asked no distances, another object, ...", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn heatmap_glb(
     State(app): State<App>,
@@ -95,6 +96,7 @@ pub(crate) async fn heatmap_glb(
         (status = 200, description = "The coloured mesh", body = [u8], content_type = "application/octet-stream"),
         (status = 404, description = "No such run, or no such values in it", body = Problem, content_type = "application/problem+json"),
         (status = 400, description = "Unknown measure, colormap, ...", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No such values: errors of a run that asked no distances, another object, ...", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn heatmap_ply(
     State(app): State<App>,

@@ -43,8 +43,7 @@ pub(crate) async fn add_object(
     Guest(guest): Guest,
     request: Request,
 ) -> Result<(StatusCode, Json<ObjectInfo>)> {
-    // The permit is held until the file is a stored mesh: it is what bounds the memory of parallel uploads.
-    let _permit = app.uploads.acquire().await.map_err(Problem::fault)?;
+    let _turn = app.uploads.take(request.headers()).await?;
     let Upload { name, bytes } = Upload::from_request(request, &app).await?;
     let object = app.engine.add_object(&name, bytes, Some(&guest)).await?;
     Ok((StatusCode::CREATED, Json(object)))

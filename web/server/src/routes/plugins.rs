@@ -72,8 +72,9 @@ pub(crate) async fn submit_plugin(
     app.limits.count(SUBMIT, &account.name)?;
     // Before anything is read: who may not submit need not send 64 MiB to hear it.
     app.engine.may_submit(&account)?;
-    let _turn = app.uploads.acquire().await.map_err(Problem::fault)?;
+    let _turn = app.uploads.take(request.headers()).await?;
     let Submission { name, bytes, manifest } = Submission::read(request, &app).await?;
+    let _alone = app.submitting.lock().await;
     let (plugin, new) = app.engine.submit_plugin(&account, &name, bytes, manifest).await?;
     let status = if new { StatusCode::CREATED } else { StatusCode::OK };
     let location = format!("/api/v1/plugins/{}", plugin.id);

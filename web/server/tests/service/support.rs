@@ -15,7 +15,7 @@ pub struct Service {
     pub url: String,
     pub engine: Engine,
     stop: oneshot::Sender<()>,
-    served: JoinHandle<std::io::Result<()>>,
+    served: JoinHandle<()>,
     plugins: Vec<PathBuf>,
     data: TempDir,
 }
@@ -69,7 +69,7 @@ impl Service {
 
     async fn end(self) -> (TempDir, Vec<PathBuf>) {
         self.stop.send(()).expect("the service runs");
-        self.served.await.expect("no panic").expect("no fault");
+        self.served.await.expect("no panic");
         self.engine.shutdown().await;
         (self.data, self.plugins)
     }

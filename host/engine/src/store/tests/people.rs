@@ -12,6 +12,8 @@ fn key(id: &str, expires_us: i64) -> TokenInfo {
     TokenInfo { id: id.into(), name: "n".into(), scopes: vec![Scope::Plugins], created_us: 1, expires_us }
 }
 
+const NOTE: Note<'static> = Note { actor: "ada", action: "did", subject: "x", detail: "" };
+
 pub async fn accounts_have_one_name_and_keys_of_their_own(store: Store) {
     let (ada, later) = (account("1", "Ada"), now_us() + 1_000_000_000);
     assert!(store.add_account(&ada, "hash").await.unwrap());
@@ -22,7 +24,9 @@ pub async fn accounts_have_one_name_and_keys_of_their_own(store: Store) {
     assert_eq!(store.password_of("bob").await.unwrap(), None);
     store.set_wish("1", "please").await.unwrap();
     assert_eq!(store.account("1").await.unwrap().unwrap().wish.as_deref(), Some("please"));
-    assert!(store.set_role("1", Role::Developer).await.unwrap() && !store.set_role("9", Role::User).await.unwrap());
+    assert!(store.set_role("1", Role::Developer, NOTE).await.unwrap());
+    assert!(!store.set_role("9", Role::User, NOTE).await.unwrap());
+    assert_eq!(store.notes_on("x").await.unwrap().len(), 1, "what did not happen is not noted");
     let now = AccountInfo { role: Role::Developer, ..ada };
     assert_eq!(store.accounts().await.unwrap(), std::slice::from_ref(&now));
 
@@ -91,8 +95,9 @@ pub async fn a_submission_is_checked_three_times_at_most(store: Store) {
         created_us: 1,
         changed_us: 1,
     };
-    assert!(store.add_submission(&row).await.unwrap());
-    assert!(!store.add_submission(&SubmissionRow { id: "q".into(), ..row.clone() }).await.unwrap());
+    assert!(store.add_submission(&row, NOTE).await.unwrap());
+    assert!(!store.add_submission(&SubmissionRow { id: "q".into(), ..row.clone() }, NOTE).await.unwrap());
+    assert_eq!(store.notes_on("x").await.unwrap().len(), 1, "what did not happen is not noted");
     assert_eq!(store.submission("p").await.unwrap().as_ref(), Some(&row));
     assert_eq!(store.submission_of("1", "f").await.unwrap().as_ref(), Some(&row));
     let line =
@@ -104,13 +109,18 @@ pub async fn a_submission_is_checked_three_times_at_most(store: Store) {
         // Lines of an earlier attempt are gone.
         store.add_line("p", 1, &line).await.unwrap();
         assert_eq!(store.lines("p").await.unwrap(), std::slice::from_ref(&line));
-        assert!(store.move_submission("p", PluginState::Uploaded, PluginState::Vetted, "").await.unwrap());
-        assert!(!store.move_submission("p", PluginState::Uploaded, PluginState::Vetted, "").await.unwrap());
+        let vetted = || store.move_submission("p", PluginState::Uploaded, PluginState::Vetted, "", Some(NOTE));
+        assert!(vetted().await.unwrap() && !vetted().await.unwrap());
         store.recover_checks(3).await.unwrap();
     }
     assert_eq!(store.claim_check(3).await.unwrap(), None);
     let given_up = store.submission("p").await.unwrap().unwrap();
     assert!(given_up.state == PluginState::Failed && given_up.reason.contains("3 times"), "{given_up:?}");
+    let told = store.notes_on("p").await.unwrap();
+    assert_eq!(
+        (told.len(), told[0].action.as_str(), store.notes_on("x").await.unwrap().len()),
+        (1, "failed the check", 4)
+    );
     store.describe_submission("p", &[], "class").await.unwrap();
     assert_eq!(store.submissions().await.unwrap()[0].hardware_class.as_deref(), Some("class"));
 }
