@@ -175,7 +175,7 @@ fn fifty_uploads_at_once_are_all_taken() {
         async move {
             let text = format!("v 0 0 0\nv {} 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", number + 1);
             // Half of them are as large as an object may well be.
-            let comment = "# nothing\n".repeat(if number % 2 == 0 { 10 } else { 1_000_000 });
+            let comment = "# nothing\n".repeat(if number.is_multiple_of(2) { 10 } else { 1_000_000 });
             let file = Part::text(format!("{comment}{text}")).file_name("own.obj");
             let answer = client().post(to).multipart(Form::new().part("file", file)).send().await.expect("an answer");
             let status = answer.status();
