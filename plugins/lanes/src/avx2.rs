@@ -75,9 +75,19 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn spread(from: &[f32; 4]) -> Self {
         instructions!({
-            let four = _mm256_castps128_ps256(_mm_loadu_ps(from.as_ptr()));
-            let low = _mm256_permutevar8x32_ps(four, _mm256_set_epi32(1, 1, 1, 1, 0, 0, 0, 0));
-            Self(low, _mm256_permutevar8x32_ps(four, _mm256_set_epi32(3, 3, 3, 3, 2, 2, 2, 2)))
+            let eight = _mm256_castps128_ps256(_mm_loadu_ps(from.as_ptr()));
+            Self(eight, eight).spread_of(0)
+        })
+    }
+
+    #[inline(always)]
+    fn spread_of(self, four: usize) -> Self {
+        let eight = if four < 2 { self.0 } else { self.1 };
+        instructions!({
+            let first = _mm256_set1_epi32(4 * (four % 2) as i32);
+            let low = _mm256_add_epi32(first, _mm256_set_epi32(1, 1, 1, 1, 0, 0, 0, 0));
+            let high = _mm256_add_epi32(first, _mm256_set_epi32(3, 3, 3, 3, 2, 2, 2, 2));
+            Self(_mm256_permutevar8x32_ps(eight, low), _mm256_permutevar8x32_ps(eight, high))
         })
     }
 

@@ -62,9 +62,14 @@ impl Lanes for Avx512 {
 
     #[inline(always)]
     fn spread(from: &[f32; 4]) -> Self {
+        instructions!(Self(_mm512_castps128_ps512(_mm_loadu_ps(from.as_ptr()))).spread_of(0))
+    }
+
+    #[inline(always)]
+    fn spread_of(self, four: usize) -> Self {
         instructions!({
-            let four = _mm512_castps128_ps512(_mm_loadu_ps(from.as_ptr()));
-            Self(_mm512_permutexvar_ps(_mm512_set_epi32(3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0), four))
+            let lanes = _mm512_set_epi32(3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0);
+            Self(_mm512_permutexvar_ps(_mm512_add_epi32(lanes, _mm512_set1_epi32(4 * four as i32)), self.0))
         })
     }
 

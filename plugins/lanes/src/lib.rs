@@ -31,6 +31,8 @@ pub trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = S
     fn store(self, to: &mut [f32; 16]);
     /// Four numbers, each in four lanes side by side: lane `4 i + j` gets number `i`.
     fn spread(from: &[f32; 4]) -> Self;
+    /// The same with four of these numbers, those from `4 four` on.
+    fn spread_of(self, four: usize) -> Self;
     /// Four numbers, four times one after the other: lane `4 i + j` gets number `j`.
     fn tile(from: &[f32; 4]) -> Self;
     /// `self * factor + summand`, rounded once or twice.

@@ -68,6 +68,11 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
+    fn spread_of(self, four: usize) -> Self {
+        Self::spread(&self.0.as_chunks().0[four])
+    }
+
+    #[inline(always)]
     fn tile(from: &[f32; 4]) -> Self {
         let [x, y, z, w] = *from;
         Self([x, y, z, w, x, y, z, w, x, y, z, w, x, y, z, w])

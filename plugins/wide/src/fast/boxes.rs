@@ -2,7 +2,7 @@
 
 use ocb_lanes::{Bits, Lanes, Points, dot, inverse, sub, three};
 
-use super::relative::Relative;
+use super::relative::{Relative, stored};
 use super::tree::{Node, row};
 
 /// Sixteen boxes.
@@ -14,24 +14,24 @@ pub struct Boxes<L> {
 }
 
 impl<L: Lanes> Boxes<L> {
-    /// The children of an inner node of A, each in four lanes side by side.
+    /// The children of an inner node of A, four times one after the other.
     #[inline(always)]
-    pub fn spread(node: &Node) -> Self {
+    pub fn tile(node: &Node) -> Self {
         Self {
-            center: three!(i => L::spread(row(&node.vectors, i, 0))),
-            axes: three!(k => three!(i => L::spread(row(&node.vectors, i, k + 1)))),
-            half: three!(k => L::spread(&node.half[k])),
+            center: three!(i => L::tile(row(&node.vectors, i, 0))),
+            axes: three!(k => three!(i => L::tile(row(&node.vectors, i, k + 1)))),
+            half: three!(k => L::tile(&node.half[k])),
         }
     }
 
-    /// The children of an inner node of B, seen from A, four times one after the other.
+    /// The children of an inner node of B, seen from A, each in four lanes side by side: from register to register.
     #[inline(always)]
-    pub fn tile(node: &Node, relative: &Relative) -> Self {
+    pub fn spread(node: &Node, relative: &Relative) -> Self {
         let placed = relative.place::<L>(node, false);
         Self {
-            center: three!(i => L::tile(row(&placed, i, 0))),
-            axes: three!(k => three!(i => L::tile(row(&placed, i, k + 1)))),
-            half: three!(k => relative.enlarge(L::tile(&node.half[k]))),
+            center: three!(i => placed[i].spread_of(0)),
+            axes: three!(k => three!(i => placed[i].spread_of(k + 1))),
+            half: three!(k => relative.enlarge(L::spread(&node.half[k]))),
         }
     }
 
@@ -48,7 +48,7 @@ impl<L: Lanes> Boxes<L> {
     /// The box of a leaf of B, seen from A, in all lanes.
     #[inline(always)]
     pub fn of_placed_leaf(node: &Node, relative: &Relative) -> Self {
-        let placed = relative.place::<L>(node, true);
+        let placed = stored(&relative.place::<L>(node, true));
         Self {
             center: three!(i => L::splat(placed[i][12])),
             axes: three!(k => three!(i => L::splat(placed[i][13 + k]))),
@@ -63,24 +63,25 @@ macro_rules! against {
     ($kernel:ident, $pair:expr, $node_a:expr, $node_b:expr, $relative:expr $(, $more:expr)*) => {
         match $pair {
             [a, _] if a.is_leaf() => {
-                $kernel(&Boxes::of_leaf($node_a), &Boxes::tile($node_b, $relative) $(, $more)*)
+                $kernel(&Boxes::<L>::of_leaf($node_a), &Boxes::spread($node_b, $relative) $(, $more)*)
             }
             [_, b] if b.is_leaf() => {
-                $kernel(&Boxes::spread($node_a), &Boxes::of_placed_leaf($node_b, $relative) $(, $more)*)
+                $kernel(&Boxes::<L>::tile($node_a), &Boxes::of_placed_leaf($node_b, $relative) $(, $more)*)
             }
-            _ => $kernel(&Boxes::<L>::spread($node_a), &Boxes::tile($node_b, $relative) $(, $more)*),
+            _ => $kernel(&Boxes::<L>::tile($node_a), &Boxes::spread($node_b, $relative) $(, $more)*),
         }
     };
 }
 pub(crate) use against;
 
-/// Where a box of A and a box of B may have a point in common: no axis of either separates them. Also the squared distances
-/// of the middles. B's boxes have been enlarged by the slack.
+/// Where a box of A and a box of B may have a point in common: no axis of either separates them. Also the lane in
+/// which the middles are nearest, whether these boxes overlap or not: that does not wait for the tests. B's boxes have been enlarged by the slack.
 ///
 /// The nine products of axes would cost more than the few pairs that they alone tell apart.
 #[inline(always)]
-pub fn overlap<L: Lanes>(a: &Boxes<L>, b: &Boxes<L>, live: Bits) -> (Bits, L) {
+pub fn overlap<L: Lanes>(a: &Boxes<L>, b: &Boxes<L>, live: Bits) -> (Bits, usize) {
     let between = sub(&b.center, &a.center);
+    let nearest = dot(&between, &between).least(live);
     let reach = three!(k => three!(j => dot(&a.axes[k], &b.axes[j]).abs()));
     // Three short chains of comparisons, since each waits for the one before.
     let mut keep = [L::lanes(live); 3];
@@ -92,7 +93,7 @@ pub fn overlap<L: Lanes>(a: &Boxes<L>, b: &Boxes<L>, live: Bits) -> (Bits, L) {
         let radius_a = dot(&[reach[0][j], reach[1][j], reach[2][j]], &a.half);
         keep[j] = L::unless_above(keep[j], dot(&b.axes[j], &between).abs(), radius_a + b.half[j]);
     }
-    (L::bits(keep[0]) & L::bits(keep[1]) & L::bits(keep[2]), dot(&between, &between))
+    (L::bits(keep[0]) & L::bits(keep[1]) & L::bits(keep[2]), nearest)
 }
 
 /// Lower bounds of the squared distances of the boxes. B's boxes have been enlarged by the slack.

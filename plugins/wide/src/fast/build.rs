@@ -4,7 +4,7 @@ use ocb_hierarchy::fit::{Axes, Moments};
 use ocb_triangles::Triangle;
 use ocb_triangles::vector::{Vector, dot};
 
-use super::obb::{Obb, face_axes};
+use super::obb::{Obb, face_axes, orthonormal};
 use super::tree::{FOUR, Link, Node};
 
 /// The nodes over triangles in [-1, 1], the link to the root, and the length of the longest vector in the nodes.
@@ -13,7 +13,7 @@ pub fn build(triangles: &[Triangle]) -> (Vec<Node>, Link, f64) {
     let moments = triangles.iter().map(Moments::of).collect();
     let nodes = Vec::with_capacity(triangles.len() * 3 / 8);
     let mut builder = Builder { triangles, moments, nodes, squared_radius: 0.0 };
-    let fit = builder.fit(&ids);
+    let fit = builder.fit(&ids, &[]);
     let root = builder.node(&mut ids, &fit);
     (builder.nodes, root, builder.squared_radius.sqrt() * (1.0 + f64::EPSILON))
 }
@@ -32,17 +32,21 @@ struct Fit {
 }
 
 impl Builder<'_> {
-    /// The best of a few boxes around triangles, and the principal axes.
-    fn fit(&mut self, ids: &[u32]) -> Fit {
+    /// The best of a few boxes around triangles, and the principal axes. A patch of surface that is as wide as long has any
+    /// principal axes within its plane, but its sides are those along which it was cut.
+    fn fit(&mut self, ids: &[u32], cuts: &[Vector]) -> Fit {
         let axes = self.principal_axes(ids);
         let mut best = Obb::around(self.triangles, ids, &axes);
-        if ids.len() <= FOUR {
-            for &id in ids {
-                let other = Obb::around(self.triangles, ids, &face_axes(&self.triangles[id as usize]));
-                if other.area() < best.area() {
-                    best = other;
-                }
+        let mut try_axes = |axes: &Axes| {
+            let other = Obb::around(self.triangles, ids, axes);
+            if other.area() < best.area() {
+                best = other;
             }
+        };
+        if ids.len() <= FOUR {
+            ids.iter().for_each(|&id| try_axes(&face_axes(&self.triangles[id as usize])));
+        } else {
+            cuts.iter().for_each(|&cut| try_axes(&orthonormal(axes[2], cut)));
         }
         self.reach(best.center.map(f64::from));
         Fit { obb: best, axes }
@@ -77,12 +81,13 @@ impl Builder<'_> {
         self.part(ids, fit.axes[0], middle);
         let mut place = 0;
         for half in <[_; 2]>::from(ids.split_at_mut(middle)) {
+            let mut cuts = [fit.axes[0]; 2];
             if half.len() > size {
-                let axes = self.principal_axes(half);
-                self.part(half, axes[0], size);
+                cuts[1] = self.principal_axes(half)[0];
+                self.part(half, cuts[1], size);
             }
             for part in half.chunks_mut(size) {
-                self.child(index, place, part);
+                self.child(index, place, part, &cuts);
                 place += 1;
             }
         }
@@ -93,8 +98,8 @@ impl Builder<'_> {
     }
 
     /// Fills a place of an inner node.
-    fn child(&mut self, index: usize, place: usize, ids: &mut [u32]) {
-        let fit = self.fit(ids);
+    fn child(&mut self, index: usize, place: usize, ids: &mut [u32], cuts: &[Vector]) {
+        let fit = self.fit(ids, cuts);
         let (link, obb) = (self.node(ids, &fit), &fit.obb);
         let node = &mut self.nodes[index];
         for i in 0..3 {

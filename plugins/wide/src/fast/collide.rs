@@ -7,6 +7,7 @@ use opencollbench_plugin::Count;
 use super::Placed;
 use super::boxes::{Boxes, against, overlap};
 use super::faces::{left_by_edges, left_by_planes};
+use super::relative::stored;
 use super::stack::Stack;
 use super::tree::{Link, Node, Tree};
 use super::waiting::Waiting;
@@ -15,17 +16,21 @@ use crate::Pair;
 /// What is still to be done, kept from query to query for its memory.
 #[derive(Debug, Default)]
 pub struct Open {
-    /// Of which one at least is an inner node.
-    boxes: Stack,
-    leaves: Stack,
+    /// Pairs of nodes of which one at least is an inner node, and pairs of leaves.
+    pairs: [Stack; 2],
     /// Pairs of triangles that no plane of theirs separates.
     waiting: Waiting,
 }
 
+/// Which pairs of nodes.
+const BOXES: usize = 0;
+const LEAVES: usize = 1;
 /// Pairs of leaves are put off until there are so many.
-const LEAVES: usize = 4;
+const LOT: usize = 4;
 /// Of those, the memory is asked for so many ahead.
 const AHEAD: usize = 3;
+/// Pairs of triangles that no plane separates wait for the next lot of leaves while there are fewer.
+const ENOUGH: usize = 4;
 
 /// A query that visits pairs of triangles that meet, until the visitor says false.
 pub struct Query<'q, C, V> {
@@ -56,14 +61,17 @@ struct Contacts<'q, C, V> {
 impl<C: Count, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
     #[inline(always)]
     fn each<L: Lanes>(mut self) {
-        self.open.boxes.clear();
-        self.open.leaves.clear();
+        self.open.pairs[BOXES].clear();
+        self.open.pairs[LEAVES].clear();
         self.open.waiting.count = 0;
-        self.put::<L>(1, L::splat(0.0), &[self.pair.a.root.0; 4], &[self.pair.b.root.0; 4]);
         // One pair is always on its way: a processor works on both, and memory has that long to arrive.
-        let mut coming: Option<[Link; 2]> = None;
+        let mut coming = Some([self.pair.a.root, self.pair.b.root]);
+        if self.pair.a.root.is_leaf() && self.pair.b.root.is_leaf() {
+            self.put::<L>(1, 0, &[self.pair.a.root.0; 4], &[self.pair.b.root.0; 4]);
+            coming = None;
+        }
         loop {
-            let next = self.open.boxes.pop();
+            let next = self.open.pairs[BOXES].pop();
             if let Some(next) = next {
                 self.fetch::<L>(next);
             }
@@ -71,9 +79,9 @@ impl<C: Count, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
                 self.boxes::<L>(a, b);
             }
             coming = next;
-            let ended = coming.is_none() && self.open.boxes.len() == 0;
-            let due = ended || self.open.leaves.len() >= LEAVES;
-            let found = due && !self.leaves::<L>();
+            let ended = coming.is_none() && self.open.pairs[BOXES].len() == 0;
+            let due = ended || self.open.pairs[LEAVES].len() >= LOT;
+            let found = due && !self.leaves::<L>(ended);
             if ended || found {
                 return;
             }
@@ -89,16 +97,15 @@ impl<C: Count, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
     /// Puts pairs of nodes where they belong, the nearest last, so that it comes first: where objects overlap, they do so
     /// most there.
     #[inline(always)]
-    fn put<L: Lanes>(&mut self, lanes: Bits, squares: L, a: &[u32; 4], b: &[u32; 4]) {
+    fn put<L: Lanes>(&mut self, lanes: Bits, nearest: usize, a: &[u32; 4], b: &[u32; 4]) {
         // Known before the tests have ended, other than the lanes.
         let of_leaves = of_leaves(a, b);
-        if of_leaves != 0xffff {
-            let inner = lanes & !of_leaves;
-            self.open.boxes.push::<L>(inner, a, b);
-            self.open.boxes.prefer(inner, squares.least(inner));
-        }
-        if of_leaves != 0 {
-            self.open.leaves.push::<L>(lanes & of_leaves, a, b);
+        if of_leaves == 0 || of_leaves == 0xffff {
+            // An index and no branch: which kind it is can hardly be foreseen.
+            self.open.pairs[of_leaves as usize % 2].push::<L>(lanes, nearest, a, b);
+        } else {
+            self.open.pairs[BOXES].push::<L>(lanes & !of_leaves, nearest, a, b);
+            self.open.pairs[LEAVES].push::<L>(lanes & of_leaves, nearest, a, b);
         }
     }
 
@@ -109,22 +116,23 @@ impl<C: Count, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
         let (node_a, node_b) = (tree_a.node(a), tree_b.node(b));
         let live = live(a, b);
         self.work.bv_tests(u64::from(live.count_ones()));
-        let (left, squares) = against!(overlap, [a, b], node_a, node_b, relative, live);
-        self.put::<L>(left, squares, &successors(a, node_a), &successors(b, node_b));
+        let (left, nearest) = against!(overlap, [a, b], node_a, node_b, relative, live);
+        self.put::<L>(left, nearest, &successors(a, node_a), &successors(b, node_b));
     }
 
-    /// Compares the triangles of all pairs of leaves that were put off. Says whether to go on.
+    /// Compares the triangles of all pairs of leaves that were put off, the latest first; `all` if nothing may be put
+    /// off any more. Says whether to go on.
     #[inline(always)]
-    fn leaves<L: Lanes>(&mut self) -> bool {
+    fn leaves<L: Lanes>(&mut self, all: bool) -> bool {
         let Placed { a: tree_a, b: tree_b, relative, .. } = self.pair;
-        let count = self.open.leaves.len();
-        for place in 0..count.min(AHEAD) {
-            self.fetch::<L>(self.open.leaves.get(place));
+        let count = self.open.pairs[LEAVES].len();
+        for place in count.saturating_sub(AHEAD)..count {
+            self.fetch::<L>(self.open.pairs[LEAVES].get(place));
         }
-        for place in 0..count {
-            let [a, b] = self.open.leaves.get(place);
-            if place + AHEAD < count {
-                self.fetch::<L>(self.open.leaves.get(place + AHEAD));
+        for place in (0..count).rev() {
+            let [a, b] = self.open.pairs[LEAVES].get(place);
+            if let Some(ahead) = place.checked_sub(AHEAD) {
+                self.fetch::<L>(self.open.pairs[LEAVES].get(ahead));
             }
             let (leaf_a, leaf_b) = (tree_a.node(a), tree_b.node(b));
             let placed = relative.place::<L>(leaf_b, true);
@@ -133,6 +141,7 @@ impl<C: Count, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
                 each(live, |i, j| self.work.primitive_test(leaf_a.children[i], leaf_b.children[j]));
             }
             let mut left = left_by_planes::<L>(&leaf_a.vectors, &placed, relative.slack, live);
+            let placed = stored(&placed);
             while left != 0 {
                 let (i, j) = lowest(left);
                 left &= left - 1;
@@ -142,8 +151,9 @@ impl<C: Count, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
                 }
             }
         }
-        self.open.leaves.clear();
-        self.open.waiting.count == 0 || self.look_closer::<L>()
+        self.open.pairs[LEAVES].clear();
+        let due = if all { 1 } else { ENOUGH };
+        self.open.waiting.count < due || self.look_closer::<L>()
     }
 
     /// Compares pairs of triangles by the other directions, and exactly. Says whether to go on.
@@ -182,8 +192,8 @@ pub fn successors(link: Link, node: &Node) -> [u32; 4] {
 fn of_leaves(a: &[u32; 4], b: &[u32; 4]) -> Bits {
     let (mut of_a, mut of_b) = (0, 0);
     for i in 0..4 {
-        of_a |= Bits::from(Link(a[i]).is_leaf()) * (0xf << (4 * i));
-        of_b |= Bits::from(Link(b[i]).is_leaf()) * (0x1111 << i);
+        of_a |= Bits::from(Link(a[i]).is_leaf()) * (0x1111 << i);
+        of_b |= Bits::from(Link(b[i]).is_leaf()) * (0xf << (4 * i));
     }
     of_a & of_b
 }
@@ -193,8 +203,8 @@ fn of_leaves(a: &[u32; 4], b: &[u32; 4]) -> Bits {
 pub fn live(a: Link, b: Link) -> Bits {
     let both = a.is_leaf() == b.is_leaf();
     let places = |link: Link| if both || !link.is_leaf() { link.count() } else { 1 };
-    let of_a = 0xffff >> (16 - 4 * places(a));
-    let of_b = 0x1111 * ((1 << places(b)) - 1);
+    let of_a = 0x1111 * ((1 << places(a)) - 1);
+    let of_b = 0xffff >> (16 - 4 * places(b));
     of_a & of_b
 }
 
@@ -202,7 +212,7 @@ pub fn live(a: Link, b: Link) -> Bits {
 #[inline(always)]
 pub fn lowest(left: Bits) -> (usize, usize) {
     let lane = left.trailing_zeros() as usize;
-    (lane / 4 % 4, lane % 4)
+    (lane % 4, lane / 4 % 4)
 }
 
 /// Calls a function for the places of all lanes of these. Not for kernels: the function is compiled for any processor.

@@ -9,13 +9,13 @@ pub struct Faces<L> {
 }
 
 impl<L: Lanes> Faces<L> {
-    /// The triangles of a leaf of A, each in four lanes side by side.
+    /// The triangles of a placed leaf of B, each in four lanes side by side.
     #[inline(always)]
-    fn spread(leaf: &Vectors) -> Self {
-        Self { corners: three!(k => three!(i => L::spread(row(leaf, i, k)))) }
+    fn spread(leaf: &Points<L>) -> Self {
+        Self { corners: three!(k => three!(i => leaf[i].spread_of(k))) }
     }
 
-    /// The triangles of a leaf of B, four times one after the other.
+    /// The triangles of a leaf of A, four times one after the other.
     #[inline(always)]
     fn tile(leaf: &Vectors) -> Self {
         Self { corners: three!(k => three!(i => L::tile(row(leaf, i, k)))) }
@@ -62,8 +62,8 @@ fn norm_1<L: Lanes>(v: &Points<L>) -> L {
 
 /// Pairs that may have a point in common: those that neither triangle's plane separates certainly.
 #[inline(always)]
-pub fn left_by_planes<L: Lanes>(leaf_a: &Vectors, leaf_b: &Vectors, slack: f32, live: Bits) -> Bits {
-    let (a, b) = (Faces::<L>::spread(leaf_a), Faces::tile(leaf_b));
+pub fn left_by_planes<L: Lanes>(leaf_a: &Vectors, leaf_b: &Points<L>, slack: f32, live: Bits) -> Bits {
+    let (a, b) = (Faces::<L>::tile(leaf_a), Faces::spread(leaf_b));
     let (slack, tiny) = (L::splat(slack), L::splat(TINY));
     let ([d, e], [f, g]) = (a.two_edges(), b.two_edges());
     let (normal_a, normal_b) = (cross(&d, &e), cross(&f, &g));
@@ -115,8 +115,8 @@ pub struct Distances {
 
 /// Lower bounds of the distances between the triangles of two leaves, along the lines of centroids.
 #[inline(always)]
-pub fn rough_distance<L: Lanes>(leaf_a: &Vectors, leaf_b: &Vectors, slack: f32) -> L {
-    let (a, b) = (Faces::spread(leaf_a), Faces::tile(leaf_b));
+pub fn rough_distance<L: Lanes>(leaf_a: &Vectors, leaf_b: &Points<L>, slack: f32) -> L {
+    let (a, b) = (Faces::tile(leaf_a), Faces::spread(leaf_b));
     certain(&a, &b, &sub(&sum(&b), &sum(&a)), slack)
 }
 

@@ -10,6 +10,7 @@ use super::boxes::{Boxes, against, squared_distance};
 use super::collide::{each, live, lowest, successors};
 use super::faces::{distances, rough_distance};
 use super::queue::NearestFirst;
+use super::relative::stored;
 use super::tree::{Link, Tree};
 use super::waiting::Waiting;
 use crate::Pair;
@@ -173,7 +174,7 @@ impl<C: Count> Nearest<'_, C> {
             let next_a = successors(a, self.pair.a.node(a));
             let next_b = successors(b, self.pair.b.node(b));
             each(left[place], |i, j| {
-                self.open.pairs.push(bounds[place][4 * i + j], [Link(next_a[i]), Link(next_b[j])]);
+                self.open.pairs.push(bounds[place][4 * j + i], [Link(next_a[i]), Link(next_b[j])]);
             });
         }
     }
@@ -199,6 +200,7 @@ impl<C: Count> Nearest<'_, C> {
         self.work.bv_tests(u64::from(live.count_ones()));
         let placed = relative.place::<L>(leaf_b, true);
         let rough = rough_distance::<L>(&leaf_a.vectors, &placed, relative.slack);
+        let placed = stored(&placed);
         let mut left = live & !L::bits(rough.above(L::splat(self.limit)));
         let mut bounds = [0.0; 16];
         rough.store(&mut bounds);
@@ -206,7 +208,7 @@ impl<C: Count> Nearest<'_, C> {
         while left != 0 {
             let (i, j) = lowest(left);
             left &= left - 1;
-            let bound = bounds[4 * i + j].max(0.0);
+            let bound = bounds[4 * j + i].max(0.0);
             if self.open.waiting.is_full() {
                 self.look_closer::<L>();
             }

@@ -66,7 +66,7 @@ pub fn face_axes(triangle: &Triangle) -> Axes {
 }
 
 /// Unit vectors along `first`, near `third`, and across both; any when these are 0 or parallel.
-fn orthonormal(first: Vector, third: Vector) -> Axes {
+pub fn orthonormal(first: Vector, third: Vector) -> Axes {
     let unit = |v: Vector, other: Vector| {
         let square = dot(v, v);
         let inverse = 1.0 / square.sqrt();

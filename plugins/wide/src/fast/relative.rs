@@ -1,6 +1,6 @@
 //! B as A sees it: what all kernels of a query share.
 
-use ocb_triangles::vector::{dot, rotate, transposed};
+use ocb_triangles::vector::{dot, norm_1, rotate, transposed};
 use ocb_triangles::{Frame, skew};
 
 use super::rounding::SLACK;
@@ -10,7 +10,9 @@ use ocb_lanes::{Lanes, Points, three};
 use crate::Between;
 
 /// The placement of B in A's tree coordinates, in single precision, and what it may be off.
+
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub struct Relative {
     rotation: [[f32; 3]; 3],
     /// The translation for each vector of an inner node, and of a leaf: directions do not move.
@@ -27,11 +29,11 @@ impl Relative {
     #[inline(always)]
     pub fn new<L: Lanes>(frame: &Frame, a: &Tree, b: &Tree) -> Self {
         let (columns_a, columns_b) = (transposed(&frame.rotation_a), transposed(&frame.rotation_b));
-        let rotation = columns_a.map(|a| columns_b.map(|b| dot(a, b)));
+        let rotation = three!(i => three!(j => dot(columns_a[i], columns_b[j]) as f32));
         let between = Between::new(frame, &a.local, &b.local);
         let translation = rotate(&columns_a, between.middles);
         let scale = between.scale;
-        let lengths = a.radius + scale * b.radius + dot(translation, translation).sqrt();
+        let lengths = a.radius + scale * b.radius + norm_1(translation);
         let skew = skew(&columns_a) + skew(&columns_b);
         let slack = lengths * (SLACK + 8.0 * skew) + between.lengths * (16.0 * f64::EPSILON + 8.0 * skew) + TINY;
         let in_range = between.is_in_range(lengths) && skew < 0.01;
@@ -44,7 +46,7 @@ impl Relative {
             (moves * L::splat(scale as f32) + (L::splat(1.0) - moves)).store(&mut scales[leaf]);
         }
         Self {
-            rotation: rotation.map(|row| row.map(|x| x as f32)),
+            rotation,
             shifts,
             scales,
             scale: scale as f32,
@@ -55,16 +57,14 @@ impl Relative {
 
     /// The vectors of a node of B in A's frame.
     #[inline(always)]
-    pub fn place<L: Lanes>(&self, node: &Node, leaf: bool) -> Vectors {
+    pub fn place<L: Lanes>(&self, node: &Node, leaf: bool) -> Points<L> {
         let scale = L::load(&self.scales[usize::from(leaf)]);
         let shifts = &self.shifts[usize::from(leaf)];
         let from: Points<L> = three!(i => L::load(&node.vectors[i]) * scale);
-        let mut placed = [[0.0; 16]; 3];
-        for i in 0..3 {
+        three!(i => {
             let [x, y, z] = three!(j => L::splat(self.rotation[i][j]));
-            x.mul_add(from[0], y.mul_add(from[1], z.mul_add(from[2], L::load(&shifts[i])))).store(&mut placed[i]);
-        }
-        placed
+            x.mul_add(from[0], y.mul_add(from[1], z.mul_add(from[2], L::load(&shifts[i]))))
+        })
     }
 
     /// Half sides of boxes of B in A's unit, larger by the slack.
@@ -72,6 +72,16 @@ impl Relative {
     pub fn enlarge<L: Lanes>(&self, half: L) -> L {
         half.mul_add(L::splat(self.scale), L::splat(self.slack))
     }
+}
+
+/// Vectors into memory.
+#[inline(always)]
+pub fn stored<L: Lanes>(placed: &Points<L>) -> Vectors {
+    let mut vectors = [[0.0; 16]; 3];
+    for i in 0..3 {
+        placed[i].store(&mut vectors[i]);
+    }
+    vectors
 }
 
 /// More than products of numbers that are too small for single precision can lose.

@@ -6,8 +6,8 @@
 //! wrong side of the distance.** Terms of second order in `u` are paid for by rounding the sums below up.
 //!
 //! **Lengths.** Everything is in A's unit and seen from A. `P` bounds the vectors in A's nodes, `Q` those in B's
-//! (both are taken from the tree, [`super::tree::Tree::radius`]), `t` is the translation, and `S = P + Q + |t|`.
-//! Whatever a kernel subtracts is shorter than `S`.
+//! (both are taken from the tree, [`super::tree::Tree::radius`]), `t` is the translation, and `S` is `P + Q` and the sum of
+//! its magnitudes: no less than `P + Q + |t|`. Whatever a kernel subtracts is shorter than `S`.
 //!
 //! **Placing a point of B.** `fma(r0, x, fma(r1, y, fma(r2, z, t)))`: rotation and translation have been rounded
 //! once (`u`), every term passes at most four roundings (three fused ones, or six of which a term meets at most

@@ -26,31 +26,23 @@ impl Stack {
         self.used
     }
 
-    /// Puts in the pairs of places in these lanes.
+    /// Puts in the pairs of places in these lanes; that of one of them, if it is among them, as the latest.
     #[inline(always)]
-    pub fn push<L: Lanes>(&mut self, lanes: Bits, a: &[u32; 4], b: &[u32; 4]) {
+    pub fn push<L: Lanes>(&mut self, lanes: Bits, last: usize, a: &[u32; 4], b: &[u32; 4]) {
         let end = self.used + LANES;
         if end > self.of_a.len() {
             self.grow();
         }
-        let to_a = self.of_a[self.used..].first_chunk_mut();
-        let to_b = self.of_b[self.used..].first_chunk_mut();
+        let to_a = self.of_a[self.used..].first_chunk_mut::<LANES>();
+        let to_b = self.of_b[self.used..].first_chunk_mut::<LANES>();
         if let (Some(to_a), Some(to_b)) = (to_a, to_b) {
-            L::pairs(lanes, a, b, [to_a, to_b]);
+            let others = lanes & !(1 << last);
+            let count = others.count_ones() as usize % LANES;
+            L::pairs(others, b, a, [to_b, to_a]);
+            // Written in any case, kept when it is one of the lanes: no branch waits for the lanes.
+            (to_a[count], to_b[count]) = (a[last % 4], b[last / 4 % 4]);
             self.used += lanes.count_ones() as usize;
         }
-    }
-
-    /// Of the pairs that were put in from these lanes just now, makes one the latest.
-    #[inline(always)]
-    pub fn prefer(&mut self, lanes: Bits, lane: usize) {
-        let count = lanes.count_ones() as usize;
-        let before = (lanes & ((1 << lane) - 1)).count_ones() as usize;
-        let first = self.used - count;
-        // With none put in, both are the place after the latest.
-        let (place, last) = (first + before, first + count.saturating_sub(1));
-        self.of_a.swap(place, last);
-        self.of_b.swap(place, last);
     }
 
     #[cold]

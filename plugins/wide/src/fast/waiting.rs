@@ -7,6 +7,7 @@ use super::tree::{FOUR, Vectors};
 
 /// Up to sixteen pairs of triangles, those of B placed in A's frame.
 #[derive(Debug, Default)]
+#[repr(align(64))]
 pub struct Waiting {
     of_a: [[[f32; 16]; 3]; 3],
     of_b: [[[f32; 16]; 3]; 3],
