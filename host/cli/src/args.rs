@@ -197,9 +197,24 @@ pub struct BenchArgs {
     /// Measuring time per algorithm; a slower one is measured on as many configurations as fit.
     #[arg(long, default_value_t = 60.0, allow_negative_numbers = true, value_name = "SECONDS")]
     pub budget: f64,
+    /// Stop as soon as the algorithms are told apart, where differences below this share (5%, 0.02) do not matter. The
+    /// result is a preview, which `ocb run refine` completes.
+    #[arg(long, value_name = "SHARE", value_parser = share, allow_negative_numbers = true)]
+    pub precision: Option<f64>,
+    /// A quick look: only 5,000 configurations, evenly spread over all. The result is a preview, which `ocb run refine`
+    /// completes.
+    #[arg(long)]
+    pub quick: bool,
     /// Folder for the result files: records as Parquet and CSV, configurations, run.json, heatmaps as GLB and PLY.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// A share of one, as 5% or 0.05.
+fn share(text: &str) -> Result<f64, String> {
+    let (number, unit) = text.strip_suffix('%').map_or((text, 1.0), |percent| (percent, 100.0));
+    let share = number.trim().parse::<f64>().map(|number| number / unit);
+    share.map_err(|_| format!("{text:?} is no share; write it as 5% or 0.05"))
 }
 
 /// `ocb generate`
@@ -350,6 +365,11 @@ pub enum RunCommand {
     List,
     /// Show one run with its table.
     Show {
+        /// Run id, or `latest`.
+        run: String,
+    },
+    /// Measure all configurations of a run that was a preview.
+    Refine {
         /// Run id, or `latest`.
         run: String,
     },

@@ -6,13 +6,14 @@ pub mod spec;
 pub mod table;
 mod verdict;
 
+use std::path::Path;
 use std::pin::pin;
 use std::process::ExitCode;
 use std::time::Duration;
 
 use futures::StreamExt;
 use ocb_engine::Engine;
-use ocb_engine::model::{RunInfo, RunSpec, State};
+use ocb_engine::model::{RunInfo, State};
 
 use crate::args::{BenchArgs, Store};
 use crate::failure::{Failure, INTERRUPTED, Result};
@@ -50,13 +51,26 @@ async fn measure(engine: &Engine, args: &BenchArgs, inputs: spec::Inputs, json: 
     let spec = inputs.into_spec(engine, args).await?;
     let estimate = engine.estimate(&spec, Some(OWNER)).await?;
     let expected = units::wait(estimate.total_seconds + estimate.wait_seconds);
-    eprintln!("{} configurations, about {expected}", estimate.configurations);
-    let (run, interrupted) = follow(engine, spec, stop).await?;
+    let at_most = if spec.precision.is_some() { "at most " } else { "" };
+    eprintln!("{at_most}{} configurations, {at_most}about {expected}", estimate.configurations);
+    let run = engine.submit(spec, Some(OWNER)).await?;
+    to_its_end(engine, run, args.out.as_deref(), stop, json).await
+}
+
+/// Watches a run to its end; prints and writes what it found.
+pub async fn to_its_end(
+    engine: &Engine,
+    run: RunInfo,
+    out: Option<&Path>,
+    stop: impl Future<Output = ()>,
+    json: bool,
+) -> Result<ExitCode> {
+    let (run, interrupted) = follow(engine, run, stop).await?;
     if interrupted {
         eprintln!("ocb: Stopped; the run {} is {}.", run.id, crate::run::state_name(run.state));
         return Ok(ExitCode::from(INTERRUPTED));
     }
-    let written = match &args.out {
+    let written = match out {
         Some(folder) => files::write(engine, &run, folder).await?,
         None => Vec::new(),
     };
@@ -75,9 +89,8 @@ async fn measure(engine: &Engine, args: &BenchArgs, inputs: spec::Inputs, json: 
     Ok(ExitCode::from(verdict::exit_code(&run)))
 }
 
-/// Asks for the run and watches it to its end, or to ours.
-async fn follow(engine: &Engine, spec: RunSpec, stop: impl Future<Output = ()>) -> Result<(RunInfo, bool)> {
-    let run = engine.submit(spec, Some(OWNER)).await?;
+/// Watches the run to its end, or to ours.
+async fn follow(engine: &Engine, run: RunInfo, stop: impl Future<Output = ()>) -> Result<(RunInfo, bool)> {
     let mut progress = Progress::new(&run);
     let watch = async {
         let mut events = pin!(engine.follow(&run.id, 0).await?);

@@ -61,6 +61,8 @@ pub async fn generate(store: &Store, args: &GenerateArgs, json: bool) -> Result<
             passes: 1,
             budget_seconds: 1.0,
             seed: None,
+            precision: None,
+            at_most: None,
         })
     };
     let done = match spec(&engine).await {

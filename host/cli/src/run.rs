@@ -8,17 +8,26 @@ use ocb_engine::{Engine, EngineError};
 use crate::args::{RunCommand, Store};
 use crate::failure::Result;
 use crate::open::{self, OWNER, Purpose};
-use crate::{bench, output, plugin};
+use crate::{bench, output, plugin, serve};
 
-/// Lists or shows.
+/// Lists, shows or refines.
 pub async fn run(store: &Store, command: &RunCommand, json: bool) -> Result<ExitCode> {
-    let engine = open::open(store, Purpose::Look).await?;
+    let refines = matches!(command, RunCommand::Refine { .. });
+    let engine = open::open(store, if refines { Purpose::Measure } else { Purpose::Look }).await?;
     let done = match command {
-        RunCommand::List => list(&engine, json).await,
-        RunCommand::Show { run } => show(&engine, run, json).await,
+        RunCommand::List => list(&engine, json).await.map(|()| ExitCode::SUCCESS),
+        RunCommand::Show { run } => show(&engine, run, json).await.map(|()| ExitCode::SUCCESS),
+        RunCommand::Refine { run } => refine(&engine, run, json).await,
     };
     engine.shutdown().await;
-    done.map(|()| ExitCode::SUCCESS)
+    done
+}
+
+async fn refine(engine: &Engine, id: &str, json: bool) -> Result<ExitCode> {
+    let stop = serve::stop_signal()?;
+    let run = find(engine, id).await?;
+    let run = engine.refine(&run.id, Some(OWNER)).await?;
+    bench::to_its_end(engine, run, None, stop, json).await
 }
 
 async fn list(engine: &Engine, json: bool) -> Result<()> {
@@ -31,7 +40,11 @@ async fn list(engine: &Engine, json: bool) -> Result<()> {
     }
     let row = |run: &RunInfo| {
         let algorithms: Vec<&str> = run.results.iter().map(|result| result.algorithm.as_str()).collect();
-        let count = run.set.as_ref().map_or_else(String::new, |set| set.configurations.to_string());
+        let count = match (&run.preview, &run.set) {
+            (Some(preview), _) => format!("{} of {} (preview)", preview.n, preview.of),
+            (None, Some(set)) => set.configurations.to_string(),
+            (None, None) => String::new(),
+        };
         let pair = format!("{} x {}", run.object_a_name, run.object_b_name);
         let query = plugin::query_name(run.spec.query).to_owned();
         vec![run.id.clone(), state_name(run.state).to_owned(), pair, query, count, algorithms.join(", ")]

@@ -36,14 +36,15 @@ pub struct Comparison {
     pub ratio: Option<Interval>,
 }
 
-/// Compares an algorithm with the reference, which may be itself, over so many rounds; `None` when it has no times.
-pub fn compare(times: &Times, reference: Option<&Times>, rounds: u32) -> Option<Comparison> {
+/// Compares an algorithm with the reference, which may be itself, over so many rounds, on `of` configurations of which these
+/// may be a part; `None` when it has no times.
+pub fn compare(times: &Times, reference: Option<&Times>, rounds: u32, of: u64) -> Option<Comparison> {
     let mine: Vec<usize> = (0..times.len()).filter(|i| !times[*i].is_empty()).collect();
     let both: Vec<usize> = match reference {
         Some(reference) => mine.iter().copied().filter(|i| !reference[*i].is_empty()).collect(),
         None => Vec::new(),
     };
-    let whole = rounds > 1 && mine.len() == times.len();
+    let whole = rounds > 1 && mine.len() as u64 >= of;
     let sample = |seed: Option<u64>| -> (f64, Option<f64>) {
         let mut draw = Draw::new(seed, rounds, whole);
         let mean = draw.mean(&mine, |weights, i| weights.median(&times[i]));

@@ -27,6 +27,7 @@ pub mod reduce;
 pub mod resolution;
 pub mod sampling;
 pub mod selection;
+pub mod sequential;
 pub mod statistics;
 pub mod stock;
 pub mod validation;

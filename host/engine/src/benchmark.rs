@@ -19,8 +19,8 @@ use crate::configurations::{self, Gauge};
 use crate::draw;
 use crate::engine::Inner;
 use crate::machine::{MakingWay, MeasuringRight};
-use crate::measure::{self, Asked, Measured, News, Stop, Task};
-use crate::model::{AlgorithmResult, Environment, RunSpec, SetInfo, State};
+use crate::measure::{self, Asked, Measured, News, Part, Stop, Task};
+use crate::model::{AlgorithmResult, Environment, Preview, RunSpec, SetInfo, State};
 use crate::registry::Contestant;
 use crate::runlog::RunLog;
 use crate::store::{RunRow, StoredResult};
@@ -63,6 +63,15 @@ struct Bench<'a> {
     row: RunRow,
     stop: &'a Stop,
     log: RunLog,
+}
+
+/// All that was measured.
+struct All {
+    finished: Vec<(usize, Measured)>,
+    seed: u64,
+    /// Configurations of the whole run.
+    of: u64,
+    preview: Option<Preview>,
 }
 
 /// The two objects, and whether they are one.
@@ -140,7 +149,7 @@ impl Bench<'_> {
         };
         let total = match &poses {
             Some(poses) => poses.len() as u64,
-            None => ocb_core::sampling::count(&spec.method)
+            None => ocb_core::sampling::count(&spec.finding())
                 .map_err(|e| EngineError::Invalid(format!("These configurations are not possible: {e}.")))?,
         };
         self.log.start(CONFIGURATIONS, total)?;
@@ -169,7 +178,8 @@ impl Bench<'_> {
 
     fn measuring(&mut self, pairing: &Pairing, set: &ConfigurationSet, info: &SetInfo) -> Result<End> {
         let known = self.log.wait(self.inner.store.results(&self.row.id))?;
-        if self.row.spec.algorithms.iter().all(|a| known.iter().any(|k| k.result.algorithm == *a)) {
+        let complete = self.row.spec.algorithms.iter().all(|a| known.iter().any(|k| k.result.algorithm == *a));
+        if complete && !self.row.is_refined() {
             // An earlier attempt came as far as this.
             for (lane, stored) in known.into_iter().enumerate() {
                 let n = u64::from(stored.result.n);
@@ -196,7 +206,10 @@ impl Bench<'_> {
             seed: draw::seed(&self.row, &info.sha256, &contestants),
             contestants: &contestants,
             reference: reference.as_ref(),
+            part: Part::of(&spec, set),
         };
+        let of = task.part.of;
+        let mut preview = None;
         let seed = task.seed;
         let (sender, news) = mpsc::channel();
         let mut finished: Vec<(usize, Measured)> = Vec::new();
@@ -211,6 +224,7 @@ impl Bench<'_> {
                     Ok(News::Progress { lane, done, total }) => {
                         self.log.progress(FIRST_MEASURING + lane, done, total)?;
                     }
+                    Ok(News::Preview(found)) => preview = Some(found),
                     Ok(News::Finished { lane, measured }) => finished.push((lane, *measured)),
                     Err(RecvTimeoutError::Timeout) => {}
                     Err(RecvTimeoutError::Disconnected) => break,
@@ -221,7 +235,7 @@ impl Bench<'_> {
         if self.stop.asked() {
             return Ok(End::Stopped);
         }
-        self.keep(pairing, set, info, finished, seed)
+        self.keep(pairing, set, info, All { finished, seed, of, preview })
     }
 
     /// Stores what was measured; the run fails only when there is nothing to show at all.
@@ -230,8 +244,7 @@ impl Bench<'_> {
         pairing: &Pairing,
         set: &ConfigurationSet,
         info: &SetInfo,
-        finished: Vec<(usize, Measured)>,
-        seed: u64,
+        All { finished, seed, of, preview }: All,
     ) -> Result<End> {
         let asked = Asked {
             pair: Pair::new(&pairing.a, &pairing.b),
@@ -246,7 +259,7 @@ impl Bench<'_> {
             finished.iter().find(|(_, m)| Some(&m.contestant.info.id) == reference.as_ref().map(|r| &r.id));
         let compared: Vec<Option<Comparison>> = finished
             .iter()
-            .map(|(_, m)| compare(&m.times, of_reference.map(|(_, r)| &r.times[..]), self.row.spec.passes))
+            .map(|(_, m)| compare(&m.times, of_reference.map(|(_, r)| &r.times[..]), self.row.spec.passes, of))
             .collect();
         let all: Vec<&Measured> = finished.iter().map(|(_, measured)| measured).collect();
         let (machine, profile) = (&self.inner.machine, self.inner.registry.profile());
@@ -254,6 +267,10 @@ impl Bench<'_> {
         let environment = measure::environment(machine, profile, &all, reference.as_ref(), drawn);
         if let Some(environment) = &environment {
             self.log.wait(self.inner.store.environment_of_run(&self.row.id, environment))?;
+        }
+        // It is marked as a preview before there are numbers, and no longer than these are a preview's.
+        if preview.is_some() {
+            self.log.wait(self.inner.store.preview_of_run(&self.row.id, preview.as_ref()))?;
         }
         let asked_for = || finished.iter().zip(&compared).filter(|((lane, _), _)| *lane < algorithms.len());
         let mut results: Vec<AlgorithmResult> =
@@ -266,6 +283,9 @@ impl Bench<'_> {
             any |= stored.result.n > 0;
             nothing.get_or_insert_with(|| stored.result.outcome.message.clone());
             self.end_lane(*lane, stored)?;
+        }
+        if preview.is_none() {
+            self.log.wait(self.inner.store.preview_of_run(&self.row.id, None))?;
         }
         match nothing {
             Some(cause) if !any => Err(EngineError::Fault(format!("No algorithm could be measured. {cause}"))),

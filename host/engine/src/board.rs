@@ -15,8 +15,8 @@ mod row;
 use ocb_chart::Chart;
 
 use crate::model::{
-    Accuracy, AlgorithmResult, Board, BoardRequest, BoardRow, CellState, FamilyResult, RunSpec, SetInfo, Stability,
-    StabilityPassed, StabilityTable,
+    Accuracy, AlgorithmResult, Board, BoardRequest, BoardRow, CellState, FamilyResult, Preview, RunSpec, SetInfo,
+    Stability, StabilityPassed, StabilityTable,
 };
 use crate::{EngineError, Result};
 
@@ -40,6 +40,8 @@ pub struct Measured {
     pub hardware: Named,
     /// Under all layers of the jail, so that it may be ranked.
     pub ranked: bool,
+    /// Of how many configurations these are a preview: measured, and in all.
+    pub preview: Option<(u32, u64)>,
     /// The question.
     pub question: Named,
     /// The pair of objects.
@@ -68,6 +70,8 @@ pub struct Circumstances<'a> {
     pub machine: [&'a str; 2],
     /// Measured under all layers of the jail.
     pub ranked: bool,
+    /// What the results are a preview of.
+    pub preview: Option<&'a Preview>,
     /// The configurations.
     pub set: Option<&'a SetInfo>,
 }
@@ -82,6 +86,7 @@ impl Measured {
             finished_us: run.finished_us,
             hardware: Named { value: class.to_owned(), words: format!("{cpu} ({short})") },
             ranked: run.ranked,
+            preview: run.preview.map(|preview| (preview.n, preview.of)),
             question: keys::question(run.spec),
             scene: keys::scene(run.spec, run.names),
             distance: keys::distance(run.spec),
@@ -109,11 +114,13 @@ pub fn board(measured: Vec<Measured>, request: &BoardRequest) -> Result<Board> {
     Ok(Board { filters, results, rows, finding, chart })
 }
 
-/// Speed against accuracy of the algorithms of one run, each contract class with a frontier of its own.
+/// Speed against accuracy of the algorithms of one run, each contract class with a frontier of its own. Among themselves
+/// those of a preview compare as well as any.
 pub fn of_run(measured: &[Measured], accuracy: Accuracy) -> Chart {
     let mut rows: Vec<BoardRow> = Vec::new();
     for class in filter::classes(measured) {
-        let members: Vec<Measured> = measured.iter().filter(|m| m.result.class == class).cloned().collect();
+        let members = measured.iter().filter(|m| m.result.class == class);
+        let members: Vec<Measured> = members.map(|m| Measured { preview: None, ..m.clone() }).collect();
         let mut own = row::rows(&members);
         frontier::place(&mut own, accuracy);
         rows.append(&mut own);

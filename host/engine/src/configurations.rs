@@ -33,7 +33,7 @@ pub fn set_key(mesh_a: &str, mesh_b: &str, spec: &RunSpec) -> Result<String> {
 }
 
 fn key(Versions { sampling, oracle }: Versions, mesh_a: &str, mesh_b: &str, spec: &RunSpec) -> Result<String> {
-    let determines = serde_json::to_string(&(&spec.method, spec.separation()))
+    let determines = serde_json::to_string(&(spec.finding(), spec.separation()))
         .map_err(|e| EngineError::fault("Naming the method failed", e))?;
     Ok(sha256_hex(format!("{sampling}|{oracle}|{mesh_a}|{mesh_b}|{determines}").as_bytes()))
 }
@@ -57,7 +57,7 @@ pub fn make(
     gauge: &Gauge,
 ) -> Result<Option<ConfigurationSet>> {
     let mut set = ConfigurationSet {
-        method: spec.method.clone(),
+        method: spec.finding(),
         separation: spec.separation(),
         longest_side,
         placed: Vec::new(),
@@ -77,7 +77,7 @@ pub fn make(
         Found { placed: units.into_iter().flat_map(|unit| unit.placed).collect(), missed: 0 }
     } else {
         let separation = set.separation.unwrap_or(Separation::Relative { distance: 0.0 });
-        let plan = match Plan::unless_stopped(a, b, &spec.method, separation, &|| gauge.stop.load(Ordering::Relaxed)) {
+        let plan = match Plan::unless_stopped(a, b, &set.method, separation, &|| gauge.stop.load(Ordering::Relaxed)) {
             Ok(plan) => plan,
             Err(SamplingError::Stopped) => return Ok(None),
             Err(e) => return Err(EngineError::Invalid(format!("These configurations cannot be found: {e}."))),
@@ -158,6 +158,10 @@ mod tests {
         assert_eq!(asked("a", 0.0, 5), asked("a", 0.0, 5));
         let keys = HashSet::from([asked("a", 0.0, 5), asked("c", 0.0, 5), asked("a", 0.1, 5), asked("a", 0.0, 6)]);
         assert_eq!(keys.len(), 4);
+        // A quick look finds the beginning of what the whole finds, and a set of that size is the same set.
+        let quick = RunSpec { at_most: Some(5), ..spec(0.0, 900) };
+        assert_eq!(set_key("a", "b", &quick).unwrap(), asked("a", 0.0, 5));
+        assert_eq!(set_key("a", "b", &RunSpec { at_most: Some(5), ..spec(0.0, 4) }).unwrap(), asked("a", 0.0, 4));
         let versioned = |sampling, oracle| key(Versions { sampling, oracle }, "a", "b", &spec(0.0, 5)).unwrap();
         let keys =
             HashSet::from([versioned(1, 1), versioned(2, 1), versioned(1, 2), versioned(11, 1), versioned(1, 11)]);

@@ -107,6 +107,7 @@ async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
             (State::Failed, Some(e.to_string()))
         }
     };
+    let state = inner.run_row(id).await?.after(state);
     inner.store.end_run(id, State::Running, state, message.as_deref()).await?;
     inner.bell.tell(&inner.store, id, plain_event(state, 0)).await?;
     announce(inner).await

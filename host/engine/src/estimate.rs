@@ -26,11 +26,12 @@ pub async fn estimate(inner: &Inner, checked: &Checked) -> Result<Estimate> {
         Some(_) => 0.0,
         None => configurations as f64 * nearest(&inner.store.set_rates().await?, triangles, FIRST_CONFIGURATION),
     };
+    let measured = configurations.min(spec.at_most.map_or(u64::MAX, u64::from));
     let mut measuring_seconds = Vec::new();
     for contestant in &checked.contestants {
         let algorithm = contestant.info.id.clone();
         let rates = inner.store.result_rates(&algorithm, spec.query).await?;
-        let timed = configurations as f64 * f64::from(spec.passes) * nearest(&rates, triangles, FIRST_QUERY);
+        let timed = measured as f64 * f64::from(spec.passes) * nearest(&rates, triangles, FIRST_QUERY);
         let budget_limited = timed > spec.budget_seconds;
         let timed = timed.min(spec.budget_seconds);
         let counters = if contestant.info.counters { timed / f64::from(spec.passes) } else { 0.0 };

@@ -5,34 +5,37 @@
 //! that sees an equivalent instance of the objects and of every question ([`Presentation`]). All share one shuffled
 //! order; an algorithm whose budget ends measures a prefix of it. A trajectory keeps its own order: that each
 //! configuration is near the one before is what it is for.
+//!
+//! A run that asks for a precision takes the order piece by piece, all rounds of a piece before the next one, and looks
+//! after each whether the comparison is settled ([`ocb_core::sequential`]).
 
 mod contract;
 mod lane;
 mod order;
+mod preview;
 mod summary;
+mod turn;
 
-use std::ops::ControlFlow;
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use ocb_core::configuration::{ConfigurationSet, Method, Placed};
-use ocb_core::instance::{Instance, Presentation};
+use ocb_core::instance::Presentation;
 use ocb_core::mesh::Mesh;
 use ocb_core::numbers::Numbers;
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::query::{Query, Semantics};
-use ocb_sandbox::{Killer, Observation, Outcome, PassPlan, Policy, Session, Trial};
+use ocb_core::{sampling, sequential};
+use ocb_sandbox::{Killer, Outcome};
 
 use crate::machine::Machine;
-use crate::model::OutcomeInfo;
-use crate::registry::{Contestant, Registry, plugin_hash};
+use crate::model::{OutcomeInfo, Preview, RunSpec};
+use crate::registry::{Contestant, Registry};
 
 pub use lane::{Lane, Measured, precision};
 pub use summary::{Asked, environment, rank, summarise};
-
-/// How often a lane may report, so that pages live and nothing else suffers.
-const REPORT_EVERY: Duration = Duration::from_millis(200);
+use turn::Turn;
 
 /// Ends the measuring from another thread.
 #[derive(Clone, Default)]
@@ -93,6 +96,29 @@ pub struct Task<'a> {
     pub contestants: &'a [Arc<Contestant>],
     /// What all of them are compared with; it may be one of them.
     pub reference: Option<&'a Arc<Contestant>>,
+    /// Where to stop before all configurations are measured.
+    pub part: Part,
+}
+
+/// What is wanted of a run that need not measure everything.
+#[derive(Clone, Copy, Debug)]
+pub struct Part {
+    /// Stop when the comparison is settled, where differences below this share do not matter.
+    pub precision: Option<f64>,
+    /// Measure so many configurations at most.
+    pub at_most: usize,
+    /// Configurations of the whole run; the set may hold its beginning only.
+    pub of: u64,
+}
+
+impl Part {
+    /// What the request says of this set.
+    pub fn of(spec: &RunSpec, set: &ConfigurationSet) -> Self {
+        let found = set.placed.len() as u64;
+        let whole = if spec.finding() == spec.method { Ok(found) } else { sampling::count(&spec.method) };
+        let at_most = spec.at_most.map_or(usize::MAX, |at_most| at_most as usize);
+        Self { precision: spec.precision, at_most, of: whole.unwrap_or(found) }
+    }
 }
 
 /// News for whoever reports the progress.
@@ -106,6 +132,8 @@ pub enum News {
         /// Questions expected in all, as far as is known now.
         total: u64,
     },
+    /// The run has ended before all configurations were measured.
+    Preview(Preview),
     /// A lane will not change any more.
     Finished {
         /// Which contestant; their number stands for a reference that is none of them.
@@ -133,26 +161,48 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
     let all = task.contestants.iter().chain(apart);
     let mut lanes: Vec<Lane> = all.map(|c| Lane::new(c.clone(), &task.slack(c))).collect();
     let n = task.set.placed.len() as u32;
-    let base = if task.coherent() { (0..n).collect() } else { order::shuffled(n, task.seed) };
+    let base = if task.coherent() { (0..n).collect() } else { task.stratified() };
     let mut steady = true;
-    // Round `passes` is the untimed one, in which the counters are asked for.
-    for round in 0..=task.passes {
-        let counting = round == task.passes;
-        let shown = if counting { task.as_it_is() } else { task.instance(round) };
-        for (index, lane) in lanes.iter_mut().enumerate() {
-            let mine = index < task.contestants.len();
-            if lane.ended() || (counting && !(mine && lane.contestant.info.counters)) {
-                continue;
-            }
-            let turn = Turn { task, registry, machine, stop, news, index, round, shown: &shown };
-            if turn.play(lane, &base) > STEAL && steady && !stop.asked() {
-                lane.forget(round);
-                steady = turn.play(lane, &base) <= STEAL;
-            }
-            if stop.asked() {
-                return;
+    let (mut measured, mut looks) = (0, 0);
+    for end in task.looks() {
+        for round in 0..task.passes {
+            let process = looks * task.passes + round;
+            let shown = task.instance(process);
+            for (index, lane) in lanes.iter_mut().enumerate() {
+                let piece = measured..end;
+                let turn = Turn { task, registry, machine, stop, news, index, round, process, piece, shown: &shown };
+                let part = turn.part(lane);
+                if lane.ended() || part.is_empty() {
+                    continue;
+                }
+                if turn.play(lane, &base[part.clone()]) > STEAL && steady && !stop.asked() {
+                    lane.forget(round, &base[part]);
+                    steady = turn.play(lane, &base[turn.part(lane)]) <= STEAL;
+                }
+                if stop.asked() {
+                    return;
+                }
             }
         }
+        (measured, looks) = (end, looks + 1);
+        if task.part.precision.is_some() && preview::preview(task, &lanes, measured, looks).settled {
+            break;
+        }
+    }
+    let shown = task.as_it_is();
+    for (index, lane) in lanes.iter_mut().enumerate().take(task.contestants.len()) {
+        let (round, process, piece) = (task.passes, looks * task.passes, 0..lane.reach);
+        let turn = Turn { task, registry, machine, stop, news, index, round, process, piece, shown: &shown };
+        if !lane.ended() && lane.contestant.info.counters {
+            turn.play(lane, &base[..lane.reach]);
+        }
+        if stop.asked() {
+            return;
+        }
+        let _ = news.send(News::Progress { lane: index, done: lane.done, total: lane.done });
+    }
+    if (measured as u64) < task.part.of {
+        let _ = news.send(News::Preview(preview::preview(task, &lanes, measured, looks)));
     }
     for (lane, index) in lanes.into_iter().zip(0..) {
         // The receiver is gone only when nobody wants the run any more.
@@ -161,6 +211,16 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
 }
 
 impl Task<'_> {
+    /// After how many configurations it is looked whether the comparison is settled.
+    fn looks(&self) -> Vec<usize> {
+        let most = self.set.placed.len().min(self.part.at_most);
+        self.part.precision.map_or_else(|| vec![most], |_| sequential::looks(most))
+    }
+
+    fn stratified(&self) -> Vec<u32> {
+        order::stratified(&self.set.placed.iter().map(order::hardness).collect::<Vec<_>>(), self.seed)
+    }
+
     /// Two right distances may lie so far apart: both may miss the certified interval by tau.
     fn slack(&self, contestant: &Contestant) -> Vec<f64> {
         let (pair, unit) = (Pair::new(self.a, self.b), precision(&contestant.info).unit_roundoff());
@@ -176,183 +236,15 @@ impl Task<'_> {
         Presentation::original(self.mesh_a, self.second())
     }
 
-    /// The same for all algorithms of a round.
-    fn instance(&self, round: u32) -> Presentation {
+    /// The same for all algorithms in their processes of this number.
+    fn instance(&self, process: u32) -> Presentation {
         let configurations = self.set.placed.iter().map(|placed| &placed.configuration);
-        let seed = self.round_seed(round);
+        let seed = self.process_seed(process);
         Presentation::drawn(self.mesh_a, self.second(), configurations, self.coherent(), seed)
     }
 
-    fn round_seed(&self, round: u32) -> u64 {
-        Numbers::new(self.seed ^ (u64::from(round) << 40)).bits()
-    }
-}
-
-/// One algorithm's pass in a fresh process.
-struct Turn<'a> {
-    task: &'a Task<'a>,
-    registry: &'a Registry,
-    machine: &'a Machine,
-    stop: &'a Stop,
-    news: &'a Sender<News>,
-    index: usize,
-    round: u32,
-    shown: &'a Presentation,
-}
-
-impl Turn<'_> {
-    /// The share of the time that was taken from the runner's CPU.
-    fn play(&self, lane: &mut Lane, base: &[u32]) -> f64 {
-        let prefix = &base[..lane.reach.unwrap_or(base.len())];
-        let order = if self.round == 0 || self.task.coherent() {
-            prefix.to_vec()
-        } else {
-            order::reshuffled(prefix, self.task.seed, self.round)
-        };
-        self.report(lane);
-        // From before the start, so that a long build can be stopped as well.
-        let killer = Killer::default();
-        self.stop.watch(Some(killer.clone()));
-        let mut session = match self.start(lane, &killer) {
-            Ok(session) => session,
-            Err(outcome) => {
-                lane.end(outcome);
-                return 0.0;
-            }
-        };
-        lane.begin_turn(&session);
-        let started = Instant::now();
-        let (reached, steal) = if self.counting() {
-            (self.count(&mut session, lane, &order), 0.0)
-        } else {
-            self.time(&mut session, lane, &order)
-        };
-        lane.spent += started.elapsed();
-        self.stop.watch(None);
-        let ending = session.finish();
-        if self.round == 0 {
-            lane.reach = Some(reached);
-        }
-        lane.end_turn(&ending);
-        if ending.outcome != Outcome::Completed {
-            lane.end(outcome_info(&ending.outcome));
-        }
-        let placed = &self.task.set.placed;
-        lane.judge(&Pair::new(self.task.a, self.task.b), placed, self.task.query, self.task.semantics);
-        self.report(lane);
-        steal
-    }
-
-    /// A timed pass: how far it came, and the share of stolen time.
-    fn time(&self, session: &mut Session, lane: &mut Lane, order: &[u32]) -> (usize, f64) {
-        let placed = &self.task.set.placed;
-        let plan = PassPlan {
-            query: self.task.query,
-            order,
-            coherent: self.task.coherent(),
-            seed: self.task.round_seed(self.round).rotate_left(1),
-            allowance: self.allowance(lane),
-        };
-        let present = |configuration: u32, instance: Instance| {
-            self.shown.present(&placed[configuration as usize].configuration, configuration, instance)
-        };
-        let mut reported = Instant::now();
-        let mut each = |seen: Observation| {
-            let answer = self.shown.translate(seen.answer, seen.configuration, seen.instance);
-            lane.observe(self.round, Observation { answer, ..seen });
-            self.go_on(lane, &mut reported)
-        };
-        // What it died of is in the session's ending.
-        let (facts, _) = session.pass(&plan, &present, &mut each);
-        let found = (facts.reached, facts.steal.unwrap_or(0.0));
-        lane.end_pass(facts);
-        found
-    }
-
-    /// The untimed pass with counters: how far it came.
-    fn count(&self, session: &mut Session, lane: &mut Lane, order: &[u32]) -> usize {
-        let (begun, mut reported, allowed) = (Instant::now(), Instant::now(), self.allowance(lane));
-        for (reached, &i) in order.iter().enumerate() {
-            let configuration = &self.task.set.placed[i as usize].configuration;
-            match session.count(self.task.query, configuration) {
-                Ok((answer, counters)) => lane.count(i, answer, counters),
-                Err(_) => return reached,
-            }
-            if self.go_on(lane, &mut reported).is_break() || begun.elapsed() >= allowed {
-                return reached + 1;
-            }
-        }
-        order.len()
-    }
-
-    /// Reports now and then, and looks whether it shall stop.
-    fn go_on(&self, lane: &Lane, reported: &mut Instant) -> ControlFlow<()> {
-        if reported.elapsed() >= REPORT_EVERY {
-            *reported = Instant::now();
-            self.report(lane);
-            if self.stop.asked() {
-                return ControlFlow::Break(());
-            }
-        }
-        ControlFlow::Continue(())
-    }
-
-    fn start(&self, lane: &Lane, killer: &Killer) -> Result<Session, OutcomeInfo> {
-        let contestant = &lane.contestant;
-        let ours = |message: String| OutcomeInfo { name: "SandboxFault".into(), message, ours: true };
-        match plugin_hash(&contestant.file) {
-            Ok(hash) if hash == contestant.info.plugin_sha256 => {}
-            Ok(_) => {
-                return Err(ours("The plugin file was replaced after the service had read it; start it again.".into()));
-            }
-            Err(e) => return Err(ours(e.to_string())),
-        }
-        let policy = Policy {
-            runner_cpu: Some(self.machine.measuring_cpu()),
-            supervisor_cpu: Some(self.machine.supervisor_cpu()),
-            threads: contestant.threads,
-            // A single question may take a whole turn (brute force on large objects), and no more.
-            query_seconds: self.task.budget.as_secs_f64().max(Policy::default().query_seconds),
-            // The turn ends by its allowance; this only catches a runner that never comes back.
-            trial_seconds: 4.0 * self.task.budget.as_secs_f64() + Policy::default().trial_seconds,
-            ..Policy::default()
-        };
-        let trial = Trial {
-            plugin: &contestant.file,
-            algorithm: &contestant.algorithm,
-            mesh_a: self.shown.first(),
-            mesh_b: self.shown.second(),
-            parameters: &contestant.settings,
-            semantics: self.task.semantics,
-        };
-        let launcher = self.registry.launcher(contestant, policy);
-        launcher.start_with(&trial, killer).map_err(|ending| outcome_info(&ending.outcome))
-    }
-
-    fn counting(&self) -> bool {
-        self.round == self.task.passes
-    }
-
-    /// The first pass decides how far the algorithm gets; later ones may use what it left. Counting makes an algorithm
-    /// slower and is not timed, so it gets the share of two passes, and what it does not reach has no counters.
-    fn allowance(&self, lane: &Lane) -> Duration {
-        let share = self.task.budget / self.task.passes;
-        match self.round {
-            0 => share,
-            _ if self.counting() => share * 2,
-            _ => self.task.budget.saturating_sub(lane.spent).max(share),
-        }
-    }
-
-    fn report(&self, lane: &Lane) {
-        // Nobody asked for the reference; it has no lane of its own on any page.
-        if self.index >= self.task.contestants.len() {
-            return;
-        }
-        let rounds = u64::from(self.task.passes) + u64::from(lane.contestant.info.counters);
-        let reach = lane.reach.unwrap_or(self.task.set.placed.len()) as u64;
-        let total = (reach * rounds).max(lane.done);
-        let _ = self.news.send(News::Progress { lane: self.index, done: lane.done, total });
+    fn process_seed(&self, process: u32) -> u64 {
+        Numbers::new(self.seed ^ (u64::from(process) << 40)).bits()
     }
 }
 

@@ -10,6 +10,7 @@ mod environment;
 mod heatmap;
 mod people;
 mod plugin;
+mod preview;
 mod selecting;
 mod stability;
 mod submission;
@@ -17,9 +18,10 @@ mod timing;
 mod truth;
 
 use ocb_core::comparison::Interval;
-use ocb_core::configuration::{Class, Method, Separation};
+use ocb_core::configuration::{Class, Method, Sampling, Separation};
 use ocb_core::query::{Query, Semantics};
 use ocb_core::resolution::Resolution;
+use ocb_core::sampling;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -34,6 +36,7 @@ pub use people::{
     TokenRequest, Wish,
 };
 pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport, Repro};
+pub use preview::{Beside, Preview};
 pub use selecting::{Meeting, Selected, SelectedOf, WorstBy, WorstCase, WorstRequest};
 pub use stability::{
     CellState, FailingCase, FailureInfo, FailureResult, FamilyInfo, FamilyResult, RelationInfo, RelationResult,
@@ -110,9 +113,36 @@ pub struct RunSpec {
     /// run. Drawn for every run when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
+    /// Stop as soon as the algorithms are told apart, where differences below this share do not matter (0.05: 5 %). All
+    /// configurations are measured when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub precision: Option<f64>,
+    /// A quick look: measure at most so many configurations, evenly spread over all of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_most: Option<u32>,
 }
 
 impl RunSpec {
+    /// May it end before all configurations are measured?
+    pub fn is_partial(&self) -> bool {
+        self.precision.is_some() || self.at_most.is_some()
+    }
+
+    /// The method with which configurations are found. Every prefix of a low-discrepancy sequence is evenly spread, so of
+    /// one a quick look needs the beginning only; of the others it needs all to choose from.
+    pub fn finding(&self) -> Method {
+        let few = self.at_most.map(u64::from).filter(|few| sampling::count(&self.method).is_ok_and(|all| *few < all));
+        match (&self.method, few) {
+            (Method::Sphere { sampling: Sampling::Count { .. } | Sampling::Steps { .. }, seed }, Some(few)) => {
+                Method::Sphere { sampling: Sampling::Count { count: few as u32 }, seed: *seed }
+            }
+            (Method::Random { hit_share, seed, .. }, Some(few)) => {
+                Method::Random { count: few as u32, hit_share: *hit_share, seed: *seed }
+            }
+            (all, _) => all.clone(),
+        }
+    }
+
     /// How far apart or how deep the configurations are; `None` where the method does not ask.
     pub fn separation(&self) -> Option<Separation> {
         match self.method {
@@ -201,6 +231,9 @@ pub struct RunInfo {
     pub stages: Vec<Stage>,
     /// Summary per algorithm, as far as there is one.
     pub results: Vec<AlgorithmResult>,
+    /// What the results are a preview of; absent when all configurations were measured.
+    #[serde(default)]
+    pub preview: Option<Preview>,
     /// The configuration set, once known.
     pub set: Option<SetInfo>,
     /// The machine, once measured.

@@ -16,6 +16,8 @@ use crate::{EngineError, Result};
 
 /// Timed passes at most: more shows nothing new and only takes the machine from others.
 const MAX_PASSES: u32 = 99;
+/// With fewer processes hardly any comparison can be settled.
+const MIN_PASSES: u32 = 3;
 /// Measuring time per algorithm at most: a day.
 const MAX_BUDGET_SECONDS: f64 = 86_400.0;
 
@@ -62,6 +64,7 @@ pub async fn check(
     }
     let configurations = set_size(spec, store, blobs).await?;
     let contestants = contestants(spec, registry, viewer)?;
+    check_partial(spec, contestants.len())?;
     let object_a = objects.info(&spec.object_a).await?;
     let object_b = match &spec.object_b {
         Some(id) => objects.info(id).await?,
@@ -77,6 +80,30 @@ pub async fn check(
     Ok(Checked { spec, object_a, object_b, contestants, configurations })
 }
 
+/// Can a part of the configurations tell what is asked?
+fn check_partial(spec: &RunSpec, contestants: usize) -> Result<()> {
+    let why_not = match (spec.precision, spec.at_most) {
+        (Some(precision), _) if !(precision > 0.0 && precision < 1.0) => {
+            format!("The precision must be more than 0 and less than 1 (0.05 is 5 %), not {precision}.")
+        }
+        (_, Some(0)) => "A quick look needs at least 1 configuration.".into(),
+        (None, None) => return Ok(()),
+        _ if matches!(spec.method, Method::Trajectory { .. }) => {
+            "A trajectory is measured as a whole, because its order is part of what is measured; leave out the precision and \
+             the quick look."
+                .into()
+        }
+        (Some(_), _) if contestants < 2 => {
+            "A precision is that of a comparison; choose at least two algorithms, or leave it out.".into()
+        }
+        (Some(_), _) if spec.passes < MIN_PASSES => format!(
+            "How precise a comparison is shows in several passes only; ask for at least {MIN_PASSES}, or leave out the precision."
+        ),
+        _ => return Ok(()),
+    };
+    Err(EngineError::Invalid(why_not))
+}
+
 /// Only a closed surface has an inside.
 fn check_solid(objects: &[&ObjectInfo]) -> Result<()> {
     match objects.iter().find(|object| !object.closed) {
@@ -89,7 +116,7 @@ fn check_solid(objects: &[&ObjectInfo]) -> Result<()> {
     }
 }
 
-/// Checks what a request says about its configurations; their number, before any is missed.
+/// Checks what a request says about its configurations; the number of those to be found, before any is missed.
 pub async fn set_size(spec: &RunSpec, store: &Store, blobs: &Blobs) -> Result<u64> {
     let invalid = |sentence: &str| Err(EngineError::Invalid(sentence.into()));
     let RunSpec { relative_distance, step, ladder, .. } = *spec;
@@ -113,6 +140,7 @@ pub async fn set_size(spec: &RunSpec, store: &Store, blobs: &Blobs) -> Result<u6
         return Ok(configurations::read_file(&blobs.get(sha256).await?)?.len() as u64);
     }
     sampling::count(&spec.method)
+        .and_then(|_| sampling::count(&spec.finding()))
         .map_err(|e| EngineError::Invalid(format!("These configurations are not possible: {e}.")))
 }
 

@@ -92,6 +92,7 @@ fn migrations() -> Migrator {
         one(4, "plugins", include_str!("../migrations/0004_plugins.sql")),
         one(5, "stability", include_str!("../migrations/0005_stability.sql")),
         one(6, "advice", include_str!("../migrations/0006_advice.sql")),
+        one(7, "previews", include_str!("../migrations/0007_previews.sql")),
     ])
 }
 

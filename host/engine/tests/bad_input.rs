@@ -74,6 +74,7 @@ async fn no_bad_request_is_queued() {
     let good = common::spec("proximity", 10, 0);
     let count = |count| Method::Sphere { sampling: Sampling::Count { count }, seed: 0 };
     let steps = |by| Method::Sphere { sampling: Sampling::Steps { rotate: by, move_by: by }, seed: 0 };
+    let trajectory = Method::Trajectory { center_distance: 1.0, count: 10 };
     let cases: Vec<(RunSpec, &str)> = vec![
         (RunSpec { relative_distance: -0.1, ..good.clone() }, "relative distance"),
         (RunSpec { relative_distance: f64::NAN, ..good.clone() }, "relative distance"),
@@ -87,6 +88,15 @@ async fn no_bad_request_is_queued() {
         (RunSpec { object_a: "stock:castle@4000000000".into(), ..good.clone() }, "triangles"),
         (RunSpec { passes: 0, ..good.clone() }, "passes"),
         (RunSpec { budget_seconds: f64::INFINITY, ..good.clone() }, "seconds"),
+        (RunSpec { precision: Some(1.0), ..good.clone() }, "less than 1"),
+        (RunSpec { precision: Some(f64::NAN), ..good.clone() }, "less than 1"),
+        (RunSpec { precision: Some(0.05), passes: 2, ..good.clone() }, "at least 3"),
+        (
+            RunSpec { precision: Some(0.05), passes: 3, algorithms: vec!["parry".into()], ..good.clone() },
+            "two algorithms",
+        ),
+        (RunSpec { at_most: Some(0), ..good.clone() }, "at least 1"),
+        (RunSpec { at_most: Some(9), method: trajectory, ..good.clone() }, "trajectory is measured as a whole"),
         (RunSpec { method: Method::File { sha256: "0".repeat(64) }, ..good.clone() }, "file of configurations"),
     ];
     for (spec, must_say) in cases {

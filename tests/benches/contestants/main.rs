@@ -134,6 +134,8 @@ async fn measure(
         passes: 5,
         budget_seconds: wish.seconds,
         seed: None,
+        precision: None,
+        at_most: None,
     };
     let run = engine.submit(spec, None).await?;
     let mut events = Box::pin(engine.follow(&run.id, 0).await?);

@@ -11,6 +11,7 @@ async function startLong(v) {
   await v.at('count').fill('20000')
   await until('an estimate', async () => (await v.value('estimate-configurations')) === 20000)
   await v.at('query-pq').click()
+  await v.at('effort-whole').click()
   await v.at('start').click()
   return runId(v.page)
 }

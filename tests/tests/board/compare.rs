@@ -29,6 +29,7 @@ fn measured(algorithm: &str, mean_ns: f64, n: u32, verdicts: &[(&str, u32)]) -> 
         finished_us: 1_000,
         hardware: named("this"),
         ranked: true,
+        preview: None,
         question: named("collision_first"),
         scene: named("a~a"),
         distance: named("0"),
@@ -89,6 +90,21 @@ fn places_go_by_speed_with_ties_and_only_what_is_right_has_one() {
         board.finding,
         "Fastest with no wrong answer seen: box-tree, 1,000,000 questions per second, 1.0 times the next \
          (box-tree:leaf_size=8); the 95 % intervals overlap, so the order is not decided."
+    );
+}
+
+#[test]
+fn a_preview_has_no_place_until_it_is_refined() {
+    let mut measured = five();
+    measured[0].preview = Some((500, 20_000));
+    let board = ask(measured, &json!({}));
+    let reason = row(&board, "box-tree").reason.as_deref().expect("a reason");
+    assert!(reason.starts_with("A preview: 500 of 20000 configurations"), "{reason}");
+    assert_eq!((row(&board, "box-tree").rank, row(&board, "box-tree:leaf_size=8").rank), (None, Some(1)));
+    assert!(board.finding.contains("no wrong answer seen: box-tree:leaf_size=8"), "{}", board.finding);
+    let marks = board.chart.series.iter().flat_map(|series| &series.points);
+    assert!(
+        marks.clone().count() > 0 && marks.filter_map(|point| point.name.as_deref()).all(|name| name != "box-tree")
     );
 }
 

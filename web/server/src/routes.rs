@@ -63,6 +63,7 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(runs::list_runs, runs::start_run))
         .routes(routes!(runs::show_run))
         .routes(routes!(runs::cancel_run))
+        .routes(routes!(runs::refine_run))
         .routes(routes!(events::follow_run))
         .routes(routes!(heatmaps::show_heatmap))
         .routes(routes!(heatmaps::show_vertex))

@@ -14,6 +14,9 @@ use crate::open::read_bounded;
 /// The most that a file of configurations may have: ten million matrices of 16 f64.
 pub const MAX_CONFIGURATION_BYTES: usize = MAX_CONFIGURATIONS as usize * 128;
 
+/// Configurations of `--quick`.
+const QUICK_LOOK: u32 = 5000;
+
 /// What the arguments name, read and checked.
 pub struct Inputs {
     a: Object,
@@ -89,6 +92,8 @@ fn spec(args: &BenchArgs, query: Query, method: Method, object_a: String, object
         passes: args.passes,
         budget_seconds: args.budget,
         seed: args.run_seed,
+        precision: args.precision,
+        at_most: args.quick.then_some(QUICK_LOOK),
     }
 }
 

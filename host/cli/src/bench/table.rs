@@ -5,7 +5,7 @@ use ocb_core::record::Verdict;
 use ocb_core::resolution::{Resolution, Threshold};
 use ocb_engine::Profile;
 use ocb_engine::model::{
-    Agreement, AlgorithmResult, ContactQuality, ContractClass, Estimated, RunInfo, RunSpec, SetInfo, Timing,
+    Agreement, AlgorithmResult, ContactQuality, ContractClass, Estimated, Preview, RunInfo, RunSpec, SetInfo, Timing,
 };
 
 use crate::{output, plugin, run, units};
@@ -31,6 +31,7 @@ const HEADINGS: [&str; 14] = [
 pub fn summary(run: &RunInfo) -> String {
     let mut text = vec![title(run)];
     text.extend(run.set.as_ref().map(set));
+    text.extend(run.preview.as_ref().map(|preview| self::preview(preview, &run.id)));
     let rows: Vec<Vec<String>> = run.results.iter().map(row).collect();
     if !rows.is_empty() {
         text.push(output::table(&HEADINGS, rows, &[0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]));
@@ -62,6 +63,12 @@ pub fn summary(run: &RunInfo) -> String {
         }
     }
     text.join("\n")
+}
+
+/// What a part of the configurations says of all.
+fn preview(preview: &Preview, run: &str) -> String {
+    let Preview { n, of, finding, more, .. } = preview;
+    format!("PREVIEW of {n} of {of} configurations. {finding} {more} Measure them with `ocb run refine {run}`.")
 }
 
 /// Who is compared with whom.

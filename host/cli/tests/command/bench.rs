@@ -98,6 +98,31 @@ fn two_files_and_a_proximity_query() {
     assert_eq!(objects.as_array().expect("a list").iter().filter(|object| object["stock"] == false).count(), 2);
 }
 
+#[test]
+fn a_comparison_that_is_settled_is_a_preview_that_can_be_refined() {
+    let desk = Desk::new();
+    let placing = ["bench", "stock:torus-knot@600", "--method", "random", "--count", "1200", "--hit-share", "0.5"];
+    let bench = |precision| {
+        let rest = ["--precision", precision, "--algorithm", "box-tree,box-tree:leaf_size=32"];
+        [&placing[..], &rest[..]].concat()
+    };
+    for wrong in ["no", "5 percent", "0", "-5%", "100%"] {
+        let sentence = desk.refused(&bench(wrong));
+        assert!(sentence.contains("0.05"), "{wrong}: {sentence}");
+    }
+    let ended = desk.run(&bench("60%"));
+    assert_eq!(ended.code, 0, "{ended:?}");
+    for words in ["PREVIEW of 500 of 1200 configurations. ", "box-tree", "1 in 166", "`ocb run refine "] {
+        assert!(ended.stdout.contains(words), "{words}: {}", ended.stdout);
+    }
+    let preview = desk.json(&["run", "show", "latest"]);
+    assert_eq!(preview["preview"]["settled"], true);
+    let whole = desk.json(&["run", "refine", "latest"]);
+    assert_eq!((&whole["id"], &whole["preview"]), (&preview["id"], &serde_json::Value::Null));
+    assert_eq!(whole["results"][0]["n"], 1200);
+    assert!(desk.refused(&["run", "refine", "latest"]).contains("preview"));
+}
+
 /// Ctrl-C cancels the run, and nothing goes on running behind it.
 #[test]
 fn an_interrupt_ends_everything() {

@@ -113,6 +113,9 @@ fn why_not(best: &[&Measured], of: u32) -> Option<String> {
     if best.iter().any(|m| !m.ranked) {
         return Some("Measured in the development profile, without every layer of the jail.".into());
     }
+    if let Some((n, all)) = best.iter().find_map(|m| m.preview) {
+        return Some(format!("A preview: {n} of {all} configurations were measured. Refine the run to compare it."));
+    }
     let silent =
         |r: &AlgorithmResult| r.verdicts.iter().filter(|v| v.verdict.is_silent()).map(|v| v.count).sum::<u32>();
     let silent: u32 = best.iter().map(|m| silent(&m.result)).sum();

@@ -61,6 +61,7 @@ impl Inner {
             names: [&row.object_a_name, &row.object_b_name],
             machine: [&machine.cpu, &machine.hardware_class],
             ranked: machine.profile == Profile::Production.as_str(),
+            preview: row.preview.as_ref(),
             set: row.set.as_ref(),
         };
         let results = self.store.results(&row.id).await?.into_iter();

@@ -40,6 +40,8 @@ impl Engine {
             passes: 3,
             budget_seconds: BUDGET_SECONDS,
             seed: None,
+            precision: None,
+            at_most: None,
         };
         self.queue(spec, None, BACKGROUND, true).await?;
         Ok(())

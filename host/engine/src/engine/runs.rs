@@ -42,6 +42,7 @@ impl Engine {
             set: None,
             set_blob: None,
             environment: None,
+            preview: None,
             secret: Some(draw::secret()),
             expected_seconds: expected.total_seconds,
             created_us: now_us(),
@@ -52,6 +53,31 @@ impl Engine {
         dispatcher::announce(&self.inner).await?;
         self.inner.wake.notify_one();
         self.run(&row.id, owner).await
+    }
+
+    /// Queues a preview's run for all of its configurations. It stays the same run; its numbers are a preview's until those
+    /// of the whole are there.
+    pub async fn refine(&self, id: &str, caller: Option<&str>) -> Result<RunInfo> {
+        let row = self.inner.run_row(id).await?;
+        if caller.is_none() || row.owner.as_deref() != caller {
+            return Err(EngineError::Forbidden("Only who asked for this run may refine it.".into()));
+        }
+        let nothing =
+            || EngineError::Busy("Only a run that has ended as a preview can be refined; this one has not.".into());
+        if row.preview.is_none() {
+            return Err(nothing());
+        }
+        let whole = RunSpec { precision: None, at_most: None, ..row.spec.clone() };
+        let checked = self.check(&whole, caller).await?;
+        let expected_seconds = estimate::estimate(&self.inner, &checked).await?.total_seconds;
+        // The old secret is known by now.
+        let row = RunRow { spec: checked.spec, secret: Some(draw::secret()), expected_seconds, ..row };
+        if !self.inner.store.queue_again(&row, &fresh_stages(&row.spec.algorithms)).await? {
+            return Err(nothing());
+        }
+        dispatcher::announce(&self.inner).await?;
+        self.inner.wake.notify_one();
+        self.run(id, caller).await
     }
 
     /// One run.
@@ -91,8 +117,9 @@ impl Engine {
         }
         let asked = Instant::now();
         loop {
-            if self.inner.store.end_run(id, State::Queued, State::Cancelled, None).await? {
-                self.inner.bell.tell(&self.inner.store, id, plain_event(State::Cancelled, 0)).await?;
+            let ended = row.after(State::Cancelled);
+            if self.inner.store.end_run(id, State::Queued, ended, None).await? {
+                self.inner.bell.tell(&self.inner.store, id, plain_event(ended, 0)).await?;
                 dispatcher::announce(&self.inner).await?;
                 break;
             }
@@ -128,6 +155,7 @@ impl Engine {
             message: row.message,
             set: row.set,
             environment: row.environment,
+            preview: row.preview,
             commitment: row.secret.as_deref().filter(|_| row.spec.seed.is_none()).map(draw::commitment),
             attempts: row.attempts,
             created_us: row.created_us,

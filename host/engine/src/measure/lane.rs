@@ -21,8 +21,10 @@ use crate::registry::Contestant;
 pub struct Lane {
     /// The algorithm.
     pub contestant: Arc<Contestant>,
-    /// How far into the shared order it gets; known after the first pass.
-    pub reach: Option<usize>,
+    /// How far into the shared order it came.
+    pub reach: usize,
+    /// The budget let it come no further.
+    pub cut: bool,
     /// Questions answered.
     pub done: u64,
     /// Wall time of its timed passes.
@@ -104,7 +106,8 @@ impl Lane {
     pub fn new(contestant: Arc<Contestant>, slack: &[f64]) -> Self {
         Self {
             contestant,
-            reach: None,
+            reach: 0,
+            cut: false,
             done: 0,
             spent: Duration::ZERO,
             cells: slack.iter().map(|&slack| Cell { slack, ..Cell::default() }).collect(),
@@ -156,10 +159,12 @@ impl Lane {
         self.passes.push(facts);
     }
 
-    /// The times of this round do not count: the machine was taken away from it. Its answers do.
-    pub fn forget(&mut self, round: u32) {
+    /// The times of the last pass, over these configurations, do not count: the machine was taken away from it. Its answers
+    /// do.
+    pub fn forget(&mut self, round: u32, configurations: &[u32]) {
         self.passes.pop();
-        for cell in &mut self.cells {
+        for i in configurations {
+            let cell = &mut self.cells[*i as usize];
             let before = cell.times.len();
             cell.times.retain(|(of, _)| *of != round);
             // At most one time of a round is in a cell.
@@ -196,6 +201,15 @@ impl Lane {
         }
     }
 
+    /// Its official times so far, and the answers that stand for its configurations; nothing of an algorithm that can have
+    /// no place, because it died, was wrong or did not answer.
+    pub fn fair(&self) -> Option<(Vec<Vec<(u32, f64)>>, impl Iterator<Item = &Answer>)> {
+        let judged = || self.cells.iter().filter_map(|cell| cell.judged.as_ref());
+        let fair = |(_, judged): &(Answer, Judged)| !judged.verdict.is_wrong() && !judged.verdict.is_silent();
+        let times = || self.cells.iter().map(|cell| cell.times.clone()).collect();
+        (!self.ended() && judged().all(fair)).then(|| (times(), judged().map(|(answer, _)| answer)))
+    }
+
     /// The medians over the passes. Times that do not fit together are not believed, and that is its outcome.
     pub fn into_measured(mut self) -> Measured {
         if let (None, Some(finding)) = (&self.outcome, integrity::violated(&self.passes)) {
@@ -225,7 +239,7 @@ impl Lane {
             }
         }
         Measured {
-            budget_limited: self.outcome.is_none() && records.len() < of,
+            budget_limited: self.outcome.is_none() && self.cut,
             contestant: self.contestant,
             records,
             of,

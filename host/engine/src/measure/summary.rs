@@ -58,7 +58,7 @@ pub fn summarise(measured: &Measured, asked: Asked, compared: Option<Comparison>
         budget_limited: measured.budget_limited,
         time: compared.map(|compared| time_summary(measured, compared.mean_ns.into())),
         ratio: compared.and_then(|compared| compared.ratio).map(Estimated::from),
-        class: Some(contract(measured, query, coherent)),
+        class: Some(contract(&measured.contestant, records.iter().map(|r| &r.answer), query, coherent)),
         rank: None,
         timing: Some(timing(&measured.passes)),
         verdicts: verdicts(measured),

@@ -4,7 +4,7 @@ use sqlx::Row;
 use sqlx::any::AnyRow;
 
 use super::{Store, from_json, now_us, to_json};
-use crate::model::{Environment, RunEvent, RunSpec, SetInfo, Stage, State};
+use crate::model::{Environment, Preview, RunEvent, RunSpec, SetInfo, Stage, State};
 use crate::{EngineError, Result};
 
 /// One row of the table of runs.
@@ -38,6 +38,8 @@ pub struct RunRow {
     pub set_blob: Option<String>,
     /// The machine, once measured.
     pub environment: Option<Environment>,
+    /// What its results are a preview of; absent when all configurations were measured.
+    pub preview: Option<Preview>,
     /// What its seed is drawn from; absent in runs of older versions.
     pub secret: Option<String>,
     /// What it was expected to take when it was asked for.
@@ -48,12 +50,27 @@ pub struct RunRow {
     pub finished_us: Option<i64>,
 }
 
+impl RunRow {
+    /// A preview of which all configurations are to be measured now.
+    pub fn is_refined(&self) -> bool {
+        self.preview.is_some() && !self.spec.is_partial()
+    }
+
+    /// What a run that ended so is from then on: a preview stays one when no more could be measured.
+    pub fn after(&self, ended: State) -> State {
+        match ended {
+            State::Failed | State::Cancelled if self.is_refined() => State::Done,
+            other => other,
+        }
+    }
+}
+
 /// All columns of [`RunRow`], in any order: they are read by name.
 macro_rules! select_runs {
     ($rest:literal) => {
         concat!(
             "SELECT id, owner, featured, private, priority, state, attempts, message, spec, object_a_name, object_b_name, ",
-            "set_info, set_blob, environment, secret, expected_seconds, created_us, finished_us FROM runs ",
+            "set_info, set_blob, environment, preview, secret, expected_seconds, created_us, finished_us FROM runs ",
             $rest
         )
     };
@@ -92,6 +109,36 @@ impl Store {
         }
         transaction.commit().await?;
         Ok(())
+    }
+
+    /// Queues a run that has ended again, with another request, another secret and a log that begins anew. Its results
+    /// stay until others replace them. False when it has not ended.
+    pub async fn queue_again(&self, run: &RunRow, stages: &[Stage]) -> Result<bool> {
+        let mut transaction = self.pool.begin().await?;
+        let queued = sqlx::query(
+            "UPDATE runs SET state = 'queued', attempts = 0, message = NULL, spec = $1, secret = $2, \
+             expected_seconds = $3, finished_us = NULL WHERE id = $4 AND state = 'done'",
+        )
+        .bind(to_json(&run.spec)?)
+        .bind(run.secret.as_deref())
+        .bind(run.expected_seconds)
+        .bind(&run.id)
+        .execute(&mut *transaction)
+        .await?;
+        if queued.rows_affected() == 0 {
+            return Ok(false);
+        }
+        sqlx::query("DELETE FROM run_events WHERE run_id = $1").bind(&run.id).execute(&mut *transaction).await?;
+        for (position, stage) in stages.iter().enumerate() {
+            sqlx::query("UPDATE run_stages SET stage = $1 WHERE run_id = $2 AND position = $3")
+                .bind(to_json(stage)?)
+                .bind(&run.id)
+                .bind(position as i64)
+                .execute(&mut *transaction)
+                .await?;
+        }
+        transaction.commit().await?;
+        Ok(true)
     }
 
     /// One run.
@@ -176,6 +223,16 @@ impl Store {
         Ok(())
     }
 
+    /// Notes what the run's results are a preview of, if so.
+    pub async fn preview_of_run(&self, id: &str, preview: Option<&Preview>) -> Result<()> {
+        sqlx::query("UPDATE runs SET preview = $1 WHERE id = $2")
+            .bind(preview.map(to_json).transpose()?)
+            .bind(id)
+            .execute(&self.pool)
+            .await?;
+        Ok(())
+    }
+
     /// The run's lanes in order.
     pub async fn stages(&self, id: &str) -> Result<Vec<Stage>> {
         let rows: Vec<String> = sqlx::query_scalar("SELECT stage FROM run_stages WHERE run_id = $1 ORDER BY position")
@@ -225,6 +282,7 @@ impl Store {
 fn read_run(row: &AnyRow) -> Result<RunRow> {
     let set: Option<String> = row.try_get("set_info")?;
     let environment: Option<String> = row.try_get("environment")?;
+    let preview: Option<String> = row.try_get("preview")?;
     Ok(RunRow {
         id: row.try_get("id")?,
         owner: row.try_get("owner")?,
@@ -240,6 +298,7 @@ fn read_run(row: &AnyRow) -> Result<RunRow> {
         set: set.map(|text| from_json(&text)).transpose()?,
         set_blob: row.try_get("set_blob")?,
         environment: environment.map(|text| from_json(&text)).transpose()?,
+        preview: preview.map(|text| from_json(&text)).transpose()?,
         secret: row.try_get("secret")?,
         expected_seconds: row.try_get("expected_seconds")?,
         created_us: row.try_get("created_us")?,

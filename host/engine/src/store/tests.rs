@@ -124,6 +124,7 @@ fn run(id: &str, owner: Option<&str>, priority: i64, created_us: i64) -> RunRow 
         set: None,
         set_blob: None,
         environment: None,
+        preview: None,
         secret: Some("s".into()),
         expected_seconds: 1.5,
         created_us,

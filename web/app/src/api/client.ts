@@ -44,6 +44,10 @@ export const getRun = (id: string): Promise<RunInfo> => answer(http.GET('/api/v1
 export const cancelRun = (id: string): Promise<RunInfo> =>
   answer(http.POST('/api/v1/runs/{id}/cancel', { params: { path: { id } } }))
 
+/** Asks for all configurations of a run that measured a part. */
+export const refineRun = (id: string): Promise<RunInfo> =>
+  answer(http.POST('/api/v1/runs/{id}/refine', { params: { path: { id } } }))
+
 export const getEcdf = (id: string, algorithm: string): Promise<Ecdf> =>
   answer(http.GET('/api/v1/runs/{id}/ecdf', { params: { path: { id }, query: { algorithm } } }))
 

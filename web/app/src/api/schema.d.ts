@@ -787,6 +787,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{id}/refine": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Queues a run that has ended as a preview for all of its configurations.
+         * @description Its numbers stay until those of the whole are there.
+         */
+        post: operations["refine_run"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{id}/selection": {
         parameters: {
             query?: never;
@@ -1254,6 +1274,17 @@ export interface components {
             scale: components["schemas"]["Scale"];
             /** @description `ns`, `1/s`, `share`, `u S`, or a plain word. */
             unit: string;
+        };
+        /** @description An algorithm beside the fastest one. */
+        Beside: {
+            /** @description The algorithm. */
+            algorithm: string;
+            /** @description The fastest one of its contract class. */
+            fastest: string;
+            ratio?: components["schemas"]["Estimated"] | null;
+            /** @description What follows. */
+            standing: components["schemas"]["Standing"];
+            whole?: components["schemas"]["Estimated"] | null;
         };
         /** @description Results of many runs that may be compared with one another. */
         Board: {
@@ -2150,6 +2181,40 @@ export interface components {
              */
             y_lo?: number | null;
         };
+        /**
+         * @description A run that measured a part of its configurations, evenly spread over all. Its wrong answers are those that were seen;
+         *     of none seen in n it is only known that fewer than 3/n are to be expected.
+         */
+        Preview: {
+            /** @description Each algorithm beside the fastest of its contract class, as far as both answered and were not wrong. */
+            beside: components["schemas"]["Beside"][];
+            /** @description What was found, in words. */
+            finding: string;
+            /**
+             * Format: int32
+             * @description How often it was looked whether the comparison is settled.
+             */
+            looks: number;
+            /** @description What measuring all configurations would add, in words. */
+            more: string;
+            /**
+             * Format: int32
+             * @description Configurations measured.
+             */
+            n: number;
+            /**
+             * Format: int64
+             * @description Configurations of the whole run; of a sampled set that was not found as a whole: before any is missed.
+             */
+            of: number;
+            /**
+             * Format: double
+             * @description Differences below this share count as none.
+             */
+            precision: number;
+            /** @description Every comparison is settled. All that is said of them together is false with a probability of at most 2 %. */
+            settled: boolean;
+        };
         /** @description An error: what is wrong, where, and how to mend it (RFC 9457, `application/problem+json`). */
         Problem: {
             /** @description One sentence for the person who asked. */
@@ -2337,6 +2402,7 @@ export interface components {
             object_a_name: string;
             /** @description Name of object B. */
             object_b_name: string;
+            preview?: components["schemas"]["Preview"] | null;
             /** @description Summary per algorithm, as far as there is one. */
             results: components["schemas"]["AlgorithmResult"][];
             /**
@@ -2360,6 +2426,11 @@ export interface components {
              */
             algorithms?: string[];
             /**
+             * Format: int32
+             * @description A quick look: measure at most so many configurations, evenly spread over all of them.
+             */
+            at_most?: number | null;
+            /**
              * Format: double
              * @description Measuring time allowed per algorithm; a slower one is measured on as many configurations (taken in a shuffled
              *     order that all algorithms share) as fit.
@@ -2378,6 +2449,12 @@ export interface components {
              * @description Fresh processes, with one timed pass over the configurations each (1 to 99).
              */
             passes?: number;
+            /**
+             * Format: double
+             * @description Stop as soon as the algorithms are told apart, where differences below this share do not matter (0.05: 5 %). All
+             *     configurations are measured when absent.
+             */
+            precision?: number | null;
             /** @description The question. */
             query: components["schemas"]["Query"];
             /**
@@ -2739,6 +2816,11 @@ export interface components {
          * @enum {string}
          */
         StageKind: "object" | "configurations" | "measuring" | "heatmap";
+        /**
+         * @description What is known of an algorithm beside the fastest.
+         * @enum {string}
+         */
+        Standing: "slower" | "equal" | "open";
         /**
          * @description State of a run or of a stage.
          * @enum {string}
@@ -5680,6 +5762,65 @@ export interface operations {
                 };
             };
             /** @description The selection cannot be read or applied */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    refine_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The run as it is now */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunInfo"];
+                };
+            };
+            /** @description Somebody else's run */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No preview, or under way */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description It cannot be run any more */
             422: {
                 headers: {
                     [name: string]: unknown;

@@ -11,6 +11,8 @@ export function commandLine(spec: RunSpec, file: (id: string) => string): string
     ...(spec.algorithms ?? []).map((algorithm) => `--algorithm ${quote(algorithm)}`),
     ...(spec.passes === undefined ? [] : [`--passes ${spec.passes}`]),
     ...(spec.budget_seconds === undefined ? [] : [`--budget ${spec.budget_seconds}`]),
+    ...(spec.at_most == null ? [] : ['--quick']),
+    ...(spec.precision == null ? [] : [`--precision ${100 * spec.precision}%`]),
   ]
   return lines.join(' \\\n  ')
 }

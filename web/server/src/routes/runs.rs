@@ -1,4 +1,4 @@
-//! Runs: asking, looking, cancelling.
+//! Runs: asking, looking, cancelling, refining.
 
 use axum::Json as Answer;
 use axum::extract::State;
@@ -91,6 +91,26 @@ pub(crate) async fn cancel_run(
     Path(id): Path<String>,
 ) -> Result<Answer<RunInfo>> {
     Ok(Answer(app.engine.cancel(&id, Some(&guest)).await?))
+}
+
+/// Queues a run that has ended as a preview for all of its configurations.
+///
+/// Its numbers stay until those of the whole are there.
+#[utoipa::path(post, path = "/runs/{id}/refine", tag = "runs",
+    params(("id" = String, Path, description = "Run id")),
+    responses(
+        (status = 200, description = "The run as it is now", body = RunInfo),
+        (status = 403, description = "Somebody else's run", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "No preview, or under way", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "It cannot be run any more", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn refine_run(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Path(id): Path<String>,
+) -> Result<Answer<RunInfo>> {
+    Ok(Answer(app.engine.refine(&id, Some(&guest)).await?))
 }
 
 /// The finished run that the start page shows; null until the first one is finished.

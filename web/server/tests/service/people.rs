@@ -168,6 +168,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "post /runs",
             "get /runs/{id}",
             "post /runs/{id}/cancel",
+            "post /runs/{id}/refine",
             "get /runs/{id}/chart",
             "get /runs/{id}/chart.csv",
             "get /runs/{id}/chart.parquet",

@@ -1,0 +1,206 @@
+//! One algorithm's pass in a fresh process.
+
+use std::ops::{ControlFlow, Range};
+use std::sync::mpsc::Sender;
+use std::time::{Duration, Instant};
+
+use ocb_core::instance::{Instance, Presentation};
+use ocb_core::oracle::Pair;
+use ocb_sandbox::{Killer, Observation, Outcome, PassPlan, Policy, Session, Trial};
+
+use super::{Lane, News, Stop, Task, order, outcome_info};
+use crate::machine::Machine;
+use crate::model::OutcomeInfo;
+use crate::registry::{Registry, plugin_hash};
+
+/// How often a lane may report, so that pages live and nothing else suffers.
+const REPORT_EVERY: Duration = Duration::from_millis(200);
+
+/// One algorithm's pass in a fresh process.
+pub struct Turn<'a> {
+    /// What is measured.
+    pub task: &'a Task<'a>,
+    /// Where plugins and the runner are.
+    pub registry: &'a Registry,
+    /// The machine's CPUs.
+    pub machine: &'a Machine,
+    /// Ends it from outside.
+    pub stop: &'a Stop,
+    /// Who wants to know.
+    pub news: &'a Sender<News>,
+    /// Which lane.
+    pub index: usize,
+    /// Which round; the last one is untimed and counts.
+    pub round: u32,
+    /// Number of the process: pieces of the order come one after the other, with all rounds each.
+    pub process: u32,
+    /// Where the piece of the order lies.
+    pub piece: Range<usize>,
+    /// How the process sees the objects.
+    pub shown: &'a Presentation,
+}
+
+impl Turn<'_> {
+    /// What of the piece this algorithm is asked; the first round finds out how far it comes.
+    pub fn part(&self, lane: &Lane) -> Range<usize> {
+        match self.round {
+            0 if !lane.cut => self.piece.clone(),
+            _ => self.piece.start..lane.reach.max(self.piece.start),
+        }
+    }
+
+    /// The share of the time that was taken from the runner's CPU.
+    pub fn play(&self, lane: &mut Lane, part: &[u32]) -> f64 {
+        let order = if self.round == 0 || self.task.coherent() {
+            part.to_vec()
+        } else {
+            order::reshuffled(part, self.task.seed, self.process)
+        };
+        self.report(lane);
+        // From before the start, so that a long build can be stopped as well.
+        let killer = Killer::default();
+        self.stop.watch(Some(killer.clone()));
+        let mut session = match self.start(lane, &killer) {
+            Ok(session) => session,
+            Err(outcome) => {
+                lane.end(outcome);
+                return 0.0;
+            }
+        };
+        lane.begin_turn(&session);
+        let started = Instant::now();
+        let (reached, steal) = if self.counting() {
+            (self.count(&mut session, lane, &order), 0.0)
+        } else {
+            self.time(&mut session, lane, &order)
+        };
+        lane.spent += started.elapsed();
+        self.stop.watch(None);
+        let ending = session.finish();
+        if self.round == 0 {
+            (lane.reach, lane.cut) = (self.piece.start + reached, reached < part.len());
+        }
+        lane.end_turn(&ending);
+        if ending.outcome != Outcome::Completed {
+            lane.end(outcome_info(&ending.outcome));
+        }
+        let placed = &self.task.set.placed;
+        lane.judge(&Pair::new(self.task.a, self.task.b), placed, self.task.query, self.task.semantics);
+        self.report(lane);
+        steal
+    }
+
+    /// A timed pass: how far it came, and the share of stolen time.
+    fn time(&self, session: &mut Session, lane: &mut Lane, order: &[u32]) -> (usize, f64) {
+        let placed = &self.task.set.placed;
+        let plan = PassPlan {
+            query: self.task.query,
+            order,
+            coherent: self.task.coherent(),
+            seed: self.task.process_seed(self.process).rotate_left(1),
+            allowance: self.allowance(lane),
+        };
+        let present = |configuration: u32, instance: Instance| {
+            self.shown.present(&placed[configuration as usize].configuration, configuration, instance)
+        };
+        let mut reported = Instant::now();
+        let mut each = |seen: Observation| {
+            let answer = self.shown.translate(seen.answer, seen.configuration, seen.instance);
+            lane.observe(self.round, Observation { answer, ..seen });
+            self.go_on(lane, &mut reported)
+        };
+        // What it died of is in the session's ending.
+        let (facts, _) = session.pass(&plan, &present, &mut each);
+        let found = (facts.reached, facts.steal.unwrap_or(0.0));
+        lane.end_pass(facts);
+        found
+    }
+
+    /// The untimed pass with counters: how far it came.
+    fn count(&self, session: &mut Session, lane: &mut Lane, order: &[u32]) -> usize {
+        let (begun, mut reported, allowed) = (Instant::now(), Instant::now(), self.allowance(lane));
+        for (reached, &i) in order.iter().enumerate() {
+            let configuration = &self.task.set.placed[i as usize].configuration;
+            match session.count(self.task.query, configuration) {
+                Ok((answer, counters)) => lane.count(i, answer, counters),
+                Err(_) => return reached,
+            }
+            if self.go_on(lane, &mut reported).is_break() || begun.elapsed() >= allowed {
+                return reached + 1;
+            }
+        }
+        order.len()
+    }
+
+    /// Reports now and then, and looks whether it shall stop.
+    fn go_on(&self, lane: &Lane, reported: &mut Instant) -> ControlFlow<()> {
+        if reported.elapsed() >= REPORT_EVERY {
+            *reported = Instant::now();
+            self.report(lane);
+            if self.stop.asked() {
+                return ControlFlow::Break(());
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn start(&self, lane: &Lane, killer: &Killer) -> Result<Session, OutcomeInfo> {
+        let contestant = &lane.contestant;
+        let ours = |message: String| OutcomeInfo { name: "SandboxFault".into(), message, ours: true };
+        match plugin_hash(&contestant.file) {
+            Ok(hash) if hash == contestant.info.plugin_sha256 => {}
+            Ok(_) => {
+                return Err(ours("The plugin file was replaced after the service had read it; start it again.".into()));
+            }
+            Err(e) => return Err(ours(e.to_string())),
+        }
+        let policy = Policy {
+            runner_cpu: Some(self.machine.measuring_cpu()),
+            supervisor_cpu: Some(self.machine.supervisor_cpu()),
+            threads: contestant.threads,
+            // A single question may take a whole turn (brute force on large objects), and no more.
+            query_seconds: self.task.budget.as_secs_f64().max(Policy::default().query_seconds),
+            // The turn ends by its allowance; this only catches a runner that never comes back.
+            trial_seconds: 4.0 * self.task.budget.as_secs_f64() + Policy::default().trial_seconds,
+            ..Policy::default()
+        };
+        let trial = Trial {
+            plugin: &contestant.file,
+            algorithm: &contestant.algorithm,
+            mesh_a: self.shown.first(),
+            mesh_b: self.shown.second(),
+            parameters: &contestant.settings,
+            semantics: self.task.semantics,
+        };
+        let launcher = self.registry.launcher(contestant, policy);
+        launcher.start_with(&trial, killer).map_err(|ending| outcome_info(&ending.outcome))
+    }
+
+    fn counting(&self) -> bool {
+        self.round == self.task.passes
+    }
+
+    /// The first pass over a piece decides how far the algorithm gets; later ones may use what it left. Counting makes an
+    /// algorithm slower and is not timed, so it gets the share of two passes, and what it does not reach has no counters.
+    fn allowance(&self, lane: &Lane) -> Duration {
+        let share = self.task.budget / self.task.passes;
+        let left = self.task.budget.saturating_sub(lane.spent);
+        match self.round {
+            0 => left / self.task.passes,
+            _ if self.counting() => share * 2,
+            _ => left.max(share),
+        }
+    }
+
+    fn report(&self, lane: &Lane) {
+        // Nobody asked for the reference; it has no lane of its own on any page.
+        if self.index >= self.task.contestants.len() {
+            return;
+        }
+        let rounds = u64::from(self.task.passes) + u64::from(lane.contestant.info.counters);
+        let most = self.task.set.placed.len().min(self.task.part.at_most);
+        let reach = if lane.cut || self.counting() { lane.reach } else { most } as u64;
+        let total = (reach * rounds).max(lane.done);
+        let _ = self.news.send(News::Progress { lane: self.index, done: lane.done, total });
+    }
+}
