@@ -2,10 +2,10 @@
 # soak.sh MINUTES: first at full size what the tests do in slices: a million files for the jail's gate, ten million messages
 # for the supervisor, a thousand trials, a hundred rounds of honest plugins (OCB_FUZZ, OCB_TRIALS, OCB_HONEST), ten million
 # pairs of triangles for the oracle's filters (OCB_PAIRS), a hundred thousand configurations that no certified level of detail
-# may contradict (OCB_HELD_OUT), a hundred runs that end early (OCB_REPETITIONS); the power goes two hundred times (OCB_POWER_CUTS), two hundred visitors come for a minute and
-# must not change what is measured meanwhile (OCB_LOAD_SECONDS), every route is asked a hundred times and more
-# (OCB_API_EXAMPLES). Then the restart tests (the service is killed at every stage of a run) over and over. The
-# first failure ends it; the last line says how often they passed.
+# may contradict (OCB_HELD_OUT), a hundred runs that end early (OCB_REPETITIONS); the power goes two hundred times
+# (OCB_POWER_CUTS), two hundred visitors come for a minute and must not change what is measured meanwhile (OCB_LOAD_SECONDS),
+# every route is asked a hundred times and more (OCB_API_EXAMPLES). Then the restart tests (the service is killed at every
+# stage of a run) over and over. The first failure ends it; the last line says how often they passed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 minutes=${1:?usage: soak.sh MINUTES}
