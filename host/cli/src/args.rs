@@ -199,7 +199,7 @@ pub struct BenchArgs {
     pub budget: f64,
     /// Stop as soon as the algorithms are told apart, where differences below this share (5%, 0.02) do not matter. The
     /// result is a preview, which `ocb run refine` completes.
-    #[arg(long, value_name = "SHARE", value_parser = share, allow_negative_numbers = true)]
+    #[arg(long, allow_hyphen_values = true, value_name = "SHARE", value_parser = share)]
     pub precision: Option<f64>,
     /// A quick look: only 5,000 configurations, evenly spread over all. The result is a preview, which `ocb run refine`
     /// completes.
