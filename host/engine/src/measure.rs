@@ -175,8 +175,10 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
                 if lane.ended() || part.is_empty() {
                     continue;
                 }
+                let spent = lane.spent;
                 if turn.play(lane, &base[part.clone()]) > STEAL && steady && !stop.asked() {
                     lane.forget(round, &base[part]);
+                    lane.spent = spent;
                     steady = turn.play(lane, &base[turn.part(lane)]) <= STEAL;
                 }
                 if stop.asked() {

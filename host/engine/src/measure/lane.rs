@@ -201,13 +201,20 @@ impl Lane {
         }
     }
 
-    /// Its official times so far, and the answers that stand for its configurations; nothing of an algorithm that can have
-    /// no place, because it died, was wrong or did not answer.
-    pub fn fair(&self) -> Option<(Vec<Vec<(u32, f64)>>, impl Iterator<Item = &Answer>)> {
-        let judged = || self.cells.iter().filter_map(|cell| cell.judged.as_ref());
+    /// It may have a place: it has not died, and no answer so far was wrong or missing.
+    pub fn fair(&self) -> bool {
         let fair = |(_, judged): &(Answer, Judged)| !judged.verdict.is_wrong() && !judged.verdict.is_silent();
-        let times = || self.cells.iter().map(|cell| cell.times.clone()).collect();
-        (!self.ended() && judged().all(fair)).then(|| (times(), judged().map(|(answer, _)| answer)))
+        !self.ended() && self.cells.iter().filter_map(|cell| cell.judged.as_ref()).all(fair)
+    }
+
+    /// The official times so far, with the round of each, by configuration.
+    pub fn times(&self) -> Vec<Vec<(u32, f64)>> {
+        self.cells.iter().map(|cell| cell.times.clone()).collect()
+    }
+
+    /// The answers that stand for its configurations.
+    pub fn answers(&self) -> impl Iterator<Item = &Answer> {
+        self.cells.iter().filter_map(|cell| cell.judged.as_ref()).map(|(answer, _)| answer)
     }
 
     /// The medians over the passes. Times that do not fit together are not believed, and that is its outcome.

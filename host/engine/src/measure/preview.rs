@@ -47,9 +47,9 @@ pub fn preview(task: &Task, lanes: &[Lane], n: usize, looks: u32) -> Preview {
 /// Those that may have a place, by what they deliver.
 fn classes(task: &Task, lanes: &[Lane]) -> Vec<Class> {
     let mut classes: Vec<Class> = Vec::new();
-    for (index, lane) in lanes.iter().enumerate().take(task.contestants.len()) {
-        let Some((times, answers)) = lane.fair() else { continue };
-        let class = contract(&lane.contestant, answers, task.query, task.coherent());
+    let contestants = lanes.iter().enumerate().take(task.contestants.len());
+    for (index, lane) in contestants.filter(|(_, lane)| lane.fair()) {
+        let (class, times) = (contract(&lane.contestant, lane.answers(), task.query, task.coherent()), lane.times());
         match classes.iter_mut().find(|(known, ..)| *known == class) {
             Some((_, members, all)) => {
                 members.push(index);

@@ -78,7 +78,7 @@ impl Turn<'_> {
         self.stop.watch(None);
         let ending = session.finish();
         if self.round == 0 {
-            (lane.reach, lane.cut) = (self.piece.start + reached, reached < part.len());
+            (lane.reach, lane.cut) = (self.piece.start + reached, lane.cut || reached < part.len());
         }
         lane.end_turn(&ending);
         if ending.outcome != Outcome::Completed {
