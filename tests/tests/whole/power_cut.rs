@@ -75,8 +75,11 @@ fn spec() -> Value {
 
 impl People {
     fn of(service: &Service) -> Self {
+        let guest = Guest::default();
+        // Who asks twice at once before anybody knows them is two guests.
+        guest.get(service, "/objects");
         Self {
-            guest: Guest::default(),
+            guest,
             developer: Guest::member(service, "developer"),
             curator: Guest::member(service, "curator"),
         }
