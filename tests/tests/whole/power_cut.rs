@@ -78,11 +78,7 @@ impl People {
         let guest = Guest::default();
         // Who asks twice at once before anybody knows them is two guests.
         guest.get(service, "/objects");
-        Self {
-            guest,
-            developer: Guest::member(service, "developer"),
-            curator: Guest::member(service, "curator"),
-        }
+        Self { guest, developer: Guest::member(service, "developer"), curator: Guest::member(service, "curator") }
     }
 
     /// All at once, until the connection breaks: objects, plugins that fail their check, runs, and steps of a public plugin.
