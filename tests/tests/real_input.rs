@@ -7,7 +7,7 @@ use ocb_tests::process::{command, output};
 use serde_json::Value;
 
 /// Measuring seconds per algorithm. What does not fit is left out evenly: the subset is the start of a shuffled order.
-const BUDGET: &str = "4";
+const BUDGET: &str = "8";
 
 /// What is known of a set of configurations.
 enum Known {
