@@ -202,8 +202,8 @@ impl Bench {
                 }
             }
             let [a, b] = &times;
-            let both =
-                [compare(a, Some(a), K as u32), compare(b, Some(a), K as u32)].map(|c| c.expect("it was measured"));
+            let of = self.configurations.len() as u64;
+            let both = [a, b].map(|times| compare(times, Some(a), K as u32, of).expect("it was measured"));
             let [mean_a, mean_b] = both.map(|c| c.mean_ns);
             apart += u64::from(mean_a.hi < mean_b.lo || mean_b.hi < mean_a.lo);
             ratios.extend(both[1].ratio.map(|ratio| ratio.value));
