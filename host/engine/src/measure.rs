@@ -176,7 +176,9 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
                     continue;
                 }
                 let spent = lane.spent;
-                if turn.play(lane, &base[part.clone()]) > STEAL && steady && !stop.asked() {
+                let steal = turn.play(lane, &base[part.clone()]);
+                // What the budget cut short had no time to spare for another try.
+                if steal > STEAL && steady && !lane.cut && !stop.asked() {
                     lane.forget(round, &base[part]);
                     lane.spent = spent;
                     steady = turn.play(lane, &base[turn.part(lane)]) <= STEAL;
