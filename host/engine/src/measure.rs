@@ -144,7 +144,8 @@ pub enum News {
 }
 
 /// A pass that lost more than this share of its time to the machine below is measured again, once; when the second loses
-/// as much, that is how this machine is, and no pass of the run is measured again.
+/// as much, that is how this machine is, and no pass of the run is measured again. Nor is a first pass that the budget cut: it
+/// says how far the algorithm comes, and another try may come nowhere.
 const STEAL: f64 = 0.001;
 
 impl Task<'_> {
@@ -177,8 +178,8 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
                 }
                 let spent = lane.spent;
                 let steal = turn.play(lane, &base[part.clone()]);
-                // What the budget cut short had no time to spare for another try.
-                if steal > STEAL && steady && !lane.cut && !stop.asked() {
+                let cut_now = round == 0 && lane.cut;
+                if steal > STEAL && steady && !cut_now && !stop.asked() {
                     lane.forget(round, &base[part]);
                     lane.spent = spent;
                     steady = turn.play(lane, &base[turn.part(lane)]) <= STEAL;
