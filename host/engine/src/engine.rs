@@ -16,7 +16,6 @@ pub use people::SESSION;
 pub use plugins::{MAX_PLUGIN_BYTES, conflict};
 pub use sets::SetJob;
 
-use std::collections::VecDeque;
 use std::fs::File;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -77,15 +76,23 @@ pub struct Inner {
     pub shapes: Cache<Shape>,
     pub advices: Advices,
     closing: AtomicBool,
-    dispatcher: Mutex<VecDeque<JoinHandle<()>>>,
+    /// What closing waits for.
+    tasks: Mutex<Vec<JoinHandle<()>>>,
     /// Held as long as this process uses the folder.
-    _lock: File,
+    lock: File,
 }
 
 impl Inner {
     /// The engine is shutting down.
     pub fn closing(&self) -> bool {
         self.closing.load(Ordering::SeqCst)
+    }
+
+    /// Work that closing waits for.
+    fn spawn(&self, work: impl Future<Output = ()> + Send + 'static) {
+        let mut tasks = self.tasks.lock().unwrap_or_else(PoisonError::into_inner);
+        tasks.retain(|task| !task.is_finished());
+        tasks.push(tokio::spawn(work));
     }
 }
 
@@ -115,8 +122,8 @@ impl Engine {
             shapes: Cache::new(4),
             advices: Advices::default(),
             closing: AtomicBool::new(false),
-            dispatcher: Mutex::new(VecDeque::new()),
-            _lock: lock,
+            tasks: Mutex::default(),
+            lock,
             config,
             store,
             blobs,
@@ -128,27 +135,25 @@ impl Engine {
             dispatcher::recover(&engine.inner).await?;
             engine.recover_advice().await?;
             engine.feature_a_run().await?;
-            let task = tokio::spawn(dispatcher::work(engine.inner.clone()));
-            engine.tasks().push_back(task);
+            engine.inner.spawn(dispatcher::work(engine.inner.clone()));
         }
         Ok(engine)
     }
 
-    /// Stops working: a run under way goes back into the queue, everything known is on disk when this returns.
+    /// Stops working: a run under way goes back into the queue; when this returns, everything known is on disk and another
+    /// engine may open the folder, whoever still holds a handle of this one.
     pub async fn shutdown(&self) {
         self.inner.closing.store(true, Ordering::SeqCst);
         self.inner.stop_current(None);
         self.inner.advices.stop_all();
         self.inner.wake.notify_one();
-        let task = self.tasks().pop_front();
-        if let Some(task) = task {
+        let tasks = std::mem::take(&mut *self.inner.tasks.lock().unwrap_or_else(PoisonError::into_inner));
+        for task in tasks {
             let _ = task.await;
         }
         self.inner.store.close().await;
-    }
-
-    fn tasks(&self) -> std::sync::MutexGuard<'_, VecDeque<JoinHandle<()>>> {
-        self.inner.dispatcher.lock().unwrap_or_else(PoisonError::into_inner)
+        // Closing the file does it too; at the latest then it is free.
+        let _ = self.inner.lock.unlock();
     }
 
     /// The service at a glance.

@@ -105,16 +105,17 @@ impl Inner {
     }
 
     fn begin_advice(self: Arc<Self>, job: Arc<Job>) {
-        tokio::spawn(async move {
+        let inner = self.clone();
+        self.spawn(async move {
             let id = job.info().id;
-            let found = self.work_on_advice(&job).await;
+            let found = inner.work_on_advice(&job).await;
             // What closing interrupted stays open, and is begun again.
-            if !self.closing()
-                && let Err(e) = self.end_advice(job.info(), found).await
+            if !inner.closing()
+                && let Err(e) = inner.end_advice(job.info(), found).await
             {
                 tracing::error!("advice {id}: {e}");
             }
-            self.advices.remove(&id);
+            inner.advices.remove(&id);
         });
     }
 
