@@ -5,20 +5,19 @@
 
 mod board;
 mod charts;
+mod csv;
 mod ipc;
 mod records;
 mod sets;
 mod truths;
 
-use std::borrow::Cow;
 use std::collections::HashMap;
-use std::fmt::Write;
 use std::sync::Arc;
 
-use arrow::array::{ArrayRef, BooleanArray, RecordBatch, UInt32Array};
-use arrow::compute::{concat_batches, filter_record_batch};
-use arrow::datatypes::Schema;
-use arrow::util::display::{ArrayFormatter, FormatOptions};
+use arrow_array::{ArrayRef, BooleanArray, RecordBatch, UInt32Array};
+use arrow_schema::Schema;
+use arrow_select::concat::concat_batches;
+use arrow_select::filter::filter_record_batch;
 use parquet::arrow::ArrowWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::basic::{Compression, ZstdLevel};
@@ -28,6 +27,7 @@ use crate::{EngineError, Result};
 
 pub use board::board_parquet;
 pub use charts::chart_parquet;
+pub use csv::csv;
 pub use ipc::{Numbers, stream};
 pub use records::{RecordColumns, RecordsOf, read_records, records_parquet};
 pub use sets::{SetOf, read_poses, read_set, set_parquet};
@@ -47,31 +47,6 @@ fn to_parquet(batch: &RecordBatch) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The rows of a Parquet file without lists as CSV with a header line; an absent value is an empty field.
-pub fn csv(parquet: &[u8]) -> Result<Vec<u8>> {
-    let fault = |e: String| EngineError::Fault(format!("Writing the rows as CSV failed: {e}."));
-    let (schema, batches) = from_parquet(parquet).map_err(fault)?;
-    let mut text = schema.fields().iter().map(|f| f.name().as_str()).collect::<Vec<_>>().join(",");
-    text.push('\n');
-    for batch in &batches {
-        let columns = batch
-            .columns()
-            .iter()
-            .map(|c| ArrayFormatter::try_new(c.as_ref(), &FormatOptions::default()))
-            .collect::<std::result::Result<Vec<_>, _>>()
-            .map_err(|e| fault(e.to_string()))?;
-        for row in 0..batch.num_rows() {
-            for (i, column) in columns.iter().enumerate() {
-                let comma = if i == 0 { "" } else { "," };
-                let value = column.value(row).to_string();
-                write!(text, "{comma}{}", quoted(&value)).map_err(|e| fault(e.to_string()))?;
-            }
-            text.push('\n');
-        }
-    }
-    Ok(text.into_bytes())
-}
-
 /// The rows of a file of records whose configuration is chosen.
 pub fn select(parquet: &[u8], chosen: &[bool]) -> Result<Vec<u8>> {
     let fault = |e: String| EngineError::Fault(format!("Selecting records failed: {e}."));
@@ -81,15 +56,6 @@ pub fn select(parquet: &[u8], chosen: &[bool]) -> Result<Vec<u8>> {
     let mask: BooleanArray =
         configurations.iter().map(|&i| Some(chosen.get(i as usize).copied().unwrap_or(false))).collect();
     to_parquet(&filter_record_batch(&all, &mask).map_err(|e| fault(e.to_string()))?)
-}
-
-/// As RFC 4180 has it.
-fn quoted(value: &str) -> Cow<'_, str> {
-    if value.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", value.replace('"', "\"\"")).into()
-    } else {
-        value.into()
-    }
 }
 
 /// All rows of a Parquet file in batches, or why it is none.

@@ -71,7 +71,7 @@ impl Method for Fast {
         pair: &Pair<'_, Tree>,
         open: &mut Open,
         work: &mut impl Count,
-        visit: impl FnMut(u32, u32) -> bool,
+        visit: &mut dyn FnMut(u32, u32) -> bool,
     ) {
         path.run(collide::Query { pair, open: &mut open.overlapping, work, visit });
     }

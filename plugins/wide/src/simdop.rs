@@ -75,7 +75,7 @@ impl Method for SimDop {
         pair: &Pair<'_, Tree>,
         open: &mut Open,
         work: &mut impl Count,
-        visit: impl FnMut(u32, u32) -> bool,
+        visit: &mut dyn FnMut(u32, u32) -> bool,
     ) {
         path.run(collide::Contacts::new(pair, &mut open.overlapping, work, visit));
     }

@@ -34,7 +34,7 @@ pub trait Method: Default + 'static {
         pair: &Pair<'_, Self::Tree>,
         open: &mut Self::Open,
         work: &mut impl Count,
-        visit: impl FnMut(u32, u32) -> bool,
+        visit: &mut dyn FnMut(u32, u32) -> bool,
     );
 
     /// The closest pair of points.
@@ -95,7 +95,7 @@ impl<M: Method> Algorithm for Wide<M> {
 
     fn collide(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<Collision> {
         let mut found = Collision::Apart;
-        M::each_contact(self.path, &Pair::new(a, b), &mut self.open, work, |a, b| {
+        M::each_contact(self.path, &Pair::new(a, b), &mut self.open, work, &mut |a, b| {
             found = Collision::Pair(a, b);
             false
         });
@@ -111,7 +111,7 @@ impl<M: Method> Contacts for Wide<M> {
         found: &mut ContactList<'_>,
         work: &mut impl Count,
     ) -> Answer<()> {
-        M::each_contact(self.path, &Pair::new(a, b), &mut self.open, work, |a, b| {
+        M::each_contact(self.path, &Pair::new(a, b), &mut self.open, work, &mut |a, b| {
             found.push(a, b);
             true
         });

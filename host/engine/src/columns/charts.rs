@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use arrow::array::{ArrayRef, Float64Array, StringArray, UInt64Array};
+use arrow_array::{ArrayRef, Float64Array, StringArray, UInt64Array};
 use ocb_chart::{Chart, Form, Point};
 
 use super::{SCHEMA_VERSION, batch, to_parquet};

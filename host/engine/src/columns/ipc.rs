@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use arrow::array::{ArrayRef, Float32Array, Float64Array, UInt32Array};
-use arrow::ipc::writer::StreamWriter;
+use arrow_array::{ArrayRef, Float32Array, Float64Array, UInt32Array};
+use arrow_ipc::writer::StreamWriter;
 
 use super::batch;
 use crate::{EngineError, Result};

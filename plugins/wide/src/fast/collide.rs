@@ -33,14 +33,14 @@ const AHEAD: usize = 3;
 const ENOUGH: usize = 4;
 
 /// A query that visits pairs of triangles that meet, until the visitor says false.
-pub struct Query<'q, C, V> {
+pub struct Query<'q, C> {
     pub pair: &'q Pair<'q, Tree>,
     pub open: &'q mut Open,
     pub work: &'q mut C,
-    pub visit: V,
+    pub visit: &'q mut dyn FnMut(u32, u32) -> bool,
 }
 
-impl<C: Count, V: FnMut(u32, u32) -> bool> Work for Query<'_, C, V> {
+impl<C: Count> Work for Query<'_, C> {
     type Output = ();
 
     #[inline(always)]
@@ -51,14 +51,14 @@ impl<C: Count, V: FnMut(u32, u32) -> bool> Work for Query<'_, C, V> {
 }
 
 /// The query where B's place in A's frame is known.
-struct Contacts<'q, C, V> {
+struct Contacts<'q, C> {
     pair: &'q Placed<'q>,
     open: &'q mut Open,
     work: &'q mut C,
-    visit: V,
+    visit: &'q mut dyn FnMut(u32, u32) -> bool,
 }
 
-impl<C: Count, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
+impl<C: Count> Contacts<'_, C> {
     #[inline(always)]
     fn each<L: Lanes>(mut self) {
         self.open.pairs[BOXES].clear();

@@ -11,21 +11,21 @@ use super::turn::{Placed, Turn};
 use crate::Pair;
 
 /// A query that visits pairs of triangles that meet, until the visitor says false.
-pub struct Contacts<'q, C, V> {
+pub struct Contacts<'q, C> {
     pair: &'q Pair<'q, Tree>,
     /// Pairs of nodes that are still to be opened.
     open: &'q mut Vec<[u32; 2]>,
     work: &'q mut C,
-    visit: V,
+    visit: &'q mut dyn FnMut(u32, u32) -> bool,
 }
 
-impl<'q, C: Count, V: FnMut(u32, u32) -> bool> Contacts<'q, C, V> {
-    pub fn new(pair: &'q Pair<'q, Tree>, open: &'q mut Vec<[u32; 2]>, work: &'q mut C, visit: V) -> Self {
+impl<'q, C: Count> Contacts<'q, C> {
+    pub fn new(pair: &'q Pair<'q, Tree>, open: &'q mut Vec<[u32; 2]>, work: &'q mut C, visit: &'q mut dyn FnMut(u32, u32) -> bool) -> Self {
         Self { pair, open, work, visit }
     }
 }
 
-impl<C: Count, V: FnMut(u32, u32) -> bool> Work for Contacts<'_, C, V> {
+impl<C: Count> Work for Contacts<'_, C> {
     type Output = ();
 
     #[inline(always)]
@@ -74,7 +74,7 @@ impl<C: Count, V: FnMut(u32, u32) -> bool> Work for Contacts<'_, C, V> {
     }
 }
 
-impl<C: Count, V: FnMut(u32, u32) -> bool> Contacts<'_, C, V> {
+impl<C: Count> Contacts<'_, C> {
     /// Says whether to go on.
     fn meets(&mut self, [a, b]: [u32; 2]) -> bool {
         let Pair { a: tree_a, b: tree_b, frame } = self.pair;
