@@ -131,7 +131,7 @@ pub enum Command {
     Doctor,
     /// Compare algorithms over all runs: speed against accuracy, with a table and a chart.
     Board(BoardArgs),
-    /// Write a chart of a run as .svg, .csv, .parquet or .json.
+    /// Write a chart of a run as .svg, .png, .csv, .parquet or .json.
     Chart(ChartArgs),
     /// Write a heatmap of a run as .glb, .ply or .csv.
     Heatmap(HeatmapArgs),

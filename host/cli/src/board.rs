@@ -11,7 +11,7 @@ use crate::args::Store;
 use crate::choice::AccuracyArg;
 use crate::failure::{Failure, Result};
 use crate::open::{self, OWNER, Purpose};
-use crate::{output, units};
+use crate::{output, picture, units};
 
 /// `ocb board`
 #[derive(Debug, Args)]
@@ -37,9 +37,9 @@ pub struct BoardArgs {
     /// What to chart speed against.
     #[arg(long, value_enum, default_value_t = AccuracyArg::Wrong)]
     pub accuracy: AccuracyArg,
-    /// File for the chart.
+    /// File for the chart, .svg or .png.
     #[arg(long, value_name = "FILE")]
-    pub svg: Option<PathBuf>,
+    pub chart: Option<PathBuf>,
 }
 
 const HEADINGS: [&str; 13] = [
@@ -73,8 +73,9 @@ pub async fn board(store: &Store, args: &BoardArgs, json: bool) -> Result<ExitCo
     let board = engine.board(&request, Some(OWNER)).await;
     engine.shutdown().await;
     let board = board?;
-    if let Some(file) = &args.svg {
-        std::fs::write(file, svg::chart(&board.chart)).map_err(|e| Failure::file("write", file, &e))?;
+    if let Some(file) = &args.chart {
+        let picture = picture::bytes(file, svg::chart(&board.chart))?;
+        std::fs::write(file, picture).map_err(|e| Failure::file("write", file, &e))?;
     }
     if json {
         output::print_json(&board)?

@@ -13,7 +13,7 @@ use crate::args::Store;
 use crate::choice::{AccuracyArg, KindArg};
 use crate::failure::{Failure, Result};
 use crate::open::{self, OWNER, Purpose};
-use crate::{output, run, units};
+use crate::{output, picture, run, units};
 
 /// `ocb chart`
 #[derive(Debug, Args)]
@@ -26,7 +26,7 @@ pub struct ChartArgs {
     /// For the kind `accuracy`: what to chart speed against.
     #[arg(long, value_enum, default_value_t = AccuracyArg::Digits)]
     pub accuracy: AccuracyArg,
-    /// File to write: .svg (the picture), .csv, .parquet or .json (its numbers).
+    /// File to write: .svg or .png (the picture), .csv, .parquet or .json (its numbers).
     #[arg(short, long, value_name = "FILE")]
     pub out: PathBuf,
 }
@@ -59,11 +59,12 @@ type Writer = fn(&Chart) -> Result<Vec<u8>>;
 
 /// What the end of the name asks for.
 fn writer(path: &Path) -> Result<Writer> {
-    match path.extension().and_then(|end| end.to_str()).map(str::to_lowercase).as_deref() {
+    match picture::ending(path).as_deref() {
         Some("svg") => Ok(|chart| Ok(svg::chart(chart).into_bytes())),
+        Some("png") => Ok(|chart| picture::png(&svg::chart(chart))),
         Some("csv") => Ok(|chart| Ok(chart_csv(chart)?)),
         Some("parquet") => Ok(|chart| Ok(chart_parquet(chart)?)),
         Some("json") => Ok(|chart| Ok(output::to_json(chart)?.into_bytes())),
-        _ => Err(Failure::Input(format!("{} must end in .svg, .csv, .parquet or .json.", path.display()))),
+        _ => Err(Failure::Input(format!("{} must end in .svg, .png, .csv, .parquet or .json.", path.display()))),
     }
 }

@@ -15,6 +15,7 @@ mod named;
 mod object;
 mod open;
 mod output;
+mod picture;
 mod placing;
 mod plugin;
 mod run;

@@ -66,7 +66,7 @@ fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
 /// One chart as JSON; its CSV, Parquet and SVG must agree with it.
 fn chart(data: &Path, run: &str, kind: &str) -> Value {
     let file = |end: &str| data.join(format!("{kind}.{end}"));
-    for end in ["json", "csv", "parquet", "svg"] {
+    for end in ["json", "csv", "parquet", "svg", "png"] {
         ocb(data, &["chart", run, "--kind", kind, "--out", file(end).to_str().expect("text")]);
     }
     let chart: Value = serde_json::from_slice(&fs::read(file("json")).expect("a file")).expect("JSON");
@@ -78,6 +78,8 @@ fn chart(data: &Path, run: &str, kind: &str) -> Value {
         assert!(number(row, "n") > 0.0, "every value has an n: {row:?}");
     }
     assert!(fs::read(file("parquet")).expect("a file").starts_with(b"PAR1"));
+    let png = fs::read(file("png")).expect("a file");
+    assert!(png.starts_with(b"\x89PNG") && png.len() > 10_000, "{kind}: {} bytes", png.len());
     let svg = fs::read_to_string(file("svg")).expect("text");
     assert!(svg.starts_with("<svg") && svg.contains("n = ") && !svg.contains("NaN"), "{kind}: {svg}");
     assert!(svg.contains(chart["title"].as_str().expect("a title")), "{kind}");
@@ -150,7 +152,7 @@ fn every_chart_of_a_run_holds_the_numbers_of_its_files() {
 
     // The board: one distance of one pair by default, and the same numbers as the run's.
     let board =
-        json_of(data, &["--json", "board", "--distance", "ladder", "--svg", data.join("board.svg").to_str().unwrap()]);
+        json_of(data, &["--json", "board", "--distance", "ladder", "--chart", data.join("board.svg").to_str().unwrap()]);
     let run = json_of(data, &["--json", "run", "show", &ladder]);
     for result in run["results"].as_array().expect("results") {
         let row = board["rows"].as_array().expect("rows").iter().find(|row| row["algorithm"] == result["algorithm"]);
@@ -177,7 +179,7 @@ fn what_cannot_be_charted_is_said_in_one_sentence() {
         assert_eq!(done.status.code(), Some(2), "{words:?}: {said}");
         assert!(said.contains(part) && said.lines().count() == 1, "{words:?}: {said}");
     };
-    refuse(&["chart", "latest", "--kind", "ecdf", "--out", "x.gif"], ".svg, .csv, .parquet or .json");
+    refuse(&["chart", "latest", "--kind", "ecdf", "--out", "x.gif"], ".svg, .png, .csv, .parquet or .json");
     refuse(&["chart", "latest", "--kind", "ecdf", "--out", "x.svg"], "no run yet");
     refuse(&["chart", "latest", "--kind", "luck", "--out", "x.svg"], "luck");
     refuse(&["board", "--precision", "fine"], "1e-6");
