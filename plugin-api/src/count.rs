@@ -6,9 +6,28 @@ pub trait Count {
     fn bv_tests(&mut self, tests: u64);
     /// One test between triangle `a` of A and triangle `b` of B.
     fn primitive_test(&mut self, a: u32, b: u32);
+    /// Who listens, if anybody does. For query code that is compiled apart from its plugin, which cannot be generic.
+    fn listener(&mut self) -> Option<&mut dyn Count>;
     /// Whether anybody listens. For algorithms around a library that cannot count: they call the library when nobody
     /// does, and a written-out copy of what it does otherwise.
-    fn is_counting(&self) -> bool;
+    #[inline(always)]
+    fn is_counting(&mut self) -> bool {
+        self.listener().is_some()
+    }
+}
+
+impl Count for &mut dyn Count {
+    fn bv_tests(&mut self, tests: u64) {
+        (**self).bv_tests(tests);
+    }
+
+    fn primitive_test(&mut self, a: u32, b: u32) {
+        (**self).primitive_test(a, b);
+    }
+
+    fn listener(&mut self) -> Option<&mut dyn Count> {
+        (**self).listener()
+    }
 }
 
 /// Counts nothing; for timed queries.
@@ -21,8 +40,8 @@ impl Count for Uncounted {
     #[inline(always)]
     fn primitive_test(&mut self, _a: u32, _b: u32) {}
     #[inline(always)]
-    fn is_counting(&self) -> bool {
-        false
+    fn listener(&mut self) -> Option<&mut dyn Count> {
+        None
     }
 }
 
@@ -52,7 +71,8 @@ impl Count for Counts<'_> {
             }
         }
     }
-    fn is_counting(&self) -> bool {
-        true
+
+    fn listener(&mut self) -> Option<&mut dyn Count> {
+        Some(self)
     }
 }

@@ -15,7 +15,7 @@ mod waiting;
 
 use ocb_lanes::{Lanes, Path};
 use ocb_triangles::Frame;
-use opencollbench_plugin::{About, Count, Mesh, Parameter, Separation};
+use opencollbench_plugin::{About, Count, Mesh, Parameter, Separation, Uncounted};
 use relative::Relative;
 pub use tree::Tree;
 
@@ -70,13 +70,19 @@ impl Method for Fast {
         path: Path,
         pair: &Pair<'_, Tree>,
         open: &mut Open,
-        work: &mut impl Count,
+        listener: Option<&mut dyn Count>,
         visit: &mut dyn FnMut(u32, u32) -> bool,
     ) {
-        path.run(collide::Query { pair, open: &mut open.overlapping, work, visit });
+        match listener {
+            None => path.run(collide::Query { pair, open: &mut open.overlapping, work: &mut Uncounted, visit }),
+            Some(mut work) => path.run(collide::Query { pair, open: &mut open.overlapping, work: &mut work, visit }),
+        }
     }
 
-    fn nearest(path: Path, pair: &Pair<'_, Tree>, open: &mut Open, work: &mut impl Count) -> Separation {
-        path.run(nearest::Query { pair, open: &mut open.within, work })
+    fn nearest(path: Path, pair: &Pair<'_, Tree>, open: &mut Open, listener: Option<&mut dyn Count>) -> Separation {
+        match listener {
+            None => path.run(nearest::Query { pair, open: &mut open.within, work: &mut Uncounted }),
+            Some(mut work) => path.run(nearest::Query { pair, open: &mut open.within, work: &mut work }),
+        }
     }
 }

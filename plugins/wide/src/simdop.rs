@@ -9,7 +9,7 @@ mod turn;
 
 use directions::Directions;
 use ocb_lanes::Path;
-use opencollbench_plugin::{About, Answer, Count, Mesh, Parameter, Refusal, Separation};
+use opencollbench_plugin::{About, Answer, Count, Mesh, Parameter, Refusal, Separation, Uncounted};
 pub use tree::Tree;
 
 use crate::{Method, Pair, WIDTH};
@@ -74,13 +74,19 @@ impl Method for SimDop {
         path: Path,
         pair: &Pair<'_, Tree>,
         open: &mut Open,
-        work: &mut impl Count,
+        listener: Option<&mut dyn Count>,
         visit: &mut dyn FnMut(u32, u32) -> bool,
     ) {
-        path.run(collide::Contacts::new(pair, &mut open.overlapping, work, visit));
+        match listener {
+            None => path.run(collide::Contacts::new(pair, &mut open.overlapping, &mut Uncounted, visit)),
+            Some(mut work) => path.run(collide::Contacts::new(pair, &mut open.overlapping, &mut work, visit)),
+        }
     }
 
-    fn nearest(path: Path, pair: &Pair<'_, Tree>, open: &mut Open, work: &mut impl Count) -> Separation {
-        path.run(nearest::Nearest::new(pair, &mut open.within, work))
+    fn nearest(path: Path, pair: &Pair<'_, Tree>, open: &mut Open, listener: Option<&mut dyn Count>) -> Separation {
+        match listener {
+            None => path.run(nearest::Nearest::new(pair, &mut open.within, &mut Uncounted)),
+            Some(mut work) => path.run(nearest::Nearest::new(pair, &mut open.within, &mut work)),
+        }
     }
 }

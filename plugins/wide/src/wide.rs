@@ -9,7 +9,8 @@ use opencollbench_plugin::{
     Refusal, Separation,
 };
 
-/// A method: its own settings, and what it does with them.
+/// A method: its own settings, and what it does with them. Its queries are not generic: many registers wide and with and
+/// without counting, they take long to compile, which is done once for all plugins and tests.
 pub trait Method: Default + 'static {
     /// Who made it.
     const ABOUT: About;
@@ -33,12 +34,17 @@ pub trait Method: Default + 'static {
         path: Path,
         pair: &Pair<'_, Self::Tree>,
         open: &mut Self::Open,
-        work: &mut impl Count,
+        listener: Option<&mut dyn Count>,
         visit: &mut dyn FnMut(u32, u32) -> bool,
     );
 
     /// The closest pair of points.
-    fn nearest(path: Path, pair: &Pair<'_, Self::Tree>, open: &mut Self::Open, work: &mut impl Count) -> Separation;
+    fn nearest(
+        path: Path,
+        pair: &Pair<'_, Self::Tree>,
+        open: &mut Self::Open,
+        listener: Option<&mut dyn Count>,
+    ) -> Separation;
 }
 
 /// Two objects in one query.
@@ -95,7 +101,7 @@ impl<M: Method> Algorithm for Wide<M> {
 
     fn collide(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<Collision> {
         let mut found = Collision::Apart;
-        M::each_contact(self.path, &Pair::new(a, b), &mut self.open, work, &mut |a, b| {
+        M::each_contact(self.path, &Pair::new(a, b), &mut self.open, work.listener(), &mut |a, b| {
             found = Collision::Pair(a, b);
             false
         });
@@ -111,7 +117,7 @@ impl<M: Method> Contacts for Wide<M> {
         found: &mut ContactList<'_>,
         work: &mut impl Count,
     ) -> Answer<()> {
-        M::each_contact(self.path, &Pair::new(a, b), &mut self.open, work, &mut |a, b| {
+        M::each_contact(self.path, &Pair::new(a, b), &mut self.open, work.listener(), &mut |a, b| {
             found.push(a, b);
             true
         });
@@ -121,7 +127,7 @@ impl<M: Method> Contacts for Wide<M> {
 
 impl<M: Method> Distance for Wide<M> {
     fn distance(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<Separation> {
-        Ok(M::nearest(self.path, &Pair::new(a, b), &mut self.open, work))
+        Ok(M::nearest(self.path, &Pair::new(a, b), &mut self.open, work.listener()))
     }
 }
 

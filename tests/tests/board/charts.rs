@@ -151,8 +151,10 @@ fn every_chart_of_a_run_holds_the_numbers_of_its_files() {
     assert_eq!(marks.len(), 2);
 
     // The board: one distance of one pair by default, and the same numbers as the run's.
-    let board =
-        json_of(data, &["--json", "board", "--distance", "ladder", "--chart", data.join("board.svg").to_str().unwrap()]);
+    let board = json_of(
+        data,
+        &["--json", "board", "--distance", "ladder", "--chart", data.join("board.svg").to_str().unwrap()],
+    );
     let run = json_of(data, &["--json", "run", "show", &ladder]);
     for result in run["results"].as_array().expect("results") {
         let row = board["rows"].as_array().expect("rows").iter().find(|row| row["algorithm"] == result["algorithm"]);

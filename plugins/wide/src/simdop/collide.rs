@@ -20,7 +20,12 @@ pub struct Contacts<'q, C> {
 }
 
 impl<'q, C: Count> Contacts<'q, C> {
-    pub fn new(pair: &'q Pair<'q, Tree>, open: &'q mut Vec<[u32; 2]>, work: &'q mut C, visit: &'q mut dyn FnMut(u32, u32) -> bool) -> Self {
+    pub fn new(
+        pair: &'q Pair<'q, Tree>,
+        open: &'q mut Vec<[u32; 2]>,
+        work: &'q mut C,
+        visit: &'q mut dyn FnMut(u32, u32) -> bool,
+    ) -> Self {
         Self { pair, open, work, visit }
     }
 }
