@@ -13,6 +13,9 @@ use crate::args::SubmitArgs;
 use crate::failure::{BAD_INPUT, Failure, Result};
 use crate::{open, output, plugin};
 
+/// The most that a file with a signature has.
+const MAX_SIGNATURE_BYTES: usize = 4 << 10;
+
 /// How often the report is looked at.
 const LOOK: Duration = Duration::from_secs(1);
 
@@ -24,8 +27,12 @@ pub async fn submit(args: &SubmitArgs, json: bool) -> Result<ExitCode> {
     let plugins = format!("{}/api/v1/plugins", args.server.trim_end_matches('/'));
     let client = Client::new();
     let name = args.file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let form =
-        Form::new().text("manifest", output::to_json(&manifest)?).part("file", Part::bytes(bytes).file_name(name));
+    let mut form = Form::new().text("manifest", output::to_json(&manifest)?);
+    if let Some(file) = &args.signature {
+        let signature = open::read_bounded(file, MAX_SIGNATURE_BYTES)?;
+        form = form.text("signature", String::from_utf8_lossy(&signature).into_owned());
+    }
+    let form = form.part("file", Part::bytes(bytes).file_name(name));
     let sent = client.post(&plugins).bearer_auth(&args.token).multipart(form).send().await;
     let mut info = answer(&plugins, sent).await?;
     let mut told = 0;
@@ -80,7 +87,7 @@ mod tests {
         let said = r#"{"name": "x", "version": "1", "authors": "me", "license": "MIT", "queries": ["proximity"]}"#;
         std::fs::write(&manifest, said).unwrap();
         let server = "http://127.0.0.1:1".to_owned();
-        let mut args = SubmitArgs { file, manifest, server, token: "t".into(), no_wait: true };
+        let mut args = SubmitArgs { file, manifest, signature: None, server, token: "t".into(), no_wait: true };
         let Err(Failure::Input(told)) = submit(&args, false).await else { panic!("it was sent") };
         assert!(told.contains("127.0.0.1:1"), "{told}");
         args.manifest = Path::new("/nonexistent").into();

@@ -26,6 +26,7 @@ mod passwords;
 mod registry;
 mod results;
 mod runlog;
+mod signature;
 mod spec;
 pub mod stability;
 mod store;

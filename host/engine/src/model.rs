@@ -32,7 +32,7 @@ pub use contract::{ContractClass, Delivered, Order};
 pub use environment::Environment;
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
 pub use people::{
-    AccountInfo, AuditEntry, Credentials, Identity, NewPassword, NewRole, NewToken, Role, Scope, TokenInfo,
+    AccountInfo, AuditEntry, Credentials, Identity, NewPassword, NewRole, NewToken, Role, Scope, SigningKey, TokenInfo,
     TokenRequest, Wish,
 };
 pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport, Repro};

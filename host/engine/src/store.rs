@@ -93,6 +93,8 @@ fn migrations() -> Migrator {
         one(5, "stability", include_str!("../migrations/0005_stability.sql")),
         one(6, "advice", include_str!("../migrations/0006_advice.sql")),
         one(7, "previews", include_str!("../migrations/0007_previews.sql")),
+        one(8, "signatures", include_str!("../migrations/0008_signatures.sql")),
+        one(9, "request keys", include_str!("../migrations/0009_request_keys.sql")),
     ])
 }
 

@@ -90,6 +90,7 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(account::log_out_everywhere))
         .routes(routes!(account::change_password))
         .routes(routes!(account::ask_to_develop))
+        .routes(routes!(account::register_key, account::forget_key))
         .routes(routes!(account::list_tokens, account::make_token))
         .routes(routes!(account::end_token))
         .routes(submissions.layer(DefaultBodyLimit::disable()).layer(middleware::from_fn(upload::refuse_gently)))

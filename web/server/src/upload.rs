@@ -22,8 +22,9 @@ pub(crate) const MAX_BYTES: usize = ocb_core::mesh::obj::MAX_BYTES;
 /// The most that a body with such a file may have: boundaries, names and headers come on top.
 pub(crate) const MAX_BODY_BYTES: u64 = MAX_BYTES as u64 + (1 << 20);
 
-/// The most that a manifest may have.
+/// The most that a manifest may have, and a signature.
 const MANIFEST_BYTES: usize = 64 << 10;
+const SIGNATURE_BYTES: usize = 4 << 10;
 
 /// What counts as a small upload, and how many small and large ones are held in memory at a time; others wait. A large one may
 /// take long to come, and must not keep the small ones waiting.
@@ -136,14 +137,16 @@ pub(crate) struct Submission {
     pub bytes: Vec<u8>,
     /// What its author says of it.
     pub manifest: Manifest,
+    /// What minisign wrote of it.
+    pub signature: Option<String>,
 }
 
 impl Submission {
-    /// From a form with the manifest first and the file behind it.
+    /// From a form with the manifest first, then a signature if there is one, and the file last.
     pub(crate) async fn read<S: Send + Sync>(request: Request, state: &S) -> Result<Self> {
         let explained = "Send multipart/form-data with \"manifest\" (JSON), then \"file\" (the shared library).";
         let mut form = Multipart::from_request(request, state).await.map_err(|_| Problem::bad_request(explained))?;
-        let mut manifest = None;
+        let (mut manifest, mut signature) = (None, None);
         while let Some(field) = form.next_field().await.map_err(broken)? {
             match (field.name().unwrap_or_default(), manifest.take()) {
                 ("manifest", _) => {
@@ -153,9 +156,14 @@ impl Submission {
                     })?;
                     manifest = Some(parsed);
                 }
+                ("signature", kept) => {
+                    let text = read(field, SIGNATURE_BYTES).await?;
+                    signature = Some(String::from_utf8_lossy(&text).into_owned());
+                    manifest = kept;
+                }
                 ("file", Some(manifest)) => {
                     let name = clean_name(field.file_name().unwrap_or_default());
-                    return Ok(Self { name, bytes: read(field, MAX_PLUGIN_BYTES).await?, manifest });
+                    return Ok(Self { name, bytes: read(field, MAX_PLUGIN_BYTES).await?, manifest, signature });
                 }
                 (_, kept) => manifest = kept,
             }

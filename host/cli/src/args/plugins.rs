@@ -37,6 +37,9 @@ pub struct SubmitArgs {
     /// What you say of it, as JSON: name, version, authors, license (SPDX), paper, source, queries, threads.
     #[arg(long, value_name = "FILE")]
     pub manifest: PathBuf,
+    /// Its signature by the key that your account there has registered (minisign -S writes it).
+    #[arg(long, value_name = "FILE")]
+    pub signature: Option<PathBuf>,
     /// The service.
     #[arg(long, default_value = "http://127.0.0.1:8080", env = "OCB_SERVER", value_name = "URL")]
     pub server: String,

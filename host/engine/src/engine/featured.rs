@@ -43,7 +43,7 @@ impl Engine {
             precision: None,
             at_most: None,
         };
-        self.queue(spec, None, BACKGROUND, true).await?;
+        self.queue(spec, None, BACKGROUND, true, None).await?;
         Ok(())
     }
 }

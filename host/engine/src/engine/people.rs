@@ -6,7 +6,7 @@ use super::Engine;
 use crate::blobs::sha256_hex;
 use crate::model::{AccountInfo, AuditEntry, NewToken, Role, Scope, TokenInfo, TokenRequest};
 use crate::store::{Note, now_us};
-use crate::{EngineError, Result, draw, passwords};
+use crate::{EngineError, Result, draw, passwords, signature};
 
 /// How long a browser stays logged in, and how long a token lives.
 pub const SESSION: Duration = Duration::from_secs(30 * 24 * 3600);
@@ -34,6 +34,7 @@ impl Engine {
             name: name.to_owned(),
             role,
             wish: None,
+            signing_key: None,
             created_us: now_us(),
         };
         let password = passwords::hashed(password).await?;
@@ -155,6 +156,17 @@ impl Engine {
         }
         self.inner.store.set_wish(&account.id, &reason).await?;
         self.inner.store.note(&account.name, "asked to develop", &account.owner(), &reason).await
+    }
+
+    /// Registers the key that the account signs its plugins with, or forgets it.
+    pub async fn set_signing_key(&self, account: &AccountInfo, key: Option<&str>) -> Result<AccountInfo> {
+        let key = key.map(signature::public_key).transpose()?;
+        let (action, detail) =
+            key.as_deref().map_or(("signing key removed", ""), |key| ("signing key registered", key));
+        let subject = account.owner();
+        let note = Note { actor: &account.name, action, subject: &subject, detail };
+        self.inner.store.set_signing_key(&account.id, key.as_deref(), note).await?;
+        Ok(AccountInfo { signing_key: key, ..account.clone() })
     }
 
     /// Gives an account a role. Curators decide about users and developers, administrators about all; nobody about

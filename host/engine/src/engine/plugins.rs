@@ -6,7 +6,7 @@ use crate::blobs::sha256_hex;
 use crate::model::{AccountInfo, Action, CheckLine, CheckVerdict, Decision, Manifest, PluginInfo, PluginState, Role};
 use crate::registry::{brought, check_manifest, is_free};
 use crate::store::{Note, SubmissionRow, now_us};
-use crate::{EngineError, Result};
+use crate::{EngineError, Result, signature};
 
 /// Largest plugin file that may be sent, and bytes of all that one account keeps.
 pub const MAX_PLUGIN_BYTES: usize = 64 << 20;
@@ -25,13 +25,14 @@ impl Engine {
         Ok(())
     }
 
-    /// Takes a plugin file; true when these bytes are new. The same bytes of one account are one.
+    /// Takes a plugin file; true when these bytes are new. The same bytes of one account are one; a signature may come later.
     pub async fn submit_plugin(
         &self,
         account: &AccountInfo,
         file: &str,
         bytes: Vec<u8>,
         manifest: Manifest,
+        signature: Option<&str>,
     ) -> Result<(PluginInfo, bool)> {
         self.may_submit(account)?;
         check_manifest(&manifest)?;
@@ -43,9 +44,14 @@ impl Engine {
                 "{file:?} is no plugin: it is no ELF file; build a shared library (.so) for Linux."
             )));
         }
+        let signed_by = signature.map(|signature| signed_by(account, &bytes, signature)).transpose()?;
         let store = &self.inner.store;
         let blob = sha256_hex(&bytes);
         if let Some(known) = store.submission_of(&account.id, &blob).await? {
+            if let Some(key) = signed_by.filter(|key| known.signed_by.as_ref() != Some(key)) {
+                let note = Note { actor: &account.name, action: "signed", subject: &known.id, detail: &key };
+                store.sign_submission(&known.id, &key, note).await?;
+            }
             return Ok((self.plugin(&known.id, Some(account)).await?, false));
         }
         self.has_room(account, bytes.len() as u64).await?;
@@ -60,6 +66,7 @@ impl Engine {
             file: file.to_owned(),
             bytes: length as u64,
             manifest,
+            signed_by,
             state: PluginState::Uploaded,
             reason: String::new(),
             hardware_class: None,
@@ -160,13 +167,14 @@ impl Engine {
             sha256: row.blob.clone(),
             bytes: row.bytes,
             file: row.file.clone(),
-            owner: owner.map_or_else(String::new, |account| account.name),
+            owner: owner.as_ref().map_or_else(String::new, |account| account.name.clone()),
             mine,
             manifest: row.manifest.clone(),
+            signed_by: row.signed_by.clone(),
             state: row.state,
             reason: row.reason.clone(),
             hardware_class: row.hardware_class.clone(),
-            flags: if close { flags(row, &lines, &before, all) } else { Vec::new() },
+            flags: if close { flags(row, &lines, &before, all, owner.as_ref()) } else { Vec::new() },
             lines,
             algorithms: row.algorithms.clone(),
             previous,
@@ -235,6 +243,13 @@ impl super::Inner {
     }
 }
 
+/// The key of the account, when the signature is that of this file by it.
+fn signed_by(account: &AccountInfo, file: &[u8], signature: &str) -> Result<String> {
+    let missing = "This account has no key to check a signature with; register your minisign.pub on the account page.";
+    let key = account.signing_key.clone().ok_or_else(|| EngineError::Invalid(missing.into()))?;
+    signature::check(file, signature, &key).map(|()| key)
+}
+
 /// What a step needs and does.
 struct Step {
     by_author: bool,
@@ -296,8 +311,17 @@ pub fn conflict(row: &SubmissionRow, all: &[SubmissionRow], installed: impl Fn(&
 }
 
 /// What a curator should look at.
-fn flags(row: &SubmissionRow, lines: &[CheckLine], before: &[CheckLine], all: &[SubmissionRow]) -> Vec<String> {
+fn flags(
+    row: &SubmissionRow,
+    lines: &[CheckLine],
+    before: &[CheckLine],
+    all: &[SubmissionRow],
+    owner: Option<&AccountInfo>,
+) -> Vec<String> {
     let mut flags = Vec::new();
+    if row.signed_by.is_none() && owner.is_some_and(|owner| owner.signing_key.is_some()) {
+        flags.push("It is not signed, though its author has registered a key.".to_owned());
+    }
     if !is_free(&row.manifest.license) {
         flags.push(format!("The licence {} is not known as a free one.", row.manifest.license));
     }

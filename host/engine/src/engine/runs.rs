@@ -16,7 +16,13 @@ const CANCEL_PATIENCE: Duration = Duration::from_secs(3);
 impl Engine {
     /// Checks the spec and queues the run.
     pub async fn submit(&self, spec: RunSpec, owner: Option<&str>) -> Result<RunInfo> {
-        self.queue(spec, owner, INTERACTIVE, false).await
+        self.queue(spec, owner, INTERACTIVE, false, None).await.map(|(run, _)| run)
+    }
+
+    /// The same, once: who asks again under the same key, because the first answer was lost, gets the run that there is.
+    /// True when it is a new one.
+    pub async fn submit_once(&self, spec: RunSpec, owner: &str, key: &str) -> Result<(RunInfo, bool)> {
+        self.queue(spec, Some(owner), INTERACTIVE, false, Some(key)).await
     }
 
     pub(super) async fn queue(
@@ -25,7 +31,8 @@ impl Engine {
         owner: Option<&str>,
         priority: i64,
         featured: bool,
-    ) -> Result<RunInfo> {
+        key: Option<&str>,
+    ) -> Result<(RunInfo, bool)> {
         let checked = self.check(&spec, owner).await?;
         let expected = estimate::estimate(&self.inner, &checked).await?;
         let row = RunRow {
@@ -49,10 +56,23 @@ impl Engine {
             finished_us: None,
             spec: checked.spec,
         };
-        self.inner.store.add_run(&row, &fresh_stages(&row.spec.algorithms)).await?;
+        if !self.inner.store.add_run(&row, &fresh_stages(&row.spec.algorithms), key).await? {
+            return self.asked_before(&row, key.unwrap_or_default(), owner).await.map(|run| (run, false));
+        }
         dispatcher::announce(&self.inner).await?;
         self.inner.wake.notify_one();
-        self.run(&row.id, owner).await
+        self.run(&row.id, owner).await.map(|run| (run, true))
+    }
+
+    /// The run that was asked for under the key of this one.
+    async fn asked_before(&self, row: &RunRow, key: &str, owner: Option<&str>) -> Result<RunInfo> {
+        let missing = || EngineError::Fault("A run was lost while it was asked for.".into());
+        let known = self.inner.store.run_of_request(owner.unwrap_or_default(), key).await?.ok_or_else(missing)?;
+        if known.spec != row.spec {
+            let told = format!("The key {key:?} was used for another run; give every run a key of its own.");
+            return Err(EngineError::Invalid(told));
+        }
+        self.info(known, owner).await
     }
 
     /// Queues a preview's run for all of its configurations. It stays the same run; its numbers are a preview's until those

@@ -48,6 +48,8 @@ pub struct AccountInfo {
     pub role: Role,
     /// Why its owner wants to be a developer, while that is undecided.
     pub wish: Option<String>,
+    /// The minisign key that its plugins may be signed with.
+    pub signing_key: Option<String>,
     /// When it was made.
     pub created_us: i64,
 }
@@ -87,6 +89,14 @@ pub struct NewPassword {
     pub old: String,
     /// The password from now on.
     pub new: String,
+}
+
+/// A key that plugins may be signed with.
+#[derive(Clone, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SigningKey {
+    /// A minisign public key: the file `minisign.pub`, or its last line.
+    pub public_key: String,
 }
 
 /// Why somebody wants to be a developer.

@@ -118,6 +118,8 @@ pub struct PluginInfo {
     pub mine: bool,
     /// What its author says of it.
     pub manifest: Manifest,
+    /// The registered key of its author that it is signed with, as minisign writes it.
+    pub signed_by: Option<String>,
     /// Where it is on its way.
     pub state: PluginState,
     /// Why it is there: a curator's or the author's words, or the first line that failed.

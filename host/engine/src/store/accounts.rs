@@ -5,12 +5,12 @@ use super::{Note, Store, from_json, now_us, to_json};
 use crate::model::{AccountInfo, Role, Scope, TokenInfo};
 use crate::{EngineError, Result};
 
-/// Columns of an account: id, name, role, wish, when it was made.
-type AccountRow = (String, String, String, Option<String>, i64);
+/// Columns of an account: id, name, role, wish, signing key, when it was made.
+type AccountRow = (String, String, String, Option<String>, Option<String>, i64);
 
-fn account((id, name, role, wish, created_us): AccountRow) -> Result<AccountInfo> {
+fn account((id, name, role, wish, signing_key, created_us): AccountRow) -> Result<AccountInfo> {
     let unknown = || EngineError::Fault(format!("The database holds an account of the unknown role {role:?}."));
-    Ok(AccountInfo { id, name, role: Role::named(&role).ok_or_else(unknown)?, wish, created_us })
+    Ok(AccountInfo { id, name, role: Role::named(&role).ok_or_else(unknown)?, wish, signing_key, created_us })
 }
 
 impl Store {
@@ -34,7 +34,7 @@ impl Store {
     /// All accounts by name.
     pub async fn accounts(&self) -> Result<Vec<AccountInfo>> {
         let rows: Vec<AccountRow> =
-            sqlx::query_as("SELECT id, name, role, wish, created_us FROM accounts ORDER BY folded")
+            sqlx::query_as("SELECT id, name, role, wish, signing_key, created_us FROM accounts ORDER BY folded")
                 .fetch_all(&self.pool)
                 .await?;
         rows.into_iter().map(account).collect()
@@ -43,7 +43,7 @@ impl Store {
     /// The account with this id.
     pub async fn account(&self, id: &str) -> Result<Option<AccountInfo>> {
         let row: Option<AccountRow> =
-            sqlx::query_as("SELECT id, name, role, wish, created_us FROM accounts WHERE id = $1")
+            sqlx::query_as("SELECT id, name, role, wish, signing_key, created_us FROM accounts WHERE id = $1")
                 .bind(id)
                 .fetch_optional(&self.pool)
                 .await?;
@@ -82,6 +82,19 @@ impl Store {
         }
         transaction.commit().await?;
         Ok(there)
+    }
+
+    /// Registers the key that the account signs with, or forgets it, and notes it.
+    pub async fn set_signing_key(&self, id: &str, key: Option<&str>, note: Note<'_>) -> Result<()> {
+        let mut transaction = self.pool.begin().await?;
+        sqlx::query("UPDATE accounts SET signing_key = $1 WHERE id = $2")
+            .bind(key)
+            .bind(id)
+            .execute(&mut *transaction)
+            .await?;
+        append(&mut transaction, note).await?;
+        transaction.commit().await?;
+        Ok(())
     }
 
     /// Notes why the account's owner wants to be a developer.
@@ -166,10 +179,15 @@ impl Store {
         Ok(())
     }
 
-    /// Moves runs and objects from one owner to another.
+    /// Moves runs and objects from one owner to another. A key of a request that both have used stays that of the other's run.
     pub async fn move_things(&self, from: &str, to: &str) -> Result<()> {
         let mut transaction = self.pool.begin().await?;
-        for text in ["UPDATE runs SET owner = $1 WHERE owner = $2", "UPDATE objects SET owner = $1 WHERE owner = $2"] {
+        for text in [
+            "UPDATE runs SET request_key = NULL WHERE request_key IN \
+             (SELECT request_key FROM runs WHERE owner = $1) AND owner = $2",
+            "UPDATE runs SET owner = $1 WHERE owner = $2",
+            "UPDATE objects SET owner = $1 WHERE owner = $2",
+        ] {
             sqlx::query(text).bind(to).bind(from).execute(&mut *transaction).await?;
         }
         transaction.commit().await?;

@@ -77,13 +77,14 @@ macro_rules! select_runs {
 }
 
 impl Store {
-    /// Queues a run with its lanes.
-    pub async fn add_run(&self, run: &RunRow, stages: &[Stage]) -> Result<()> {
+    /// Queues a run with its lanes; false when its owner has used this key of a request before.
+    pub async fn add_run(&self, run: &RunRow, stages: &[Stage], key: Option<&str>) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
-        sqlx::query(
+        let added = sqlx::query(
             "INSERT INTO runs (id, owner, featured, priority, state, attempts, spec, object_a_name, object_b_name, \
-             secret, expected_seconds, created_us, private) \
-             VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11, $12)",
+             secret, expected_seconds, created_us, private, request_key) \
+             VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11, $12, $13) \
+             ON CONFLICT (owner, request_key) DO NOTHING",
         )
         .bind(&run.id)
         .bind(run.owner.as_deref())
@@ -97,8 +98,12 @@ impl Store {
         .bind(run.expected_seconds)
         .bind(run.created_us)
         .bind(i64::from(run.private))
+        .bind(key)
         .execute(&mut *transaction)
         .await?;
+        if added.rows_affected() == 0 {
+            return Ok(false);
+        }
         for (position, stage) in stages.iter().enumerate() {
             sqlx::query("INSERT INTO run_stages (run_id, position, stage) VALUES ($1, $2, $3)")
                 .bind(&run.id)
@@ -108,7 +113,17 @@ impl Store {
                 .await?;
         }
         transaction.commit().await?;
-        Ok(())
+        Ok(true)
+    }
+
+    /// The run that its owner asked for under this key.
+    pub async fn run_of_request(&self, owner: &str, key: &str) -> Result<Option<RunRow>> {
+        let row = sqlx::query(select_runs!("WHERE owner = $1 AND request_key = $2"))
+            .bind(owner)
+            .bind(key)
+            .fetch_optional(&self.pool)
+            .await?;
+        row.as_ref().map(read_run).transpose()
     }
 
     /// Queues a run that has ended again, with another request, another secret and a log that begins anew. Its results

@@ -26,6 +26,8 @@ pub struct SubmissionRow {
     pub bytes: u64,
     /// What its author says of it.
     pub manifest: Manifest,
+    /// The key that it was signed with.
+    pub signed_by: Option<String>,
     /// Where it is on its way.
     pub state: PluginState,
     /// Why.
@@ -43,8 +45,8 @@ pub struct SubmissionRow {
 macro_rules! select_submissions {
     ($rest:literal) => {
         concat!(
-            "SELECT id, account, blob, file, bytes, manifest, state, reason, hardware_class, algorithms, created_us, ",
-            "changed_us FROM submissions ",
+            "SELECT id, account, blob, file, bytes, manifest, signed_by, state, reason, hardware_class, algorithms, ",
+            "created_us, changed_us FROM submissions ",
             $rest
         )
     };
@@ -56,7 +58,7 @@ impl Store {
         let mut transaction = self.pool.begin().await?;
         let added = sqlx::query(
             "INSERT INTO submissions (id, account, blob, file, bytes, manifest, state, reason, algorithms, attempts, \
-             created_us, changed_us) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, 0, $10, $11) \
+             created_us, changed_us, signed_by) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, 0, $10, $11, $12) \
              ON CONFLICT (account, blob) DO NOTHING",
         )
         .bind(&row.id)
@@ -70,6 +72,7 @@ impl Store {
         .bind(to_json(&row.algorithms)?)
         .bind(row.created_us)
         .bind(row.changed_us)
+        .bind(row.signed_by.as_deref())
         .execute(&mut *transaction)
         .await?;
         let new = added.rows_affected() == 1;
@@ -78,6 +81,19 @@ impl Store {
         }
         transaction.commit().await?;
         Ok(new)
+    }
+
+    /// Notes that the author has signed what was sent before.
+    pub async fn sign_submission(&self, id: &str, key: &str, note: Note<'_>) -> Result<()> {
+        let mut transaction = self.pool.begin().await?;
+        sqlx::query("UPDATE submissions SET signed_by = $1 WHERE id = $2")
+            .bind(key)
+            .bind(id)
+            .execute(&mut *transaction)
+            .await?;
+        append(&mut transaction, note).await?;
+        transaction.commit().await?;
+        Ok(())
     }
 
     /// One submission.
@@ -220,6 +236,7 @@ fn read(row: &AnyRow) -> Result<SubmissionRow> {
         file: row.try_get("file")?,
         bytes: row.try_get::<i64, _>("bytes")? as u64,
         manifest: from_json(row.try_get("manifest")?)?,
+        signed_by: row.try_get("signed_by")?,
         state: PluginState::named(state).ok_or_else(unknown)?,
         reason: row.try_get("reason")?,
         hardware_class: row.try_get("hardware_class")?,

@@ -73,6 +73,7 @@ on_both!(
     advice_ends_once_and_is_found_again,
     sets_are_found_by_their_key,
     a_run_comes_back_as_it_was,
+    a_request_makes_one_run,
     events_are_numbered_from_one,
     the_queue_is_fair,
     interrupted_runs_are_tried_three_times,
@@ -182,7 +183,7 @@ fn result(algorithm: &str, n: u32) -> StoredResult {
 }
 
 async fn add(store: &Store, run: RunRow) {
-    store.add_run(&run, &fresh_stages(&run.spec.algorithms)).await.unwrap();
+    assert!(store.add_run(&run, &fresh_stages(&run.spec.algorithms), None).await.unwrap());
 }
 
 mod contract {
@@ -326,6 +327,20 @@ mod contract {
         let mine: Vec<String> = store.runs_of("me", 10).await.unwrap().into_iter().map(|r| r.id).collect();
         assert_eq!(mine, ["s", "r"]);
         assert_eq!(store.runs_of("me", 1).await.unwrap().len(), 1);
+    }
+
+    pub async fn a_request_makes_one_run(store: Store) {
+        let (mine, again) = (run("r", Some("me"), 1, 1), run("s", Some("me"), 1, 2));
+        let ask = |row: RunRow, key| {
+            let store = store.clone();
+            async move { store.add_run(&row, &fresh_stages(&row.spec.algorithms), key).await.unwrap() }
+        };
+        assert!(ask(mine.clone(), Some("k")).await && !ask(again.clone(), Some("k")).await);
+        assert_eq!(store.run_of_request("me", "k").await.unwrap().map(|row| row.id).as_deref(), Some("r"));
+        assert!(store.stages("s").await.unwrap().is_empty(), "nothing is left of the second");
+        // Keys are each owner's own, and who gives none may ask as often as they like.
+        assert!(ask(run("t", Some("other"), 1, 3), Some("k")).await);
+        assert!(ask(again, None).await && ask(run("u", Some("me"), 1, 4), None).await);
     }
 
     pub async fn events_are_numbered_from_one(store: Store) {

@@ -27,6 +27,11 @@ export const makeToken = (name: string, scopes: Scope[]): Promise<NewToken> =>
 export const endToken = (id: string): Promise<void> =>
   nothing(http.DELETE('/api/v1/account/tokens/{id}', { params: { path: { id } } }))
 
+export const registerKey = (publicKey: string): Promise<AccountInfo> =>
+  answer(http.POST('/api/v1/account/signing-key', { body: { public_key: publicKey } }))
+
+export const forgetKey = (): Promise<void> => nothing(http.DELETE('/api/v1/account/signing-key'))
+
 export const listAccounts = (): Promise<AccountInfo[]> => answer(http.GET('/api/v1/accounts'))
 
 export const changeRole = (id: string, role: Role): Promise<AccountInfo> =>
@@ -43,9 +48,10 @@ export const decide = (id: string, body: Decision): Promise<PluginInfo> =>
   answer(http.POST('/api/v1/plugins/{id}/decisions', { params: { path: { id } }, body }))
 
 /** Sends a plugin; the manifest goes first, so that a slip in it is told before the file is read. */
-export const submitPlugin = (file: File, manifest: string): Promise<PluginInfo> => {
+export const submitPlugin = (file: File, manifest: string, signature: string | null): Promise<PluginInfo> => {
   const form = new FormData()
   form.append('manifest', manifest)
+  if (signature !== null) form.append('signature', signature)
   form.append('file', file, file.name)
   return answer(http.POST('/api/v1/plugins', { body: { manifest, file: file.name }, bodySerializer: () => form }))
 }

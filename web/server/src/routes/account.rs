@@ -6,7 +6,7 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{AppendHeaders, IntoResponse, Response};
 use axum_extra::extract::CookieJar;
 use ocb_engine::model::{
-    AccountInfo, Credentials, Identity, NewPassword, NewToken, Role, TokenInfo, TokenRequest, Wish,
+    AccountInfo, Credentials, Identity, NewPassword, NewToken, Role, SigningKey, TokenInfo, TokenRequest, Wish,
 };
 
 use crate::App;
@@ -135,6 +135,32 @@ pub(crate) async fn ask_to_develop(
     Json(wish): Json<Wish>,
 ) -> Result<StatusCode> {
     app.engine.wish_to_develop(&account, &wish.reason).await?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// Registers the key that plugins of this account are signed with, in the place of an earlier one.
+#[utoipa::path(post, path = "/account/signing-key", tag = "account", request_body = SigningKey,
+    responses(
+        (status = 200, description = "The account as it is now", body = AccountInfo),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No public key of minisign", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn register_key(
+    State(app): State<App>,
+    Member(account): Member,
+    Json(asked): Json<SigningKey>,
+) -> Result<Answer<AccountInfo>> {
+    Ok(Answer(app.engine.set_signing_key(&account, Some(&asked.public_key)).await?))
+}
+
+/// Forgets the key; plugins that were signed with it stay signed.
+#[utoipa::path(delete, path = "/account/signing-key", tag = "account",
+    responses(
+        (status = 204, description = "There is no key any more"),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn forget_key(State(app): State<App>, Member(account): Member) -> Result<StatusCode> {
+    app.engine.set_signing_key(&account, None).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 

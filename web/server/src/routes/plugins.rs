@@ -45,6 +45,8 @@ pub(crate) async fn list_plugins(State(app): State<App>, viewer: Viewer) -> Resu
 struct SubmissionForm {
     /// A `Manifest` as JSON; it comes before the file.
     manifest: String,
+    /// The content of a `.minisig` file, by the key that the account has registered; it comes before the file, too.
+    signature: Option<String>,
     /// A shared library of at most 64 MiB.
     #[schema(value_type = String, format = Binary)]
     file: Vec<u8>,
@@ -61,7 +63,7 @@ struct SubmissionForm {
         (status = 403, description = "No developer", body = Problem, content_type = "application/problem+json"),
         (status = 409, description = "Too many plugins wait, or the quota is used up", body = Problem, content_type = "application/problem+json"),
         (status = 413, description = "Too large", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No plugin, or no manifest", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No plugin, no manifest, or a signature that does not fit", body = Problem, content_type = "application/problem+json"),
         (status = 429, description = "Too many uploads", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn submit_plugin(
@@ -73,9 +75,9 @@ pub(crate) async fn submit_plugin(
     // Before anything is read: who may not submit need not send 64 MiB to hear it.
     app.engine.may_submit(&account)?;
     let _turn = app.uploads.take(request.headers()).await?;
-    let Submission { name, bytes, manifest } = Submission::read(request, &app).await?;
+    let Submission { name, bytes, manifest, signature } = Submission::read(request, &app).await?;
     let _alone = app.submitting.lock().await;
-    let (plugin, new) = app.engine.submit_plugin(&account, &name, bytes, manifest).await?;
+    let (plugin, new) = app.engine.submit_plugin(&account, &name, bytes, manifest, signature.as_deref()).await?;
     let status = if new { StatusCode::CREATED } else { StatusCode::OK };
     let location = format!("/api/v1/plugins/{}", plugin.id);
     Ok((status, [(header::LOCATION, location)], Answer(plugin)).into_response())

@@ -196,6 +196,8 @@ const DOORS: &[(&str, &[&str])] = &[
             "post /account/developer",
             "post /account/logout-everywhere",
             "post /account/password",
+            "post /account/signing-key",
+            "delete /account/signing-key",
             "get /account/tokens",
             "post /account/tokens",
             "delete /account/tokens/{id}",

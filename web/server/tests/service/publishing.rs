@@ -168,6 +168,45 @@ async fn what_is_no_plugin_is_refused_before_anything_is_kept() {
     service.stop().await;
 }
 
+/// A key for tests, and what minisign wrote of [`SIGNED`] with it.
+const KEY: &str = include_str!("../../../../host/engine/src/signature/minisign.pub");
+const SIGNATURE: &str = include_str!("../../../../host/engine/src/signature/elf.minisig");
+const SIGNED: &[u8] = b"\x7fELF and nothing behind it";
+
+#[tokio::test]
+async fn a_signature_is_that_of_this_file_by_the_registered_key() {
+    let service = Service::start_with(&["libocb_box_tree.so"]).await;
+    let author = member(&service, "author", Role::Developer).await;
+    let send = async |bytes: &[u8], signature: &str| {
+        let file = Part::bytes(bytes.to_vec()).file_name("tree.so");
+        let form = Form::new().text("manifest", manifest("1.0").to_string()).text("signature", signature.to_owned());
+        author.post("/api/v1/plugins").multipart(form.part("file", file)).send().await.expect("an answer")
+    };
+    assert!(problem(send(SIGNED, SIGNATURE).await, 422).await.contains("register your minisign.pub"));
+    let register = |key: &str| author.post("/api/v1/account/signing-key").json(&json!({ "public_key": key })).send();
+    assert!(problem(register("RWnonsense").await.expect("an answer"), 422).await.contains("no public key"));
+    let known = well(register(KEY).await.expect("an answer")).await;
+    let key = KEY.lines().last().expect("a key");
+    assert_eq!(known["signing_key"], key);
+    assert_eq!(author.json("/api/v1/account").await["account"]["signing_key"], key);
+
+    assert!(problem(send(b"\x7fELF and more", SIGNATURE).await, 422).await.contains("not that of this file"));
+    assert!(problem(send(SIGNED, "a scribble").await, 422).await.contains("cannot be read"));
+    problem(send(SIGNED, &"x".repeat(5000)).await, 413).await;
+    assert_eq!(author.json("/api/v1/plugins").await, json!([]), "nothing of these is kept");
+    let unsigned = well(submit(&author, &manifest("1.0"), SIGNED.to_vec()).await).await;
+    assert_eq!(unsigned["signed_by"], Value::Null);
+    assert!(unsigned["flags"][0].as_str().expect("a flag").contains("not signed"), "{unsigned:#}");
+    // The signature may come later: the bytes are the same, and so is the plugin.
+    let signed = well(send(SIGNED, SIGNATURE).await).await;
+    assert_eq!((&signed["signed_by"], &signed["id"]), (&json!(key), &unsigned["id"]));
+    assert!(!signed["flags"].to_string().contains("not signed"), "{signed:#}");
+    let forgotten = author.client.delete(format!("{}/api/v1/account/signing-key", service.url)).send().await;
+    assert_eq!(forgotten.expect("an answer").status(), StatusCode::NO_CONTENT);
+    assert_eq!(author.json("/api/v1/account").await["account"]["signing_key"], Value::Null);
+    service.stop().await;
+}
+
 async fn failed(guest: &Guest, sent: &Value) -> Value {
     let path = format!("/api/v1/plugins/{}", sent["id"].as_str().expect("an id"));
     let stream = guest.get(&format!("{path}/events")).send().await.expect("an answer");

@@ -34,6 +34,33 @@ async fn a_run_ends_with_every_result() {
     service.stop().await;
 }
 
+#[tokio::test]
+async fn a_request_that_is_sent_again_makes_no_second_run() {
+    let service = Service::start().await;
+    let (guest, other) = (service.guest(), service.guest());
+    let ask = |by: &Guest, key: &str, passes: u32| {
+        let mut spec = small_spec();
+        spec["passes"] = passes.into();
+        by.post("/api/v1/runs").header("idempotency-key", key).json(&spec).send()
+    };
+    let first = ask(&guest, "night 7", 1).await.expect("an answer");
+    assert_eq!(first.status(), StatusCode::CREATED);
+    let place = header(&first, "location");
+    // Also while the first is on its way, and many at once.
+    let again = futures::future::join_all((0..4).map(|_| ask(&guest, "night 7", 1))).await;
+    for answer in again {
+        let answer = answer.expect("an answer");
+        assert_eq!((answer.status(), header(&answer, "location")), (StatusCode::OK, place.clone()));
+    }
+    assert!(problem(ask(&guest, "night 7", 2).await.expect("an answer"), 422).await.contains("night 7"));
+    problem(ask(&guest, "", 1).await.expect("an answer"), 400).await;
+    problem(ask(&guest, &"k".repeat(201), 1).await.expect("an answer"), 400).await;
+    assert_eq!(guest.json("/api/v1/runs").await.as_array().map(Vec::len), Some(1));
+    // The keys of others are theirs.
+    assert_eq!(ask(&other, "night 7", 2).await.expect("an answer").status(), StatusCode::CREATED);
+    service.stop().await;
+}
+
 const MAP: &str = "algorithm=box-tree&measure=time&statistic=median&outliers=per_vertex";
 
 async fn check_numbers(guest: &Guest, path: &str, configurations: u64) {

@@ -1,11 +1,11 @@
 //! Accounts, the audit log and submissions, on both databases.
 
 use super::super::*;
-use super::{add, object, run};
+use super::{add, fresh_stages, object, run};
 use crate::model::{AccountInfo, CheckLine, CheckVerdict, PluginState, Role, Scope, TokenInfo};
 
 fn account(id: &str, name: &str) -> AccountInfo {
-    AccountInfo { id: id.into(), name: name.into(), role: Role::User, wish: None, created_us: 1 }
+    AccountInfo { id: id.into(), name: name.into(), role: Role::User, wish: None, signing_key: None, created_us: 1 }
 }
 
 fn key(id: &str, expires_us: i64) -> TokenInfo {
@@ -27,7 +27,8 @@ pub async fn accounts_have_one_name_and_keys_of_their_own(store: Store) {
     assert!(store.set_role("1", Role::Developer, NOTE).await.unwrap());
     assert!(!store.set_role("9", Role::User, NOTE).await.unwrap());
     assert_eq!(store.notes_on("x").await.unwrap().len(), 1, "what did not happen is not noted");
-    let now = AccountInfo { role: Role::Developer, ..ada };
+    store.set_signing_key("1", Some("RWkey"), NOTE).await.unwrap();
+    let now = AccountInfo { role: Role::Developer, signing_key: Some("RWkey".into()), ..ada };
     assert_eq!(store.accounts().await.unwrap(), std::slice::from_ref(&now));
 
     store.add_key("s", "1", &key("a", later), true).await.unwrap();
@@ -52,9 +53,15 @@ pub async fn accounts_have_one_name_and_keys_of_their_own(store: Store) {
     store.add_blob("m", 1, "x").await.unwrap();
     store.add_object(&object("o"), Some("guest"), "m").await.unwrap();
     add(&store, run("r", Some("guest"), 1, 1)).await;
+    // Both have used the same key of a request; the account's own run keeps it.
+    for (id, owner) in [("s", "guest"), ("t", "account:1")] {
+        let row = run(id, Some(owner), 1, 1);
+        assert!(store.add_run(&row, &fresh_stages(&row.spec.algorithms), Some("k")).await.unwrap());
+    }
     store.move_things("guest", "account:1").await.unwrap();
+    assert_eq!(store.run_of_request("account:1", "k").await.unwrap().map(|row| row.id).as_deref(), Some("t"));
     assert_eq!(store.objects_of("account:1").await.unwrap().len(), 1);
-    assert_eq!(store.runs_of("account:1", 9).await.unwrap().len(), 1);
+    assert_eq!(store.runs_of("account:1", 9).await.unwrap().len(), 3);
     assert!(store.runs_of("guest", 9).await.unwrap().is_empty());
 }
 
@@ -88,6 +95,7 @@ pub async fn a_submission_is_checked_three_times_at_most(store: Store) {
         file: "f.so".into(),
         bytes: 1,
         manifest: manifest.unwrap(),
+        signed_by: Some("RWkey".into()),
         state: PluginState::Uploaded,
         reason: String::new(),
         hardware_class: None,
@@ -100,6 +108,8 @@ pub async fn a_submission_is_checked_three_times_at_most(store: Store) {
     assert_eq!(store.notes_on("x").await.unwrap().len(), 1, "what did not happen is not noted");
     assert_eq!(store.submission("p").await.unwrap().as_ref(), Some(&row));
     assert_eq!(store.submission_of("1", "f").await.unwrap().as_ref(), Some(&row));
+    store.sign_submission("p", "RWother", NOTE).await.unwrap();
+    let row = SubmissionRow { signed_by: Some("RWother".into()), ..row };
     let line =
         CheckLine { check: "c".into(), verdict: CheckVerdict::Pass, evidence: "e".into(), hint: None, repro: None };
     assert_eq!(store.claim_check(3).await.unwrap().as_ref(), Some(&row));
