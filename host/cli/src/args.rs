@@ -1,6 +1,7 @@
 //! What can be said on the command line.
 
 mod plugins;
+mod services;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -8,6 +9,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub use plugins::{AdminCommand, PluginCommand, SubmitArgs};
+pub use services::{ServiceArgs, Shown, VisibilityArgs};
 
 use ocb_engine::Profile;
 
@@ -119,6 +121,8 @@ pub enum Command {
     },
     /// Send a plugin to a service, which checks it.
     Submit(SubmitArgs),
+    /// Decide who sees a run or an object of yours on a service.
+    Visibility(VisibilityArgs),
     /// Look after a service's accounts, on its data folder while it is stopped.
     Admin {
         #[command(subcommand)]

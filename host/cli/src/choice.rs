@@ -18,6 +18,18 @@ macro_rules! choice {
 }
 
 choice! {
+    /// Who sees a run or an object.
+    VisibilityArg => ocb_engine::model::Visibility {
+        /// You alone.
+        Private,
+        /// Whoever has its link.
+        Unlisted,
+        /// Everybody: the list of objects has it, or the board when it is a run.
+        Public,
+    }
+}
+
+choice! {
     /// What to show.
     MeasureArg => ocb_engine::model::Measure {
         /// Time per query.

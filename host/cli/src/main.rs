@@ -21,10 +21,12 @@ mod plugin;
 mod run;
 mod select;
 mod serve;
+mod service;
 mod stability;
 mod submit;
 mod truth;
 mod units;
+mod visibility;
 mod worst;
 
 use std::process::ExitCode;
@@ -62,6 +64,7 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Object { command } => object::object(&store, &command, json).await,
         Command::Run { command } => run::run(&store, &command, json).await,
         Command::Submit(args) => submit::submit(&args, json).await,
+        Command::Visibility(args) => visibility::visibility(&args, json).await,
         Command::Admin { command } => admin::admin(&store, &command, json).await,
         Command::Stability(args) => stability::stability(&store, &args, json).await,
         Command::Doctor => doctor::doctor(&store, json),

@@ -6,11 +6,11 @@ use std::time::Duration;
 use ocb_engine::MAX_PLUGIN_BYTES;
 use ocb_engine::model::{Manifest, PluginInfo};
 use reqwest::multipart::{Form, Part};
-use reqwest::{Client, Response};
-use serde_json::Value;
+use reqwest::Client;
 
 use crate::args::SubmitArgs;
-use crate::failure::{BAD_INPUT, Failure, Result};
+use crate::failure::{BAD_INPUT, Result};
+use crate::service::answer;
 use crate::{open, output, plugin};
 
 /// The most that a file with a signature has.
@@ -24,7 +24,8 @@ pub async fn submit(args: &SubmitArgs, json: bool) -> Result<ExitCode> {
     let bytes = open::read_bounded(&args.file, MAX_PLUGIN_BYTES)?;
     // Read here first: a slip in it is told before anything is sent.
     let manifest: Manifest = plugin::json_file(&args.manifest)?;
-    let plugins = format!("{}/api/v1/plugins", args.server.trim_end_matches('/'));
+    let plugins = args.service.address("/api/v1/plugins");
+    let token = &args.service.token;
     let client = Client::new();
     let name = args.file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let mut form = Form::new().text("manifest", output::to_json(&manifest)?);
@@ -33,17 +34,17 @@ pub async fn submit(args: &SubmitArgs, json: bool) -> Result<ExitCode> {
         form = form.text("signature", String::from_utf8_lossy(&signature).into_owned());
     }
     let form = form.part("file", Part::bytes(bytes).file_name(name));
-    let sent = client.post(&plugins).bearer_auth(&args.token).multipart(form).send().await;
-    let mut info = answer(&plugins, sent).await?;
+    let sent = client.post(&plugins).bearer_auth(token).multipart(form).send().await;
+    let mut info: PluginInfo = answer(&plugins, sent).await?;
     let mut told = 0;
     while info.state.is_checking() && !args.no_wait {
         told = tell(&info, told, json)?;
         tokio::time::sleep(LOOK).await;
         let address = format!("{plugins}/{}", info.id);
-        info = answer(&address, client.get(&address).bearer_auth(&args.token).send().await).await?;
+        info = answer(&address, client.get(&address).bearer_auth(token).send().await).await?;
     }
     tell(&info, told, json)?;
-    let page = format!("{}/p/{}", args.server.trim_end_matches('/'), info.id);
+    let page = args.service.address(&format!("/p/{}", info.id));
     if json {
         output::print_json(&info)?;
     } else {
@@ -61,23 +62,13 @@ fn tell(info: &PluginInfo, told: usize, json: bool) -> Result<usize> {
     Ok(info.lines.len())
 }
 
-async fn answer(address: &str, sent: reqwest::Result<Response>) -> Result<PluginInfo> {
-    let unreachable = |_| Failure::Input(format!("Nothing answers on {address}; name the service with --server."));
-    let response = sent.map_err(unreachable)?;
-    let status = response.status();
-    let strange = |_| Failure::Input(format!("What answers on {address} is no service of this kind ({status})."));
-    if status.is_success() {
-        return response.json().await.map_err(strange);
-    }
-    let problem: Value = response.json().await.map_err(strange)?;
-    Err(Failure::Input(problem["detail"].as_str().unwrap_or("The service refused.").to_owned()))
-}
-
 #[cfg(test)]
 mod tests {
     use std::path::Path;
 
     use super::*;
+    use crate::args::ServiceArgs;
+    use crate::failure::Failure;
 
     #[tokio::test]
     async fn a_service_that_is_not_there_is_named() {
@@ -86,8 +77,8 @@ mod tests {
         std::fs::write(&file, b"\x7fELF").unwrap();
         let said = r#"{"name": "x", "version": "1", "authors": "me", "license": "MIT", "queries": ["proximity"]}"#;
         std::fs::write(&manifest, said).unwrap();
-        let server = "http://127.0.0.1:1".to_owned();
-        let mut args = SubmitArgs { file, manifest, signature: None, server, token: "t".into(), no_wait: true };
+        let service = ServiceArgs { server: "http://127.0.0.1:1".to_owned(), token: "t".into() };
+        let mut args = SubmitArgs { file, manifest, signature: None, service, no_wait: true };
         let Err(Failure::Input(told)) = submit(&args, false).await else { panic!("it was sent") };
         assert!(told.contains("127.0.0.1:1"), "{told}");
         args.manifest = Path::new("/nonexistent").into();

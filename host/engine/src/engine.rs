@@ -10,6 +10,7 @@ mod runs;
 mod selecting;
 mod sets;
 mod stability;
+mod visibility;
 
 pub use charts::{board_csv, chart_csv, chart_parquet};
 pub use people::SESSION;
@@ -50,8 +51,9 @@ const BACKGROUND: i64 = 5;
 
 /// Runs, objects, algorithms and results behind one cheap-to-clone handle.
 ///
-/// `viewer`, `owner` and `caller` are the guest's id (or the name that the command line uses); `None` owns nothing. Who
-/// knows the id of a run or of an object may look at it; only its owner may cancel a run.
+/// `viewer`, `owner` and `caller` are the guest's id (or the name that the command line uses); `None` owns nothing. What a
+/// viewer may look at is asked for with `run_is_for`, `object_is_for` and `advice_is_for`, once, at the service's door;
+/// functions without a viewer answer whoever got so far. Only its owner may change a run.
 #[derive(Clone)]
 pub struct Engine {
     inner: Arc<Inner>,
@@ -168,14 +170,14 @@ impl Engine {
         })
     }
 
-    /// Stock objects, then those that the viewer added, newest first.
+    /// Stock objects, then those that the viewer added, then the public ones of others, each newest first.
     pub async fn objects(&self, viewer: Option<&str>) -> Result<Vec<ObjectInfo>> {
         self.inner.objects.list(viewer).await
     }
 
     /// One object by id (`stock:NAME@TRIANGLES`, `stock:bunny`, `stock:dragon` or a UUID).
-    pub async fn object(&self, id: &str) -> Result<ObjectInfo> {
-        self.inner.objects.info(id).await
+    pub async fn object(&self, id: &str, viewer: Option<&str>) -> Result<ObjectInfo> {
+        self.inner.objects.info_for(id, viewer).await
     }
 
     /// Reads an OBJ file and keeps its mesh; the same mesh of the same owner is kept once. Nothing is kept on error.

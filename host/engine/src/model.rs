@@ -16,6 +16,7 @@ mod stability;
 mod submission;
 mod timing;
 mod truth;
+mod visibility;
 
 use ocb_core::comparison::Interval;
 use ocb_core::configuration::{Class, Method, Sampling, Separation};
@@ -45,6 +46,7 @@ pub use stability::{
 pub use submission::{Action, Decision, Manifest, PluginInfo, PluginState};
 pub use timing::{Draw, Reference, Timing, TimingCheck};
 pub use truth::{ContactRow, TruthRow};
+pub use visibility::{NewVisibility, Visibility};
 
 /// An object as the lists show it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -71,6 +73,14 @@ pub struct ObjectInfo {
     pub warnings: Vec<String>,
     /// When it was added.
     pub created_us: i64,
+    /// Who sees it.
+    #[serde(default)]
+    #[schema(required = true)]
+    pub visibility: Visibility,
+    /// Added by the caller, who decides who sees it.
+    #[serde(default)]
+    #[schema(required = true)]
+    pub mine: bool,
 }
 
 /// What to measure.
@@ -213,7 +223,7 @@ pub enum State {
 /// A run with everything a page needs to show it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RunInfo {
-    /// Id (UUIDv7); whoever knows it may look.
+    /// Id (UUIDv7).
     pub id: String,
     /// What was asked, with defaults filled in.
     pub spec: RunSpec,
@@ -244,8 +254,12 @@ pub struct RunInfo {
     pub commitment: Option<String>,
     /// Times this run was started (more than 1 after a restart of the service).
     pub attempts: u32,
-    /// Made by the caller (may cancel).
+    /// Made by the caller, who may cancel it and decides who sees it.
     pub mine: bool,
+    /// Who sees it: what its owner decided, and no more than see its objects.
+    #[serde(default)]
+    #[schema(required = true)]
+    pub visibility: Visibility,
     /// When it was asked for.
     pub created_us: i64,
     /// When it ended.

@@ -10,12 +10,14 @@ use ocb_core::stock;
 
 use crate::blobs::Blobs;
 use crate::cache::Cache;
-use crate::model::ObjectInfo;
+use crate::model::{ObjectInfo, Visibility};
 use crate::store::{Store, now_us};
 use crate::{EngineError, Result};
 
 /// Files of `stock_dir` that become stock objects when they are there.
 const SHIPPED: [&str; 2] = ["bunny", "dragon"];
+/// Objects of others that a list has, at most: the newest.
+const MOST_PUBLIC: i64 = 200;
 /// Longest display name in characters.
 const MAX_NAME: usize = 120;
 
@@ -34,7 +36,7 @@ impl Objects {
         Self { store, blobs, stock_dir, meshes: Cache::new(8), stock_infos: Mutex::new(HashMap::new()) }
     }
 
-    /// Stock objects, then those of the viewer, newest first.
+    /// Stock objects, then those of the viewer, then the public ones of others, each newest first.
     pub async fn list(&self, viewer: Option<&str>) -> Result<Vec<ObjectInfo>> {
         let shipped = SHIPPED.iter().filter(|name| self.shipped_file(name).is_some());
         let ids = shipped
@@ -44,17 +46,43 @@ impl Objects {
         for id in ids {
             all.push(self.info(&id).await?);
         }
-        if let Some(viewer) = viewer {
-            all.extend(self.store.objects_of(viewer).await?);
-        }
+        let own = match viewer {
+            Some(viewer) => self.store.objects_of(viewer).await?,
+            None => Vec::new(),
+        };
+        let others = self.store.public_objects(viewer, MOST_PUBLIC).await?;
+        all.extend(own.into_iter().chain(others).map(|row| row.shown_to(viewer)));
         Ok(all)
     }
 
-    /// One object. The id in the answer is the canonical one: `stock:castle` has become `stock:castle@<default>`.
+    /// One object as this viewer is shown it. The id in the answer is the canonical one: `stock:castle` has become
+    /// `stock:castle@<default>`.
+    pub async fn info_for(&self, id: &str, viewer: Option<&str>) -> Result<ObjectInfo> {
+        if id.starts_with("stock:") {
+            return self.info(id).await;
+        }
+        let row = self.store.object(id).await?.filter(|row| row.is_for(viewer));
+        Ok(row.ok_or_else(|| unknown(id))?.shown_to(viewer))
+    }
+
+    /// Is the object there for this viewer, if it is there at all?
+    pub async fn is_for(&self, id: &str, viewer: Option<&str>) -> Result<bool> {
+        Ok(id.starts_with("stock:") || self.store.object(id).await?.is_none_or(|row| row.is_for(viewer)))
+    }
+
+    /// Who sees the object; what is not there any more hides nothing.
+    pub async fn visibility(&self, id: &str) -> Result<Visibility> {
+        if id.starts_with("stock:") {
+            return Ok(Visibility::Public);
+        }
+        Ok(self.store.object(id).await?.map_or(Visibility::Public, |row| row.info.visibility))
+    }
+
+    /// One object, whoever asks.
     pub async fn info(&self, id: &str) -> Result<ObjectInfo> {
         let id = canonical(id);
         if !id.starts_with("stock:") {
-            return Ok(self.store.object(&id).await?.ok_or_else(|| unknown(&id))?.0);
+            return Ok(self.store.object(&id).await?.ok_or_else(|| unknown(&id))?.info);
         }
         let known = self.stock_infos.lock().unwrap_or_else(PoisonError::into_inner).get(&id).cloned();
         match known {
@@ -72,8 +100,8 @@ impl Objects {
         if id.starts_with("stock:") {
             return Ok(self.make_stock(&id).await?.0);
         }
-        let (_, blob) = self.store.object(&id).await?.ok_or_else(|| unknown(&id))?;
-        let bytes = self.blobs.get(&blob).await?;
+        let row = self.store.object(&id).await?.ok_or_else(|| unknown(&id))?;
+        let bytes = self.blobs.get(&row.blob).await?;
         let mesh = blocking(move || from_bytes(&bytes)).await?;
         Ok(self.meshes.put(&id, mesh))
     }
@@ -115,7 +143,7 @@ impl Objects {
         let mut info = describe(&mesh, &uuid::Uuid::now_v7().to_string(), &name, "Added by its owner.", warnings);
         info.created_us = now_us();
         if let Some(known) = self.store.object_with_mesh(&info.sha256, owner).await? {
-            return Ok(known);
+            return Ok(known.shown_to(owner));
         }
         let bytes = to_bytes(&mesh);
         let length = bytes.len();
@@ -123,7 +151,7 @@ impl Objects {
         self.store.add_blob(&blob, length, "application/octet-stream").await?;
         self.store.add_object(&info, owner, &blob).await?;
         self.meshes.put(&info.id, mesh);
-        Ok(info)
+        Ok(ObjectInfo { mine: owner.is_some(), ..info })
     }
 
     fn shipped_file(&self, name: &str) -> Option<PathBuf> {
@@ -132,7 +160,8 @@ impl Objects {
     }
 }
 
-fn unknown(id: &str) -> EngineError {
+/// There is no such object, or not for who asks: both sound alike.
+pub fn unknown(id: &str) -> EngineError {
     EngineError::NotFound(format!(
         "There is no object {id:?}; `ocb object list` and GET /api/v1/objects name those there are."
     ))
@@ -156,7 +185,7 @@ fn make_stock(id: &str, name: &str) -> Result<(Mesh, ObjectInfo)> {
     })?;
     let terms = format!("{} Made by OpenCollBench; free to use without any condition.", object.description);
     let mut info = describe(&mesh, id, object.name, &terms, Vec::new());
-    info.stock = true;
+    (info.stock, info.visibility) = (true, Visibility::Public);
     Ok((mesh, info))
 }
 
@@ -169,7 +198,7 @@ fn read_shipped(id: &str, name: &str, file: &std::path::Path) -> Result<(Mesh, O
     let terms =
         std::fs::read_to_string(file.with_extension("terms")).map_err(|e| fault(&format!("its .terms file: {e}")))?;
     let mut info = describe(&mesh, id, name, terms.trim(), read.warnings);
-    info.stock = true;
+    (info.stock, info.visibility) = (true, Visibility::Public);
     Ok((mesh, info))
 }
 
@@ -188,6 +217,8 @@ fn describe(mesh: &Mesh, id: &str, name: &str, terms: &str, warnings: Vec<String
         closed: mesh.is_closed(),
         warnings,
         created_us: 0,
+        visibility: Visibility::default(),
+        mine: false,
     }
 }
 

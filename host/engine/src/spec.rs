@@ -65,9 +65,9 @@ pub async fn check(
     let configurations = set_size(spec, store, blobs).await?;
     let contestants = contestants(spec, registry, viewer)?;
     check_partial(spec, contestants.len())?;
-    let object_a = objects.info(&spec.object_a).await?;
+    let object_a = objects.info_for(&spec.object_a, viewer).await?;
     let object_b = match &spec.object_b {
-        Some(id) => objects.info(id).await?,
+        Some(id) => objects.info_for(id, viewer).await?,
         None => object_a.clone(),
     };
     if spec.semantics == Semantics::Solid {
@@ -132,12 +132,14 @@ pub async fn set_size(spec: &RunSpec, store: &Store, blobs: &Blobs) -> Result<u6
     sampling::check_separation(separation)
         .map_err(|e| EngineError::Invalid(format!("These configurations are not possible: {e}.")))?;
     if let Method::File { sha256 } = &spec.method {
+        // A stored file of another kind sounds like none: nobody learns which files others have stored.
+        let none =
+            || EngineError::Invalid(format!("There is no stored file of configurations {sha256:?}; add it first."));
         if store.blob_bytes(sha256).await?.is_none() {
-            return Err(EngineError::Invalid(format!(
-                "There is no stored file of configurations {sha256:?}; add it first."
-            )));
+            return Err(none());
         }
-        return Ok(configurations::read_file(&blobs.get(sha256).await?)?.len() as u64);
+        let read = configurations::read_file(&blobs.get(sha256).await?);
+        return Ok(read.map_err(|_| none())?.len() as u64);
     }
     sampling::count(&spec.method)
         .and_then(|_| sampling::count(&spec.finding()))

@@ -17,6 +17,7 @@ mod stability;
 mod submissions;
 #[cfg(test)]
 mod tests;
+mod visibility;
 
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -31,6 +32,7 @@ use crate::{EngineError, Result};
 
 pub use advice::{AdviceRow, StoredPaper};
 pub use audit::Note;
+pub use objects::ObjectRow;
 pub use results::StoredResult;
 pub use runs::RunRow;
 pub use submissions::{SubmissionRow, THE_SERVICE};
@@ -95,6 +97,7 @@ fn migrations() -> Migrator {
         one(7, "previews", include_str!("../migrations/0007_previews.sql")),
         one(8, "signatures", include_str!("../migrations/0008_signatures.sql")),
         one(9, "request keys", include_str!("../migrations/0009_request_keys.sql")),
+        one(10, "visibility", include_str!("../migrations/0010_visibility.sql")),
     ])
 }
 

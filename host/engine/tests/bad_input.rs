@@ -59,7 +59,7 @@ async fn a_good_object_is_kept_once() {
     assert_ne!(theirs.id, info.id, "another owner has an object of their own");
     assert_eq!(common::files(&data.path().join("blobs")), 1, "over the same bytes");
     assert_eq!(engine.mesh(&info.id).await.unwrap().positions()[2].y, f64::from(0.1f32));
-    assert_eq!(engine.object(&info.id).await.unwrap(), info);
+    assert_eq!(engine.object(&info.id, Some("guest")).await.unwrap(), info);
     let listed = engine.objects(Some("guest")).await.unwrap();
     assert_eq!(listed.iter().filter(|o| !o.stock).collect::<Vec<_>>(), [&info]);
     engine.shutdown().await;

@@ -6,7 +6,7 @@ use utoipa::openapi::{ContentBuilder, OpenApi, Ref, RefOr, Response, ResponseBui
 /// The document with what no handler says of itself. What a route says stands.
 pub(crate) fn completed(mut document: OpenApi) -> OpenApi {
     for item in document.paths.paths.values_mut() {
-        for operation in [&mut item.get, &mut item.post, &mut item.delete].into_iter().flatten() {
+        for operation in [&mut item.get, &mut item.put, &mut item.post, &mut item.delete].into_iter().flatten() {
             for (status, description) in answers(operation) {
                 let known = &mut operation.responses.responses;
                 known.entry(status.to_owned()).or_insert_with(|| problem(description));

@@ -49,7 +49,13 @@ pub(crate) async fn follow_run(
     if has_ended(run.state) && app.engine.events(&id, after).await?.is_empty() {
         return Ok(StatusCode::NO_CONTENT.into_response());
     }
-    let events = app.engine.follow(&id, after).await?.map(|event| match event {
+    // What became private meanwhile ends: the event that comes then is not told any more.
+    let (engine, run) = (app.engine.clone(), id.clone());
+    let still_there = move |_: &_| {
+        let (engine, run, guest) = (engine.clone(), run.clone(), guest.clone());
+        async move { engine.run_is_for(&run, Some(&guest)).await.is_ok() }
+    };
+    let events = app.engine.follow(&id, after).await?.take_while(still_there).map(|event| match event {
         Ok(event) => as_sse(&event),
         Err(error) => failure(error),
     });

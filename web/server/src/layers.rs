@@ -37,7 +37,7 @@ pub(crate) fn wrap(router: Router<App>, app: &App) -> Router<App> {
         .and(NotForContentType::const_new("application/vnd.apache.parquet"))
         .and(NotForContentType::const_new("application/vnd.apache.arrow.stream"));
     router
-        .layer(middleware::from_fn_with_state(app.clone(), privacy::hide_private_runs))
+        .layer(middleware::from_fn_with_state(app.clone(), privacy::hide_private_things))
         .layer(middleware::from_fn_with_state(app.clone(), guest::recognise))
         .layer(middleware::from_fn(origin::refuse_other_sites))
         .layer(middleware::from_fn(pace::refuse_slow_bodies))

@@ -29,8 +29,8 @@ use crate::{App, events, layers, pages, upload};
         title = "OpenCollBench",
         description = "Benchmarks of collision detection: objects, runs, progress and heatmaps. Times are microseconds since \
             the Unix epoch, durations say their unit in their name. Every error is a `Problem` (RFC 9457) with one sentence \
-            in `detail`. The cookie `ocb_guest`, set on first contact, owns what a visitor makes; whoever knows the id of a \
-            run may look at it. An account, entered by the cookie `ocb_session` or by a token in `Authorization: Bearer`, \
+            in `detail`. The cookie `ocb_guest`, set on first contact, owns what a visitor makes; whoever knows the id of an \
+            object or a run may look at it, unless its owner has made it private. An account, entered by the cookie `ocb_session` or by a token in `Authorization: Bearer`, \
             owns what is made with it, and may publish.",
         license(name = "MIT OR Apache-2.0")
     ),
@@ -58,12 +58,14 @@ fn api() -> OpenApiRouter<App> {
         .routes(uploads.layer(DefaultBodyLimit::disable()).layer(middleware::from_fn(upload::refuse_gently)))
         .routes(routes!(objects::show_object))
         .routes(routes!(objects::object_mesh))
+        .routes(routes!(objects::change_object_visibility))
         .routes(routes!(algorithms::list_algorithms))
         .routes(routes!(runs::estimate_run))
         .routes(routes!(runs::list_runs, runs::start_run))
         .routes(routes!(runs::show_run))
         .routes(routes!(runs::cancel_run))
         .routes(routes!(runs::refine_run))
+        .routes(routes!(runs::change_run_visibility))
         .routes(routes!(events::follow_run))
         .routes(routes!(heatmaps::show_heatmap))
         .routes(routes!(heatmaps::show_vertex))

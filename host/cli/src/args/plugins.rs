@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
+use super::ServiceArgs;
+
 /// `ocb plugin`
 #[derive(Debug, Subcommand)]
 pub enum PluginCommand {
@@ -40,12 +42,8 @@ pub struct SubmitArgs {
     /// Its signature by the key that your account there has registered (minisign -S writes it).
     #[arg(long, value_name = "FILE")]
     pub signature: Option<PathBuf>,
-    /// The service.
-    #[arg(long, default_value = "http://127.0.0.1:8080", env = "OCB_SERVER", value_name = "URL")]
-    pub server: String,
-    /// A token of your account there, for plugins.
-    #[arg(long, env = "OCB_TOKEN", value_name = "TOKEN", hide_env_values = true)]
-    pub token: String,
+    #[command(flatten)]
+    pub service: ServiceArgs,
     /// Do not wait for the check.
     #[arg(long)]
     pub no_wait: bool,

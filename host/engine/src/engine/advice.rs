@@ -26,7 +26,7 @@ impl Engine {
     pub async fn ask_advice(&self, spec: AdviceSpec, owner: Option<&str>) -> Result<AdviceInfo> {
         check(spec.question)?;
         let inner = &self.inner;
-        let names = inner.objects_of(&spec).await?;
+        let names = inner.objects_of(&spec, owner).await?;
         if inner.advices.count() >= MOST_OPEN {
             return Err(EngineError::Busy("Others wait for advice already; try again in some minutes.".to_owned()));
         }
@@ -88,14 +88,14 @@ impl Engine {
 
 impl Inner {
     /// Names of both objects.
-    async fn objects_of(&self, spec: &AdviceSpec) -> Result<[String; 2]> {
+    async fn objects_of(&self, spec: &AdviceSpec, viewer: Option<&str>) -> Result<[String; 2]> {
         let b = spec.object_b.as_deref().unwrap_or(&spec.object_a);
-        Ok([self.objects.info(&spec.object_a).await?.name, self.objects.info(b).await?.name])
+        let (a, b) = (self.objects.info_for(&spec.object_a, viewer).await?, self.objects.info_for(b, viewer).await?);
+        Ok([a.name, b.name])
     }
 
     async fn advice_row(&self, id: &str) -> Result<AdviceRow> {
-        let unknown = || EngineError::NotFound(format!("There is no advice {id:?}; check the link."));
-        self.store.advice(id).await?.ok_or_else(unknown)
+        self.store.advice(id).await?.ok_or_else(|| no_advice(id))
     }
 
     async fn paper(&self, id: &str, side: Side, stage: usize) -> Result<StoredPaper> {
@@ -166,6 +166,11 @@ impl Inner {
         let [mesh, certificate] = kept.try_into().expect("two blobs");
         Ok(StoredPaper { mesh, certificate, file: paper.file.clone() })
     }
+}
+
+/// There is no such advice, or not for who asks: both sound alike.
+pub(super) fn no_advice(id: &str) -> EngineError {
+    EngineError::NotFound(format!("There is no advice {id:?}; check the link."))
 }
 
 fn check(question: Asked) -> Result<()> {

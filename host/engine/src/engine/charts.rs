@@ -4,7 +4,7 @@ use ocb_chart::Chart;
 
 use super::{Engine, Inner};
 use crate::board::{self, Circumstances, Measured};
-use crate::model::{Board, BoardRequest, ChartRequest};
+use crate::model::{Board, BoardRequest, ChartRequest, Visibility};
 use crate::store::RunRow;
 use crate::{Profile, Result, columns};
 
@@ -45,10 +45,17 @@ pub fn chart_csv(chart: &Chart) -> Result<Vec<u8>> {
 }
 
 impl Inner {
-    /// The finished runs whose results this viewer may see in lists and comparisons, the newest first: those that the
-    /// service shows to everybody, and the viewer's own.
+    /// The finished runs whose results this viewer may see in lists and comparisons, the newest first: public ones, and
+    /// the viewer's own.
     pub async fn visible_runs(&self, viewer: Option<&str>) -> Result<Vec<RunRow>> {
-        self.store.finished_runs(viewer, MOST_RUNS).await
+        let mut visible = Vec::new();
+        for row in self.store.finished_runs(viewer, MOST_RUNS).await? {
+            let own = viewer.is_some() && row.owner.as_deref() == viewer;
+            if self.may_see(&row, viewer).await? && (own || self.visibility_of(&row).await? == Visibility::Public) {
+                visible.push(row);
+            }
+        }
+        Ok(visible)
     }
 
     /// The results of one run; none when it was never measured.

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::{Engine, INTERACTIVE};
-use crate::model::{RunInfo, RunSpec, State};
+use crate::model::{RunInfo, RunSpec, State, Visibility};
 use crate::runlog::{fresh_stages, plain_event};
 use crate::store::{RunRow, now_us};
 use crate::{EngineError, Result, dispatcher, draw, estimate};
@@ -40,6 +40,7 @@ impl Engine {
             owner: owner.map(str::to_owned),
             featured,
             private: checked.contestants.iter().any(|c| self.inner.registry.is_private(c)),
+            visibility: if featured { Visibility::Public } else { Visibility::default() },
             priority,
             state: State::Queued,
             attempts: 0,
@@ -106,17 +107,13 @@ impl Engine {
         self.info(row, viewer).await
     }
 
-    /// May this viewer know of the run? What is not there may be looked for by everybody.
-    pub async fn may_see_run(&self, id: &str, viewer: &str) -> Result<bool> {
-        let row = self.inner.store.run(id).await?;
-        Ok(row.is_none_or(|row| !row.private || row.owner.as_deref() == Some(viewer)))
-    }
-
     /// The owner's runs, newest first (at most 200).
     pub async fn runs(&self, owner: &str) -> Result<Vec<RunInfo>> {
         let mut all = Vec::new();
         for row in self.inner.store.runs_of(owner, MAX_LIST).await? {
-            all.push(self.info(row, Some(owner)).await?);
+            if self.inner.may_see(&row, Some(owner)).await? {
+                all.push(self.info(row, Some(owner)).await?);
+            }
         }
         Ok(all)
     }
@@ -167,6 +164,7 @@ impl Engine {
             stages: store.stages(&row.id).await?,
             results: store.results(&row.id).await?.into_iter().map(|stored| stored.result).collect(),
             mine: viewer.is_some() && row.owner.as_deref() == viewer,
+            visibility: self.inner.visibility_of(&row).await?,
             runs_ahead,
             id: row.id,
             object_a_name: row.object_a_name,

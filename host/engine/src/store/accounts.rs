@@ -179,7 +179,7 @@ impl Store {
         Ok(())
     }
 
-    /// Moves runs and objects from one owner to another. A key of a request that both have used stays that of the other's run.
+    /// Moves runs, objects and advice from one owner to another. A key of a request that both have used stays that of the other's run.
     pub async fn move_things(&self, from: &str, to: &str) -> Result<()> {
         let mut transaction = self.pool.begin().await?;
         for text in [
@@ -187,6 +187,7 @@ impl Store {
              (SELECT request_key FROM runs WHERE owner = $1) AND owner = $2",
             "UPDATE runs SET owner = $1 WHERE owner = $2",
             "UPDATE objects SET owner = $1 WHERE owner = $2",
+            "UPDATE advice SET owner = $1 WHERE owner = $2",
         ] {
             sqlx::query(text).bind(to).bind(from).execute(&mut *transaction).await?;
         }

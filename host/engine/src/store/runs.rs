@@ -3,8 +3,9 @@
 use sqlx::Row;
 use sqlx::any::AnyRow;
 
+use super::visibility::visibility;
 use super::{Store, from_json, now_us, to_json};
-use crate::model::{Environment, Preview, RunEvent, RunSpec, SetInfo, Stage, State};
+use crate::model::{Environment, Preview, RunEvent, RunSpec, SetInfo, Stage, State, Visibility};
 use crate::{EngineError, Result};
 
 /// One row of the table of runs.
@@ -16,8 +17,10 @@ pub struct RunRow {
     pub owner: Option<String>,
     /// May be shown on the start page.
     pub featured: bool,
-    /// Only its owner sees it: it has a plugin that was not public.
+    /// It has a plugin that was not public, so that only its owner sees it, whatever they decide.
     pub private: bool,
+    /// Who else sees it, as its owner decided.
+    pub visibility: Visibility,
     /// Smaller is served first.
     pub priority: i64,
     /// State.
@@ -51,6 +54,16 @@ pub struct RunRow {
 }
 
 impl RunRow {
+    /// Id of object A.
+    pub fn object_a(&self) -> &str {
+        &self.spec.object_a
+    }
+
+    /// Id of object B.
+    pub fn object_b(&self) -> &str {
+        self.spec.object_b.as_deref().unwrap_or(&self.spec.object_a)
+    }
+
     /// A preview of which all configurations are to be measured now.
     pub fn is_refined(&self) -> bool {
         self.preview.is_some() && !self.spec.is_partial()
@@ -69,7 +82,7 @@ impl RunRow {
 macro_rules! select_runs {
     ($rest:literal) => {
         concat!(
-            "SELECT id, owner, featured, private, priority, state, attempts, message, spec, object_a_name, object_b_name, ",
+            "SELECT id, owner, featured, private, visibility, priority, state, attempts, message, spec, object_a_name, object_b_name, ",
             "set_info, set_blob, environment, preview, secret, expected_seconds, created_us, finished_us FROM runs ",
             $rest
         )
@@ -82,8 +95,8 @@ impl Store {
         let mut transaction = self.pool.begin().await?;
         let added = sqlx::query(
             "INSERT INTO runs (id, owner, featured, priority, state, attempts, spec, object_a_name, object_b_name, \
-             secret, expected_seconds, created_us, private, request_key) \
-             VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11, $12, $13) \
+             secret, expected_seconds, created_us, private, request_key, visibility) \
+             VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11, $12, $13, $14) \
              ON CONFLICT (owner, request_key) DO NOTHING",
         )
         .bind(&run.id)
@@ -99,6 +112,7 @@ impl Store {
         .bind(run.created_us)
         .bind(i64::from(run.private))
         .bind(key)
+        .bind(run.visibility.name())
         .execute(&mut *transaction)
         .await?;
         if added.rows_affected() == 0 {
@@ -172,10 +186,10 @@ impl Store {
         rows.iter().map(read_run).collect()
     }
 
-    /// The newest finished runs of the service for everybody, and of this owner.
+    /// The newest finished runs that are public, and those of this owner.
     pub async fn finished_runs(&self, owner: Option<&str>, limit: i64) -> Result<Vec<RunRow>> {
         let rows = sqlx::query(select_runs!(
-            "WHERE state = 'done' AND (featured = 1 OR owner = $1) ORDER BY finished_us DESC, id DESC LIMIT $2"
+            "WHERE state = 'done' AND (visibility = 'public' OR owner = $1) ORDER BY finished_us DESC, id DESC LIMIT $2"
         ))
         .bind(owner)
         .bind(limit)
@@ -303,6 +317,7 @@ fn read_run(row: &AnyRow) -> Result<RunRow> {
         owner: row.try_get("owner")?,
         featured: row.try_get::<i64, _>("featured")? != 0,
         private: row.try_get::<i64, _>("private")? != 0,
+        visibility: visibility(row.try_get("visibility")?)?,
         priority: row.try_get("priority")?,
         state: named_state(row.try_get("state")?)?,
         attempts: row.try_get::<i64, _>("attempts")? as u32,

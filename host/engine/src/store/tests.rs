@@ -4,12 +4,13 @@ use ocb_core::configuration::Class;
 use ocb_core::query::Query;
 
 mod people;
+mod visibility;
 
 use super::*;
 use crate::blobs::tests::from_harness;
 use crate::model::{
     AdviceInfo, Agreement, AlgorithmInfo, AlgorithmResult, ClassCount, Draw, Environment, Estimated, ObjectInfo,
-    OutcomeInfo, Reference, RunSpec, SetInfo, Stability, State,
+    OutcomeInfo, Reference, RunSpec, SetInfo, Stability, State, Visibility,
 };
 use crate::runlog::{fresh_stages, plain_event};
 
@@ -83,6 +84,7 @@ on_both!(
     accounts_have_one_name_and_keys_of_their_own,
     the_log_shows_what_was_changed_by_hand,
     a_submission_is_checked_three_times_at_most,
+    only_what_is_public_is_in_the_lists_of_others,
 );
 
 fn object(id: &str) -> ObjectInfo {
@@ -98,6 +100,8 @@ fn object(id: &str) -> ObjectInfo {
         closed: true,
         warnings: vec!["one".into()],
         created_us: now_us(),
+        visibility: Visibility::Unlisted,
+        mine: false,
     }
 }
 
@@ -115,6 +119,7 @@ fn run(id: &str, owner: Option<&str>, priority: i64, created_us: i64) -> RunRow 
         owner: owner.map(str::to_owned),
         featured: false,
         private: false,
+        visibility: Visibility::Unlisted,
         priority,
         state: State::Queued,
         attempts: 0,
@@ -188,6 +193,7 @@ async fn add(store: &Store, run: RunRow) {
 
 mod contract {
     pub use super::people::*;
+    pub use super::visibility::*;
     use super::*;
 
     pub async fn blobs_are_noted_once(store: Store) {
@@ -204,12 +210,16 @@ mod contract {
         store.add_object(&mine, Some("me"), "m").await.unwrap();
         store.add_object(&other, Some("other"), "m").await.unwrap();
         store.add_object(&nobodys, None, "m").await.unwrap();
-        assert_eq!(store.object("1").await.unwrap(), Some((mine.clone(), "m".into())));
+        let row = |info: &ObjectInfo, owner: Option<&str>| {
+            let owner = owner.map(str::to_owned);
+            ObjectRow { info: info.clone(), owner, blob: "m".into() }
+        };
+        assert_eq!(store.object("1").await.unwrap(), Some(row(&mine, Some("me"))));
         assert_eq!(store.object("9").await.unwrap(), None);
-        assert_eq!(store.objects_of("me").await.unwrap(), std::slice::from_ref(&mine));
-        assert_eq!(store.object_with_mesh(&mine.sha256, Some("me")).await.unwrap(), Some(mine.clone()));
+        assert_eq!(store.objects_of("me").await.unwrap(), [row(&mine, Some("me"))]);
+        assert_eq!(store.object_with_mesh(&mine.sha256, Some("me")).await.unwrap(), Some(row(&mine, Some("me"))));
         assert_eq!(store.object_with_mesh(&mine.sha256, Some("other")).await.unwrap(), None);
-        assert_eq!(store.object_with_mesh(&nobodys.sha256, None).await.unwrap(), Some(nobodys));
+        assert_eq!(store.object_with_mesh(&nobodys.sha256, None).await.unwrap(), Some(row(&nobodys, None)));
         assert!(store.add_object(&object("4"), None, "no such blob").await.is_err(), "rows never point nowhere");
     }
 

@@ -2,7 +2,7 @@ import createClient from 'openapi-fetch'
 import { asApiError, fromResponse } from './errors'
 import type { paths } from './schema'
 import type {
-  Accuracy, AdviceInfo, AdviceSpec, AlgorithmInfo, Board, Chart, ChartKind, Ecdf, Estimate, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, StabilityTable, WorstCase,
+  Accuracy, AdviceInfo, AdviceSpec, AlgorithmInfo, Board, Chart, ChartKind, Ecdf, Estimate, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, StabilityTable, Visibility, WorstCase,
 } from './types'
 
 export const http = createClient<paths>({ baseUrl: '/' })
@@ -47,6 +47,12 @@ export const cancelRun = (id: string): Promise<RunInfo> =>
 /** Asks for all configurations of a run that measured a part. */
 export const refineRun = (id: string): Promise<RunInfo> =>
   answer(http.POST('/api/v1/runs/{id}/refine', { params: { path: { id } } }))
+
+export const setRunVisibility = (id: string, visibility: Visibility): Promise<RunInfo> =>
+  answer(http.PUT('/api/v1/runs/{id}/visibility', { params: { path: { id } }, body: { visibility } }))
+
+export const setObjectVisibility = (id: string, visibility: Visibility): Promise<ObjectInfo> =>
+  answer(http.PUT('/api/v1/objects/{id}/visibility', { params: { path: { id } }, body: { visibility } }))
 
 export const getEcdf = (id: string, algorithm: string): Promise<Ecdf> =>
   answer(http.GET('/api/v1/runs/{id}/ecdf', { params: { path: { id }, query: { algorithm } } }))

@@ -54,6 +54,7 @@ export type State = Schemas['State']
 export type Statistic = Schemas['Statistic']
 export type Tally = Schemas['Tally']
 export type Verdict = Schemas['Verdict']
+export type Visibility = Schemas['Visibility']
 
 export type AccountInfo = Schemas['AccountInfo']
 export type Action = Schemas['Action']

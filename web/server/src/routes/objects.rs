@@ -5,16 +5,16 @@ use axum::extract::{FromRequest, Request, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use ocb_core::export::glb;
-use ocb_engine::model::ObjectInfo;
+use ocb_engine::model::{NewVisibility, ObjectInfo};
 use utoipa::ToSchema;
 
 use crate::App;
-use crate::extract::Path;
+use crate::extract::{Json as Body, Path};
 use crate::guest::Guest;
 use crate::problem::{Problem, Result};
 use crate::upload::Upload;
 
-/// Stock objects, then the visitor's own, newest first.
+/// Stock objects, then the visitor's own, then the newest 200 that others have published, each newest first.
 #[utoipa::path(get, path = "/objects", tag = "objects", responses((status = 200, body = Vec<ObjectInfo>)))]
 pub(crate) async fn list_objects(State(app): State<App>, Guest(guest): Guest) -> Result<Json<Vec<ObjectInfo>>> {
     Ok(Json(app.engine.objects(Some(&guest)).await?))
@@ -29,7 +29,8 @@ struct UploadForm {
     file: Vec<u8>,
 }
 
-/// Uploads an OBJ file; only its owner sees it in the list.
+/// Uploads an OBJ file. Whoever has its id may look at it, and only its owner sees it in the list, until that decides
+/// otherwise.
 #[utoipa::path(post, path = "/objects", tag = "objects",
     request_body(content = inline(UploadForm), content_type = "multipart/form-data"),
     responses(
@@ -56,8 +57,29 @@ pub(crate) async fn add_object(
         (status = 200, body = ObjectInfo),
         (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
     ))]
-pub(crate) async fn show_object(State(app): State<App>, Path(id): Path<String>) -> Result<Json<ObjectInfo>> {
-    Ok(Json(app.engine.object(&id).await?))
+pub(crate) async fn show_object(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Path(id): Path<String>,
+) -> Result<Json<ObjectInfo>> {
+    Ok(Json(app.engine.object(&id, Some(&guest)).await?))
+}
+
+/// Decides who sees an object; only who added it may. Runs and advice with a private object are private, too.
+#[utoipa::path(put, path = "/objects/{id}/visibility", tag = "objects", request_body = NewVisibility,
+    params(("id" = String, Path, description = "Object id")),
+    responses(
+        (status = 200, description = "The object as it is now", body = ObjectInfo),
+        (status = 403, description = "Somebody else's object, or a guest who publishes", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn change_object_visibility(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Path(id): Path<String>,
+    Body(asked): Body<NewVisibility>,
+) -> Result<Json<ObjectInfo>> {
+    Ok(Json(app.engine.change_object_visibility(&id, asked.visibility, &guest).await?))
 }
 
 /// The mesh as glTF binary: positions in f32, triangles in file order, so that triangle and vertex numbers are those of
@@ -71,10 +93,11 @@ pub(crate) async fn show_object(State(app): State<App>, Path(id): Path<String>) 
     ))]
 pub(crate) async fn object_mesh(
     State(app): State<App>,
+    Guest(guest): Guest,
     Path(id): Path<String>,
     headers: HeaderMap,
 ) -> Result<Response> {
-    let tag = format!("\"{}\"", app.engine.object(&id).await?.sha256);
+    let tag = format!("\"{}\"", app.engine.object(&id, Some(&guest)).await?.sha256);
     let cache = [(header::ETAG, tag.clone()), (header::CACHE_CONTROL, "private, no-cache".to_owned())];
     if headers.get(header::IF_NONE_MATCH).is_some_and(|sent| sent.as_bytes() == tag.as_bytes()) {
         return Ok((StatusCode::NOT_MODIFIED, cache).into_response());

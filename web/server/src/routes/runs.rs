@@ -4,7 +4,7 @@ use axum::Json as Answer;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use ocb_engine::model::{Estimate, RunInfo, RunSpec};
+use ocb_engine::model::{Estimate, NewVisibility, RunInfo, RunSpec};
 
 use crate::App;
 use crate::extract::{Json, Path};
@@ -129,6 +129,24 @@ pub(crate) async fn refine_run(
     Path(id): Path<String>,
 ) -> Result<Answer<RunInfo>> {
     Ok(Answer(app.engine.refine(&id, Some(&guest)).await?))
+}
+
+/// Decides who sees a run; only who asked for it may, and no more than see its objects. A public one is on everybody's board.
+#[utoipa::path(put, path = "/runs/{id}/visibility", tag = "runs", request_body = NewVisibility,
+    params(("id" = String, Path, description = "Run id")),
+    responses(
+        (status = 200, description = "The run as it is now", body = RunInfo),
+        (status = 403, description = "Somebody else's run, or a guest who publishes", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "An object or a plugin of it is seen by fewer", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn change_run_visibility(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Path(id): Path<String>,
+    Json(asked): Json<NewVisibility>,
+) -> Result<Answer<RunInfo>> {
+    Ok(Answer(app.engine.change_run_visibility(&id, asked.visibility, &guest).await?))
 }
 
 /// The finished run that the start page shows; null until the first one is finished.

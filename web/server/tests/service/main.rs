@@ -8,6 +8,7 @@ mod errors;
 mod objects;
 mod pages;
 mod people;
+mod privacy;
 mod publishing;
 mod runs;
 mod stream;

@@ -1,0 +1,34 @@
+//! Who finds what in lists, on both databases.
+
+use super::super::*;
+use super::{add, object, run};
+use crate::model::{State, Visibility};
+
+pub async fn only_what_is_public_is_in_the_lists_of_others(store: Store) {
+    store.add_blob("m", 1, "x").await.unwrap();
+    store.add_object(&object("o"), Some("me"), "m").await.unwrap();
+    add(&store, run("r", Some("me"), 1, 1)).await;
+    store.claim().await.unwrap();
+    store.end_run("r", State::Running, State::Done, None).await.unwrap();
+    let listed = async |viewer: Option<&str>| {
+        let objects = store.public_objects(viewer, 9).await.unwrap().into_iter().map(|row| row.info.id);
+        let runs = store.finished_runs(viewer, 9).await.unwrap().into_iter().map(|row| row.id);
+        (objects.collect::<Vec<_>>(), runs.collect::<Vec<_>>())
+    };
+    for hidden in [Visibility::Unlisted, Visibility::Private] {
+        store.set_object_visibility("o", hidden).await.unwrap();
+        store.set_run_visibility("r", hidden).await.unwrap();
+        assert_eq!(store.object("o").await.unwrap().unwrap().info.visibility, hidden);
+        assert_eq!(store.run("r").await.unwrap().unwrap().visibility, hidden);
+        assert_eq!(listed(Some("other")).await, (vec![], vec![]));
+        assert_eq!(listed(None).await, (vec![], vec![]));
+        assert_eq!(listed(Some("me")).await, (vec![], vec!["r".to_owned()]), "one's own objects have a list of their own");
+    }
+    store.set_object_visibility("o", Visibility::Public).await.unwrap();
+    store.set_run_visibility("r", Visibility::Public).await.unwrap();
+    let both = (vec!["o".to_owned()], vec!["r".to_owned()]);
+    assert_eq!(listed(Some("other")).await, both);
+    assert_eq!(listed(None).await, both);
+    let row = store.object("o").await.unwrap().unwrap();
+    assert!(row.is_for(None) && row.is_of(Some("me")) && !row.is_of(Some("other")) && !row.is_of(None));
+}

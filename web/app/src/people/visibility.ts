@@ -1,0 +1,8 @@
+import type { Visibility } from '../api/types'
+
+/** Who sees something, in words; the narrowest first. */
+export const VISIBILITY: Record<Visibility, string> = {
+  private: 'only you',
+  unlisted: 'whoever has the link',
+  public: 'everybody',
+}
