@@ -160,6 +160,9 @@ pub struct ServeArgs {
     /// Where to listen; port 0 takes a free one.
     #[arg(long, visible_alias = "listen", default_value = "127.0.0.1:8080")]
     pub address: SocketAddr,
+    /// Days that what guests make stays, after they last made something or asked to have it kept.
+    #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=36_500), env = "OCB_GUEST_DAYS", value_name = "DAYS", hide_env_values = true)]
+    pub guest_days: u32,
 }
 
 /// `ocb bench`

@@ -2,7 +2,8 @@
 
 use std::process::ExitCode;
 
-use ocb_engine::model::ObjectInfo;
+use ocb_engine::Engine;
+use ocb_engine::model::{ObjectInfo, Page};
 
 use crate::args::{ObjectCommand, Store};
 use crate::failure::Result;
@@ -13,7 +14,7 @@ use crate::output;
 pub async fn object(store: &Store, command: &ObjectCommand, json: bool) -> Result<ExitCode> {
     let ObjectCommand::List = command;
     let engine = open::open(store, Purpose::Look).await?;
-    let objects = engine.objects(Some(OWNER)).await;
+    let objects = all(&engine).await;
     engine.shutdown().await;
     let objects = objects?;
     if json {
@@ -28,4 +29,14 @@ pub async fn object(store: &Store, command: &ObjectCommand, json: bool) -> Resul
         output::print("A procedural object takes any number of triangles behind @, e.g. stock:castle@20000.")?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+async fn all(engine: &Engine) -> Result<Vec<ObjectInfo>> {
+    let (mut objects, mut page) = (Vec::new(), Page::default());
+    loop {
+        let part = engine.objects(Some(OWNER), &page).await?;
+        objects.extend(part.entries);
+        let Some(next) = part.next else { return Ok(objects) };
+        page = page.behind(&next);
+    }
 }

@@ -26,6 +26,12 @@ pub async fn open(store: &Store, purpose: Purpose) -> Result<Engine> {
     Ok(Engine::open(config(store, data(store)?, purpose)).await?)
 }
 
+/// Opens the engine to serve; what guests make stays so many days.
+pub async fn open_to_serve(store: &Store, guest_days: u32) -> Result<Engine> {
+    let config = config(store, data(store)?, Purpose::Serve);
+    Ok(Engine::open(EngineConfig { guest_days, ..config }).await?)
+}
+
 /// The data folder.
 pub fn data(store: &Store) -> Result<PathBuf> {
     match &store.data {

@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use ocb_engine::model::{RunInfo, State};
+use ocb_engine::model::{Page, RunInfo, State};
 use ocb_engine::{Engine, EngineError};
 
 use crate::args::{RunCommand, Store};
@@ -31,7 +31,13 @@ async fn refine(engine: &Engine, id: &str, json: bool) -> Result<ExitCode> {
 }
 
 async fn list(engine: &Engine, json: bool) -> Result<()> {
-    let runs = engine.runs(OWNER).await?;
+    let (mut runs, mut page) = (Vec::new(), Page::default());
+    loop {
+        let part = engine.runs(OWNER, &page).await?;
+        runs.extend(part.entries);
+        let Some(next) = part.next else { break };
+        page = page.behind(&next);
+    }
     if json {
         return output::print_json(&runs);
     }
@@ -63,7 +69,7 @@ pub async fn find(engine: &Engine, id: &str) -> Result<RunInfo> {
     if id != "latest" {
         return Ok(engine.run(id, Some(OWNER)).await?);
     }
-    let newest = engine.runs(OWNER).await?.into_iter().next();
+    let newest = engine.runs(OWNER, &Page { limit: 1, cursor: None }).await?.entries.into_iter().next();
     let none = || EngineError::NotFound("There is no run yet; `ocb bench stock:torus-knot` makes one.".to_owned());
     Ok(newest.ok_or_else(none)?)
 }

@@ -7,7 +7,7 @@ use tokio::signal::unix::{SignalKind, signal};
 
 use crate::args::{ServeArgs, Store};
 use crate::failure::{Failure, Result};
-use crate::open::{self, Purpose};
+use crate::open;
 use crate::output;
 
 /// Serves until SIGINT or SIGTERM; a run under way goes on at the next start.
@@ -22,7 +22,7 @@ pub async fn serve(store: &Store, args: &ServeArgs, json: bool) -> Result<ExitCo
     })?;
     let address = listener.local_addr().map_err(|e| Failure::Fault(format!("no address: {e}.")))?;
     let stop = stop_signal()?;
-    let engine = open::open(store, Purpose::Serve).await?;
+    let engine = open::open_to_serve(store, args.guest_days).await?;
     let url = format!("http://{address}");
     if json {
         // On one line, which arrives whole; whoever started us may then stop reading without ending the service.

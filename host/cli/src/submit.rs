@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use ocb_engine::MAX_PLUGIN_BYTES;
 use ocb_engine::model::{Manifest, PluginInfo};
-use reqwest::multipart::{Form, Part};
 use reqwest::Client;
+use reqwest::multipart::{Form, Part};
 
 use crate::args::SubmitArgs;
 use crate::failure::{BAD_INPUT, Result};

@@ -119,6 +119,7 @@ impl Bench<'_> {
         let (sha_a, sha_b) = (a.sha256(), b.sha256());
         let key = configurations::set_key(&sha_a, &sha_b, &self.row.spec)?;
         let store = self.inner.store.clone();
+        let keeping = self.log.wait(self.inner.blobs.keeping());
         if let Some(stored) = self.log.wait(store.set(&key))? {
             let n = u64::from(stored.info.configurations);
             self.log.start(CONFIGURATIONS, n)?;
@@ -128,9 +129,11 @@ impl Bench<'_> {
             self.log.end(CONFIGURATIONS, State::Done, Some("Saved positions were used again.".into()), None)?;
             return Ok(Some((set, stored.info)));
         }
+        drop(keeping);
         let started = Instant::now();
         let Some(set) = self.find(pairing)? else { return Ok(None) };
         let seconds = started.elapsed().as_secs_f64();
+        let _keeping = self.log.wait(self.inner.blobs.keeping());
         let info = self.log.wait(self.inner.keep_set(&key, [a, b], &set, seconds))?;
         let blob = info.sha256.clone();
         self.log.wait(store.set_of_run(&self.row.id, &info, &blob))?;
@@ -310,6 +313,7 @@ impl Bench<'_> {
             hardware_class: environment.map_or("", |e| &e.hardware_class),
             set_sha256: &info.sha256,
         };
+        let _keeping = self.log.wait(self.inner.blobs.keeping());
         let records = if measured.records.is_empty() {
             None
         } else {

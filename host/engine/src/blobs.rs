@@ -9,6 +9,7 @@ use object_store::path::Path as Key;
 use object_store::prefix::PrefixStore;
 use object_store::{ObjectStore, ObjectStoreExt, PutMode, PutOptions, PutPayload};
 use sha2::{Digest, Sha256};
+use tokio::sync::{OwnedRwLockReadGuard, OwnedRwLockWriteGuard, RwLock};
 
 use crate::{EngineError, Result};
 
@@ -16,6 +17,8 @@ use crate::{EngineError, Result};
 #[derive(Clone)]
 pub struct Blobs {
     store: Arc<dyn ObjectStore>,
+    /// Held shared from storing a file until a row names it, and alone while files go that no row names.
+    turns: Arc<RwLock<()>>,
 }
 
 impl Blobs {
@@ -30,7 +33,7 @@ impl Blobs {
             ),
             Some(url) => s3(url)?,
         };
-        Ok(Self { store })
+        Ok(Self { store, turns: Arc::default() })
     }
 
     /// Keeps the bytes and gives their SHA-256. The same bytes are kept once.
@@ -41,6 +44,24 @@ impl Blobs {
         match self.store.put_opts(&key(&sha256)?, PutPayload::from(bytes), options).await {
             Ok(_) | Err(object_store::Error::AlreadyExists { .. }) => Ok(sha256),
             Err(e) => Err(fault("Storing a blob failed", e)),
+        }
+    }
+
+    /// To be held until a row names what is put meanwhile.
+    pub async fn keeping(&self) -> OwnedRwLockReadGuard<()> {
+        self.turns.clone().read_owned().await
+    }
+
+    /// To be held while files are removed that no row names.
+    pub async fn removing(&self) -> OwnedRwLockWriteGuard<()> {
+        self.turns.clone().write_owned().await
+    }
+
+    /// Removes a blob; one that is gone already is gone.
+    pub async fn remove(&self, sha256: &str) -> Result<()> {
+        match self.store.delete(&key(sha256)?).await {
+            Ok(()) | Err(object_store::Error::NotFound { .. }) => Ok(()),
+            Err(e) => Err(fault("Removing a blob failed", e)),
         }
     }
 

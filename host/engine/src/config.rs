@@ -25,6 +25,8 @@ pub struct EngineConfig {
     pub dispatch: bool,
     /// Queue a quick run for the start page when there is none yet.
     pub featured: bool,
+    /// Days that what guests make stays after they last made something or asked to have it kept.
+    pub guest_days: u32,
 }
 
 impl EngineConfig {
@@ -44,6 +46,7 @@ impl EngineConfig {
             stock_dir: None,
             dispatch: true,
             featured: false,
+            guest_days: 30,
         }
     }
 }

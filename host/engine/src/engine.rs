@@ -1,6 +1,7 @@
 //! The one handle for server and command line.
 
 mod advice;
+mod archive;
 mod charts;
 mod featured;
 mod follow;
@@ -10,6 +11,7 @@ mod runs;
 mod selecting;
 mod sets;
 mod stability;
+mod things;
 mod visibility;
 
 pub use charts::{board_csv, chart_csv, chart_parquet};
@@ -36,7 +38,9 @@ use crate::cache::Cache;
 use crate::columns::RecordColumns;
 use crate::machine::{Machine, lock_data_folder};
 use crate::measure::Stop;
-use crate::model::{AlgorithmInfo, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, PluginReport, RunSpec, Status};
+use crate::model::{
+    AlgorithmInfo, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, Page, Part, PluginReport, RunSpec, Status,
+};
 use crate::objects::{Objects, blocking};
 use crate::registry::{Extent, Registry, check_plugin};
 use crate::results::Format;
@@ -78,6 +82,8 @@ pub struct Inner {
     pub shapes: Cache<Shape>,
     pub advices: Advices,
     closing: AtomicBool,
+    /// Rung when the engine shuts down, for what would sleep on.
+    closed: Notify,
     /// What closing waits for.
     tasks: Mutex<Vec<JoinHandle<()>>>,
     /// Held as long as this process uses the folder.
@@ -124,6 +130,7 @@ impl Engine {
             shapes: Cache::new(4),
             advices: Advices::default(),
             closing: AtomicBool::new(false),
+            closed: Notify::new(),
             tasks: Mutex::default(),
             lock,
             config,
@@ -138,6 +145,7 @@ impl Engine {
             engine.recover_advice().await?;
             engine.feature_a_run().await?;
             engine.inner.spawn(dispatcher::work(engine.inner.clone()));
+            engine.inner.spawn(engine.clone().sweep());
         }
         Ok(engine)
     }
@@ -149,6 +157,7 @@ impl Engine {
         self.inner.stop_current(None);
         self.inner.advices.stop_all();
         self.inner.wake.notify_one();
+        self.inner.closed.notify_one();
         let tasks = std::mem::take(&mut *self.inner.tasks.lock().unwrap_or_else(PoisonError::into_inner));
         for task in tasks {
             let _ = task.await;
@@ -170,9 +179,10 @@ impl Engine {
         })
     }
 
-    /// Stock objects, then those that the viewer added, then the public ones of others, each newest first.
-    pub async fn objects(&self, viewer: Option<&str>) -> Result<Vec<ObjectInfo>> {
-        self.inner.objects.list(viewer).await
+    /// Stock objects in front of the first part, then those that the viewer added and the public ones of others, newest
+    /// first.
+    pub async fn objects(&self, viewer: Option<&str>, page: &Page) -> Result<Part<ObjectInfo>> {
+        self.inner.objects.list(viewer, page).await
     }
 
     /// One object by id (`stock:NAME@TRIANGLES`, `stock:bunny`, `stock:dragon` or a UUID).
@@ -195,6 +205,7 @@ impl Engine {
     pub async fn add_configurations(&self, bytes: Vec<u8>) -> Result<Method> {
         let bytes = blocking(move || configurations::read_file(&bytes).map(|_| bytes)).await?;
         let length = bytes.len();
+        let _keeping = self.inner.blobs.keeping().await;
         let sha256 = self.inner.blobs.put(bytes).await?;
         self.inner.store.add_blob(&sha256, length, "application/octet-stream").await?;
         Ok(Method::File { sha256 })

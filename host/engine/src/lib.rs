@@ -39,4 +39,3 @@ pub use measure::Stop;
 pub use ocb_chart as chart;
 pub use ocb_sandbox::doctor;
 pub use registry::Extent;
-pub use results::no_run;

@@ -8,12 +8,14 @@ mod chart;
 mod contract;
 mod environment;
 mod heatmap;
+mod page;
 mod people;
 mod plugin;
 mod preview;
 mod selecting;
 mod stability;
 mod submission;
+mod things;
 mod timing;
 mod truth;
 mod visibility;
@@ -32,6 +34,7 @@ pub use chart::{ChartKind, ChartRequest};
 pub use contract::{ContractClass, Delivered, Order};
 pub use environment::Environment;
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
+pub use page::{Cursor, Page, Part};
 pub use people::{
     AccountInfo, AuditEntry, Credentials, Identity, NewPassword, NewRole, NewToken, Role, Scope, SigningKey, TokenInfo,
     TokenRequest, Wish,
@@ -44,6 +47,7 @@ pub use stability::{
     RelationStep, SearchResult, Stability, StabilityTable, StepResult, Tally, TessellationResult, ThresholdInfo,
 };
 pub use submission::{Action, Decision, Manifest, PluginInfo, PluginState};
+pub use things::{Thing, Things};
 pub use timing::{Draw, Reference, Timing, TimingCheck};
 pub use truth::{ContactRow, TruthRow};
 pub use visibility::{NewVisibility, Visibility};

@@ -10,14 +10,12 @@ use ocb_core::stock;
 
 use crate::blobs::Blobs;
 use crate::cache::Cache;
-use crate::model::{ObjectInfo, Visibility};
+use crate::model::{Cursor, ObjectInfo, Page, Part, Visibility};
 use crate::store::{Store, now_us};
 use crate::{EngineError, Result};
 
 /// Files of `stock_dir` that become stock objects when they are there.
 const SHIPPED: [&str; 2] = ["bunny", "dragon"];
-/// Objects of others that a list has, at most: the newest.
-const MOST_PUBLIC: i64 = 200;
 /// Longest display name in characters.
 const MAX_NAME: usize = 120;
 
@@ -36,8 +34,20 @@ impl Objects {
         Self { store, blobs, stock_dir, meshes: Cache::new(8), stock_infos: Mutex::new(HashMap::new()) }
     }
 
-    /// Stock objects, then those of the viewer, then the public ones of others, each newest first.
-    pub async fn list(&self, viewer: Option<&str>) -> Result<Vec<ObjectInfo>> {
+    /// Stock objects in front of the first part, then those of the viewer and the public ones of others, newest first.
+    pub async fn list(&self, viewer: Option<&str>, page: &Page) -> Result<Part<ObjectInfo>> {
+        let (from, limit) = page.start()?;
+        let rows = self.store.objects_for(viewer, &from, limit + 1).await?;
+        let infos = rows.into_iter().map(|row| row.shown_to(viewer)).collect();
+        let mut part = Part::of(infos, limit, |info: &ObjectInfo| Cursor::behind(info.created_us, &info.id));
+        if page.cursor.is_none() {
+            part.entries.splice(0..0, self.stock().await?);
+        }
+        Ok(part)
+    }
+
+    /// What ships with the service.
+    pub async fn stock(&self) -> Result<Vec<ObjectInfo>> {
         let shipped = SHIPPED.iter().filter(|name| self.shipped_file(name).is_some());
         let ids = shipped
             .map(|name| format!("stock:{name}"))
@@ -46,12 +56,6 @@ impl Objects {
         for id in ids {
             all.push(self.info(&id).await?);
         }
-        let own = match viewer {
-            Some(viewer) => self.store.objects_of(viewer).await?,
-            None => Vec::new(),
-        };
-        let others = self.store.public_objects(viewer, MOST_PUBLIC).await?;
-        all.extend(own.into_iter().chain(others).map(|row| row.shown_to(viewer)));
         Ok(all)
     }
 
@@ -147,6 +151,7 @@ impl Objects {
         }
         let bytes = to_bytes(&mesh);
         let length = bytes.len();
+        let _keeping = self.blobs.keeping().await;
         let blob = self.blobs.put(bytes).await?;
         self.store.add_blob(&blob, length, "application/octet-stream").await?;
         self.store.add_object(&info, owner, &blob).await?;

@@ -17,6 +17,7 @@ mod stability;
 mod submissions;
 #[cfg(test)]
 mod tests;
+mod things;
 mod visibility;
 
 use std::path::Path;
@@ -32,10 +33,10 @@ use crate::{EngineError, Result};
 
 pub use advice::{AdviceRow, StoredPaper};
 pub use audit::Note;
-pub use objects::ObjectRow;
 pub use results::StoredResult;
 pub use runs::RunRow;
 pub use submissions::{SubmissionRow, THE_SERVICE};
+pub use things::Belongings;
 
 /// All tables of one data folder.
 #[derive(Clone)]
@@ -98,6 +99,7 @@ fn migrations() -> Migrator {
         one(8, "signatures", include_str!("../migrations/0008_signatures.sql")),
         one(9, "request keys", include_str!("../migrations/0009_request_keys.sql")),
         one(10, "visibility", include_str!("../migrations/0010_visibility.sql")),
+        one(11, "retention", include_str!("../migrations/0011_retention.sql")),
     ])
 }
 

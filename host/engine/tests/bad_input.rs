@@ -3,13 +3,13 @@
 mod common;
 
 use ocb_core::configuration::{Method, Sampling};
-use ocb_engine::model::RunSpec;
+use ocb_engine::model::{Page, RunSpec};
 use ocb_engine::{Engine, EngineError};
 
 /// What must not change: blobs on disk, the guest's objects and runs.
 async fn inventory(engine: &Engine, data: &std::path::Path) -> (usize, usize, usize) {
-    let objects = engine.objects(Some("guest")).await.unwrap().len();
-    let runs = engine.runs("guest").await.unwrap().len();
+    let objects = engine.objects(Some("guest"), &Page::default()).await.unwrap().entries.len();
+    let runs = engine.runs("guest", &Page::default()).await.unwrap().entries.len();
     (common::files(&data.join("blobs")), objects, runs)
 }
 
@@ -60,7 +60,7 @@ async fn a_good_object_is_kept_once() {
     assert_eq!(common::files(&data.path().join("blobs")), 1, "over the same bytes");
     assert_eq!(engine.mesh(&info.id).await.unwrap().positions()[2].y, f64::from(0.1f32));
     assert_eq!(engine.object(&info.id, Some("guest")).await.unwrap(), info);
-    let listed = engine.objects(Some("guest")).await.unwrap();
+    let listed = engine.objects(Some("guest"), &Page::default()).await.unwrap().entries;
     assert_eq!(listed.iter().filter(|o| !o.stock).collect::<Vec<_>>(), [&info]);
     engine.shutdown().await;
 }

@@ -10,7 +10,7 @@ use std::process::{Child, Command, Stdio};
 
 use futures::StreamExt;
 use ocb_engine::Engine;
-use ocb_engine::model::{AlgorithmResult, RunSpec, StageKind, State};
+use ocb_engine::model::{AlgorithmResult, Page, RunSpec, StageKind, State};
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
@@ -42,7 +42,7 @@ fn spec() -> RunSpec {
 #[tokio::main]
 async fn service(data: &Path) {
     let engine = Engine::open(common::config(data)).await.expect("the folder opens");
-    let run = match engine.runs("me").await.expect("the runs can be read").pop() {
+    let run = match engine.runs("me", &Page::default()).await.expect("the runs can be read").entries.pop() {
         Some(run) => run,
         None => engine.submit(spec(), Some("me")).await.expect("the run is queued"),
     };

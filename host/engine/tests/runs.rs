@@ -4,7 +4,7 @@ mod common;
 
 use ocb_core::configuration::{Class, Method};
 use ocb_core::statistics::{Outliers, Statistic};
-use ocb_engine::model::{HeatmapRequest, Measure, RunSpec, StageKind, State};
+use ocb_engine::model::{HeatmapRequest, Measure, Page, RunSpec, StageKind, State};
 use ocb_engine::{Engine, EngineConfig, EngineError};
 
 fn request(algorithm: &str, measure: Measure, statistic: Statistic) -> HeatmapRequest {
@@ -83,7 +83,7 @@ async fn a_run_goes_from_object_to_heatmap() {
     let (brought, _) = common::finish(&engine, &brought.id).await;
     assert_eq!(brought.results[0].n, set.configurations);
     assert_eq!(brought.results[0].wrong, 0);
-    assert_eq!(engine.runs("guest").await.unwrap().len(), 3);
+    assert_eq!(engine.runs("guest", &Page::default()).await.unwrap().entries.len(), 3);
     engine.shutdown().await;
 }
 

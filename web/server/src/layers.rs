@@ -35,7 +35,8 @@ pub(crate) fn wrap(router: Router<App>, app: &App) -> Router<App> {
     // out event streams, pictures and small answers.
     let worth_it = DefaultPredicate::new()
         .and(NotForContentType::const_new("application/vnd.apache.parquet"))
-        .and(NotForContentType::const_new("application/vnd.apache.arrow.stream"));
+        .and(NotForContentType::const_new("application/vnd.apache.arrow.stream"))
+        .and(NotForContentType::const_new("application/x-tar"));
     router
         .layer(middleware::from_fn_with_state(app.clone(), privacy::hide_private_things))
         .layer(middleware::from_fn_with_state(app.clone(), guest::recognise))

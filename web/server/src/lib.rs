@@ -10,6 +10,7 @@ mod extract;
 mod guest;
 mod layers;
 mod limits;
+mod list;
 mod origin;
 mod pace;
 mod pages;
@@ -40,6 +41,8 @@ pub struct App {
     uploads: std::sync::Arc<upload::Turns>,
     /// Held while a plugin is taken: what room its account has is looked at first, and must be there still when it is added.
     submitting: std::sync::Arc<tokio::sync::Mutex<()>>,
+    /// Held while somebody's things are packed.
+    packing: std::sync::Arc<tokio::sync::Mutex<()>>,
     limits: std::sync::Arc<limits::Limits>,
     /// True from the moment the service is asked to stop: progress streams end, so that their connections can.
     stopping: watch::Receiver<bool>,
@@ -52,6 +55,7 @@ impl App {
             engine,
             uploads: std::sync::Arc::default(),
             submitting: std::sync::Arc::default(),
+            packing: std::sync::Arc::default(),
             limits: std::sync::Arc::default(),
             stopping,
         }

@@ -13,6 +13,7 @@ mod runs;
 mod selecting;
 mod service;
 mod stability;
+mod things;
 
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
@@ -29,7 +30,8 @@ use crate::{App, events, layers, pages, upload};
         title = "OpenCollBench",
         description = "Benchmarks of collision detection: objects, runs, progress and heatmaps. Times are microseconds since \
             the Unix epoch, durations say their unit in their name. Every error is a `Problem` (RFC 9457) with one sentence \
-            in `detail`. The cookie `ocb_guest`, set on first contact, owns what a visitor makes; whoever knows the id of an \
+            in `detail`. Long lists come part by part, newest first, with the way on in the header `Link` (RFC 8288); what is \
+            added meanwhile shifts nothing. The cookie `ocb_guest`, set on first contact, owns what a visitor makes; whoever knows the id of an \
             object or a run may look at it, unless its owner has made it private. An account, entered by the cookie `ocb_session` or by a token in `Authorization: Bearer`, \
             owns what is made with it, and may publish.",
         license(name = "MIT OR Apache-2.0")
@@ -44,6 +46,7 @@ use crate::{App, events, layers, pages, upload};
         (name = "plugins", description = "What developers bring"),
         (name = "curation", description = "What curators decide"),
         (name = "advice", description = "How much of a model a question needs"),
+        (name = "things", description = "What one has made: how long it stays, and taking it away"),
         (name = "service", description = "The service itself"),
     )
 )]
@@ -56,13 +59,18 @@ fn api() -> OpenApiRouter<App> {
     let submissions = routes!(plugins::list_plugins, plugins::submit_plugin);
     let routes = OpenApiRouter::new()
         .routes(uploads.layer(DefaultBodyLimit::disable()).layer(middleware::from_fn(upload::refuse_gently)))
-        .routes(routes!(objects::show_object))
+        .routes(routes!(objects::show_object, things::remove_object))
+        .routes(routes!(things::things_of_object))
         .routes(routes!(objects::object_mesh))
         .routes(routes!(objects::change_object_visibility))
         .routes(routes!(algorithms::list_algorithms))
         .routes(routes!(runs::estimate_run))
         .routes(routes!(runs::list_runs, runs::start_run))
-        .routes(routes!(runs::show_run))
+        .routes(routes!(runs::show_run, things::remove_run))
+        .routes(routes!(things::things_of_run))
+        .routes(routes!(things::show_things, things::remove_things))
+        .routes(routes!(things::keep_longer))
+        .routes(routes!(things::take_along))
         .routes(routes!(runs::cancel_run))
         .routes(routes!(runs::refine_run))
         .routes(routes!(runs::change_run_visibility))

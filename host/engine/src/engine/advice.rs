@@ -138,6 +138,7 @@ impl Inner {
 
     async fn end_advice(&self, mut info: AdviceInfo, found: Result<Option<Found>>) -> Result<()> {
         let mut papers: [Vec<StoredPaper>; 2] = Default::default();
+        let _keeping = self.blobs.keeping().await;
         (info.state, info.message) = match found {
             Ok(Some((advice, found))) => {
                 for (side, all) in found.iter().enumerate() {

@@ -23,7 +23,7 @@ impl Engine {
         let Some(query) = [Query::Proximity, Query::CollisionFirst].into_iter().find(answered) else {
             return Ok(());
         };
-        let objects = self.objects(None).await?;
+        let objects = self.inner.objects.stock().await?;
         let wanted = ["stock:bunny", "stock:castle@"];
         let object = wanted.iter().find_map(|id| objects.iter().find(|o| o.id.starts_with(id))).or(objects.first());
         let Some(object) = object else { return Ok(()) };

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::Engine;
 use crate::blobs::sha256_hex;
-use crate::model::{AccountInfo, AuditEntry, NewToken, Role, Scope, TokenInfo, TokenRequest};
+use crate::model::{AccountInfo, AuditEntry, Cursor, NewToken, Page, Part, Role, Scope, TokenInfo, TokenRequest};
 use crate::store::{Note, now_us};
 use crate::{EngineError, Result, draw, passwords, signature};
 
@@ -143,9 +143,11 @@ impl Engine {
         self.inner.store.move_things(guest, &account.owner()).await
     }
 
-    /// All accounts, for curators.
-    pub async fn accounts(&self) -> Result<Vec<AccountInfo>> {
-        self.inner.store.accounts().await
+    /// Accounts, newest first, for curators.
+    pub async fn accounts(&self, page: &Page) -> Result<Part<AccountInfo>> {
+        let (from, limit) = page.start()?;
+        let accounts = self.inner.store.accounts(&from, limit + 1).await?;
+        Ok(Part::of(accounts, limit, |account: &AccountInfo| Cursor::behind(account.created_us, &account.id)))
     }
 
     /// Asks the curators to be made a developer.

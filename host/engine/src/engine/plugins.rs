@@ -3,7 +3,9 @@
 use super::Engine;
 use super::people::said;
 use crate::blobs::sha256_hex;
-use crate::model::{AccountInfo, Action, CheckLine, CheckVerdict, Decision, Manifest, PluginInfo, PluginState, Role};
+use crate::model::{
+    AccountInfo, Action, CheckLine, CheckVerdict, Cursor, Decision, Manifest, Page, Part, PluginInfo, PluginState, Role,
+};
 use crate::registry::{brought, check_manifest, is_free};
 use crate::store::{Note, SubmissionRow, now_us};
 use crate::{EngineError, Result, signature};
@@ -56,6 +58,7 @@ impl Engine {
         }
         self.has_room(account, bytes.len() as u64).await?;
         let length = bytes.len();
+        let _keeping = self.inner.blobs.keeping().await;
         self.inner.blobs.put(bytes).await?;
         store.add_blob(&blob, length, "application/octet-stream").await?;
         let now = now_us();
@@ -101,28 +104,36 @@ impl Engine {
     }
 
     /// The public plugins and those of the viewer, newest first; without reports and history.
-    pub async fn plugins(&self, viewer: Option<&AccountInfo>) -> Result<Vec<PluginInfo>> {
-        self.listed(viewer, |row| row.state.is_shown() || viewer.is_some_and(|v| v.id == row.account)).await
+    pub async fn plugins(&self, viewer: Option<&AccountInfo>, page: &Page) -> Result<Part<PluginInfo>> {
+        let (from, limit) = page.start()?;
+        let all = self.inner.store.submissions().await?;
+        let place = |row: &&SubmissionRow| Cursor::behind(row.created_us, &row.id);
+        let may = |row: &&SubmissionRow| row.state.is_shown() || viewer.is_some_and(|v| v.id == row.account);
+        let mut rows: Vec<&SubmissionRow> = all.iter().filter(may).filter(|row| place(row) < from).collect();
+        rows.sort_by_key(|row| std::cmp::Reverse(place(row)));
+        let Part { entries, next } = Part::of(rows, limit, place);
+        Ok(Part { entries: self.listed(&entries, &all, viewer).await?, next })
     }
 
     /// What waits for a curator, oldest first; without reports and history.
     pub async fn curation(&self, curator: &AccountInfo) -> Result<Vec<PluginInfo>> {
-        let waits = |row: &SubmissionRow| matches!(row.state, PluginState::Awaiting | PluginState::Asked);
-        let mut all = self.listed(Some(curator), waits).await?;
-        all.sort_by_key(|plugin| plugin.changed_us);
-        Ok(all)
+        let all = self.inner.store.submissions().await?;
+        let waits = |row: &&SubmissionRow| matches!(row.state, PluginState::Awaiting | PluginState::Asked);
+        let mut rows: Vec<&SubmissionRow> = all.iter().filter(waits).collect();
+        rows.sort_by_key(|row| row.changed_us);
+        self.listed(&rows, &all, Some(curator)).await
     }
 
     async fn listed(
         &self,
+        rows: &[&SubmissionRow],
+        all: &[SubmissionRow],
         viewer: Option<&AccountInfo>,
-        which: impl Fn(&SubmissionRow) -> bool,
     ) -> Result<Vec<PluginInfo>> {
-        let all = self.inner.store.submissions().await?;
         let mut infos = Vec::new();
-        for row in all.iter().filter(|row| which(row)) {
+        for row in rows {
             let lines = self.inner.store.lines(&row.id).await?;
-            let mut info = self.shown(row, lines, &all, viewer).await?;
+            let mut info = self.shown(row, lines, all, viewer).await?;
             info.lines.clear();
             infos.push(info);
         }

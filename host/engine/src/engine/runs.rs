@@ -3,13 +3,11 @@
 use std::time::{Duration, Instant};
 
 use super::{Engine, INTERACTIVE};
-use crate::model::{RunInfo, RunSpec, State, Visibility};
+use crate::model::{Cursor, Page, Part, RunInfo, RunSpec, State, Visibility};
 use crate::runlog::{fresh_stages, plain_event};
 use crate::store::{RunRow, now_us};
 use crate::{EngineError, Result, dispatcher, draw, estimate};
 
-/// Longest list of runs.
-const MAX_LIST: i64 = 200;
 /// How long `cancel` waits for a run under way to end before it answers.
 const CANCEL_PATIENCE: Duration = Duration::from_secs(3);
 
@@ -107,15 +105,18 @@ impl Engine {
         self.info(row, viewer).await
     }
 
-    /// The owner's runs, newest first (at most 200).
-    pub async fn runs(&self, owner: &str) -> Result<Vec<RunInfo>> {
-        let mut all = Vec::new();
-        for row in self.inner.store.runs_of(owner, MAX_LIST).await? {
+    /// The owner's runs, newest first. A part holds fewer where an object of a run is hidden from its owner.
+    pub async fn runs(&self, owner: &str, page: &Page) -> Result<Part<RunInfo>> {
+        let (from, limit) = page.start()?;
+        let rows = self.inner.store.runs_of(owner, &from, limit + 1).await?;
+        let part = Part::of(rows, limit, |row: &RunRow| Cursor::behind(row.created_us, &row.id));
+        let mut entries = Vec::new();
+        for row in part.entries {
             if self.inner.may_see(&row, Some(owner)).await? {
-                all.push(self.info(row, Some(owner)).await?);
+                entries.push(self.info(row, Some(owner)).await?);
             }
         }
-        Ok(all)
+        Ok(Part { entries, next: part.next })
     }
 
     /// The newest finished run for the start page, if there is one already.

@@ -53,6 +53,7 @@ impl Engine {
 
     /// Keeps a set that was found in so many seconds; later runs and requests use it again.
     pub async fn keep_set(&self, job: &SetJob, set: &ConfigurationSet, seconds: f64) -> Result<SetInfo> {
+        let _keeping = self.inner.blobs.keeping().await;
         self.inner.keep_set(&job.key, job.meshes.each_ref().map(AsRef::as_ref), set, seconds).await
     }
 
@@ -63,7 +64,7 @@ impl Engine {
 }
 
 impl Inner {
-    /// Keeps a new set under its key.
+    /// Keeps a new set under its key, while `Blobs::keeping` is held.
     pub async fn keep_set(
         &self,
         key: &str,

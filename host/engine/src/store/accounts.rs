@@ -2,7 +2,7 @@
 
 use super::audit::append;
 use super::{Note, Store, from_json, now_us, to_json};
-use crate::model::{AccountInfo, Role, Scope, TokenInfo};
+use crate::model::{AccountInfo, Cursor, Role, Scope, TokenInfo};
 use crate::{EngineError, Result};
 
 /// Columns of an account: id, name, role, wish, signing key, when it was made.
@@ -31,12 +31,17 @@ impl Store {
         Ok(added.rows_affected() == 1)
     }
 
-    /// All accounts by name.
-    pub async fn accounts(&self) -> Result<Vec<AccountInfo>> {
-        let rows: Vec<AccountRow> =
-            sqlx::query_as("SELECT id, name, role, wish, signing_key, created_us FROM accounts ORDER BY folded")
-                .fetch_all(&self.pool)
-                .await?;
+    /// Accounts from this place on, newest first, at most `limit`.
+    pub async fn accounts(&self, from: &Cursor, limit: usize) -> Result<Vec<AccountInfo>> {
+        let rows: Vec<AccountRow> = sqlx::query_as(
+            "SELECT id, name, role, wish, signing_key, created_us FROM accounts WHERE (created_us, id) < ($1, $2) \
+             ORDER BY created_us DESC, id DESC LIMIT $3",
+        )
+        .bind(from.created_us)
+        .bind(&from.id)
+        .bind(limit as i64)
+        .fetch_all(&self.pool)
+        .await?;
         rows.into_iter().map(account).collect()
     }
 

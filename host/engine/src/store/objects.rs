@@ -3,7 +3,7 @@
 use super::visibility::visibility;
 use super::{Store, from_json, to_json};
 use crate::Result;
-use crate::model::{ObjectInfo, Visibility};
+use crate::model::{Cursor, ObjectInfo, Visibility};
 
 /// One row of the table of objects.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,25 +74,16 @@ impl Store {
         row.map(read).transpose()
     }
 
-    /// The owner's objects, newest first.
-    pub async fn objects_of(&self, owner: &str) -> Result<Vec<ObjectRow>> {
+    /// The viewer's objects and the public ones of others from this place on, newest first, at most `limit`.
+    pub async fn objects_for(&self, viewer: Option<&str>, from: &Cursor, limit: usize) -> Result<Vec<ObjectRow>> {
         let rows: Vec<Columns> = sqlx::query_as(
-            "SELECT info, owner, blob, visibility FROM objects WHERE owner = $1 ORDER BY created_us DESC, id DESC",
+            "SELECT info, owner, blob, visibility FROM objects WHERE (visibility = 'public' OR owner = $1) \
+             AND (created_us, id) < ($2, $3) ORDER BY created_us DESC, id DESC LIMIT $4",
         )
-        .bind(owner)
-        .fetch_all(&self.pool)
-        .await?;
-        rows.into_iter().map(read).collect()
-    }
-
-    /// The public objects of others, newest first, at most `limit`.
-    pub async fn public_objects(&self, but_of: Option<&str>, limit: i64) -> Result<Vec<ObjectRow>> {
-        let rows: Vec<Columns> = sqlx::query_as(
-            "SELECT info, owner, blob, visibility FROM objects WHERE visibility = 'public' AND COALESCE(owner, '') <> $1 \
-             ORDER BY created_us DESC, id DESC LIMIT $2",
-        )
-        .bind(but_of.unwrap_or(""))
-        .bind(limit)
+        .bind(viewer)
+        .bind(from.created_us)
+        .bind(&from.id)
+        .bind(limit as i64)
         .fetch_all(&self.pool)
         .await?;
         rows.into_iter().map(read).collect()

@@ -5,7 +5,7 @@ use sqlx::any::AnyRow;
 
 use super::visibility::visibility;
 use super::{Store, from_json, now_us, to_json};
-use crate::model::{Environment, Preview, RunEvent, RunSpec, SetInfo, Stage, State, Visibility};
+use crate::model::{Cursor, Environment, Preview, RunEvent, RunSpec, SetInfo, Stage, State, Visibility};
 use crate::{EngineError, Result};
 
 /// One row of the table of runs.
@@ -176,13 +176,17 @@ impl Store {
         row.as_ref().map(read_run).transpose()
     }
 
-    /// The owner's runs, newest first, at most `limit`.
-    pub async fn runs_of(&self, owner: &str, limit: i64) -> Result<Vec<RunRow>> {
-        let rows = sqlx::query(select_runs!("WHERE owner = $1 ORDER BY created_us DESC, id DESC LIMIT $2"))
-            .bind(owner)
-            .bind(limit)
-            .fetch_all(&self.pool)
-            .await?;
+    /// The owner's runs from this place on, newest first, at most `limit`.
+    pub async fn runs_of(&self, owner: &str, from: &Cursor, limit: usize) -> Result<Vec<RunRow>> {
+        let rows = sqlx::query(select_runs!(
+            "WHERE owner = $1 AND (created_us, id) < ($2, $3) ORDER BY created_us DESC, id DESC LIMIT $4"
+        ))
+        .bind(owner)
+        .bind(from.created_us)
+        .bind(&from.id)
+        .bind(limit as i64)
+        .fetch_all(&self.pool)
+        .await?;
         rows.iter().map(read_run).collect()
     }
 
@@ -282,17 +286,20 @@ impl Store {
         Ok(())
     }
 
-    /// Appends an event and gives it its number.
+    /// Appends an event and gives it its number; a run that was taken away meanwhile has no events.
     pub async fn add_event(&self, id: &str, event: &mut RunEvent) -> Result<()> {
-        event.seq = sqlx::query_scalar(
+        let seq: Option<i64> = sqlx::query_scalar(
             "INSERT INTO run_events (run_id, seq, event) \
-             SELECT $1, COALESCE(MAX(seq), 0) + 1, $2 FROM run_events WHERE run_id = $3 RETURNING seq",
+             SELECT $1, COALESCE(MAX(seq), 0) + 1, $2 FROM run_events WHERE run_id = $3 \
+             HAVING EXISTS (SELECT 1 FROM runs WHERE id = $4) RETURNING seq",
         )
         .bind(id)
         .bind(to_json(event)?)
         .bind(id)
-        .fetch_one(&self.pool)
+        .bind(id)
+        .fetch_optional(&self.pool)
         .await?;
+        event.seq = seq.unwrap_or(event.seq);
         Ok(())
     }
 

@@ -3,14 +3,16 @@
 use ocb_core::configuration::Class;
 use ocb_core::query::Query;
 
+mod lists;
 mod people;
+mod things;
 mod visibility;
 
 use super::*;
 use crate::blobs::tests::from_harness;
 use crate::model::{
-    AdviceInfo, Agreement, AlgorithmInfo, AlgorithmResult, ClassCount, Draw, Environment, Estimated, ObjectInfo,
-    OutcomeInfo, Reference, RunSpec, SetInfo, Stability, State, Visibility,
+    AdviceInfo, Agreement, AlgorithmInfo, AlgorithmResult, ClassCount, Cursor, Draw, Environment, Estimated,
+    ObjectInfo, OutcomeInfo, Reference, RunSpec, SetInfo, Stability, State, Visibility,
 };
 use crate::runlog::{fresh_stages, plain_event};
 
@@ -85,6 +87,8 @@ on_both!(
     the_log_shows_what_was_changed_by_hand,
     a_submission_is_checked_three_times_at_most,
     only_what_is_public_is_in_the_lists_of_others,
+    lists_go_on_where_they_were_left,
+    what_is_taken_away_takes_the_files_that_nobody_else_uses,
 );
 
 fn object(id: &str) -> ObjectInfo {
@@ -157,6 +161,14 @@ fn set_info() -> SetInfo {
     }
 }
 
+fn advice_info(id: &str) -> AdviceInfo {
+    serde_json::from_value(serde_json::json!({
+        "id": id, "spec": {"object_a": "stock:box@500", "question": {"kind": "distance", "tolerance": 0.01}},
+        "names": ["box", "box"], "state": "queued", "step": "", "done": 0, "total": 0, "message": null, "advice": null,
+    }))
+    .unwrap()
+}
+
 fn result(algorithm: &str, n: u32) -> StoredResult {
     StoredResult {
         result: AlgorithmResult {
@@ -192,7 +204,9 @@ async fn add(store: &Store, run: RunRow) {
 }
 
 mod contract {
+    pub use super::lists::*;
     pub use super::people::*;
+    pub use super::things::*;
     pub use super::visibility::*;
     use super::*;
 
@@ -212,11 +226,11 @@ mod contract {
         store.add_object(&nobodys, None, "m").await.unwrap();
         let row = |info: &ObjectInfo, owner: Option<&str>| {
             let owner = owner.map(str::to_owned);
-            ObjectRow { info: info.clone(), owner, blob: "m".into() }
+            objects::ObjectRow { info: info.clone(), owner, blob: "m".into() }
         };
         assert_eq!(store.object("1").await.unwrap(), Some(row(&mine, Some("me"))));
         assert_eq!(store.object("9").await.unwrap(), None);
-        assert_eq!(store.objects_of("me").await.unwrap(), [row(&mine, Some("me"))]);
+        assert_eq!(store.objects_for(Some("me"), &Cursor::start(), 9).await.unwrap(), [row(&mine, Some("me"))]);
         assert_eq!(store.object_with_mesh(&mine.sha256, Some("me")).await.unwrap(), Some(row(&mine, Some("me"))));
         assert_eq!(store.object_with_mesh(&mine.sha256, Some("other")).await.unwrap(), None);
         assert_eq!(store.object_with_mesh(&nobodys.sha256, None).await.unwrap(), Some(row(&nobodys, None)));
@@ -266,11 +280,7 @@ mod contract {
     }
 
     pub async fn advice_ends_once_and_is_found_again(store: Store) {
-        let mut info: AdviceInfo = serde_json::from_value(serde_json::json!({
-            "id": "x", "spec": {"object_a": "stock:box@500", "question": {"kind": "distance", "tolerance": 0.01}},
-            "names": ["box", "box"], "state": "queued", "step": "", "done": 0, "total": 0, "message": null, "advice": null,
-        }))
-        .unwrap();
+        let mut info = advice_info("x");
         store.add_advice(&info, Some("me")).await.unwrap();
         store.begin_advice("x").await.unwrap();
         let [open] = store.open_advice().await.unwrap().try_into().ok().expect("one is open");
@@ -334,9 +344,10 @@ mod contract {
         assert_eq!(store.stages("r").await.unwrap(), stages);
         add(&store, run("s", Some("me"), 1, 8)).await;
         add(&store, run("t", Some("other"), 1, 9)).await;
-        let mine: Vec<String> = store.runs_of("me", 10).await.unwrap().into_iter().map(|r| r.id).collect();
+        let mine: Vec<String> =
+            store.runs_of("me", &Cursor::start(), 10).await.unwrap().into_iter().map(|r| r.id).collect();
         assert_eq!(mine, ["s", "r"]);
-        assert_eq!(store.runs_of("me", 1).await.unwrap().len(), 1);
+        assert_eq!(store.runs_of("me", &Cursor::start(), 1).await.unwrap().len(), 1);
     }
 
     pub async fn a_request_makes_one_run(store: Store) {

@@ -1,5 +1,6 @@
 import createClient from 'openapi-fetch'
 import { asApiError, fromResponse } from './errors'
+import { nextOf } from './link'
 import type { paths } from './schema'
 import type {
   Accuracy, AdviceInfo, AdviceSpec, AlgorithmInfo, Board, Chart, ChartKind, Ecdf, Estimate, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, StabilityTable, Visibility, WorstCase,
@@ -28,7 +29,33 @@ export async function nothing(call: Promise<{ error?: unknown; response: Respons
   }
 }
 
-export const listObjects = (): Promise<ObjectInfo[]> => answer(http.GET('/api/v1/objects'))
+/** A part of a list, and where it goes on. */
+export interface Part<T> {
+  entries: T[]
+  next: string | null
+}
+
+/** As `answer`, for a part of a list. */
+export async function part<T>(call: Promise<{ data?: T[]; error?: unknown; response: Response }>): Promise<Part<T>> {
+  const entries = await answer(call)
+  const { response } = await call
+  return { entries, next: nextOf(response.headers.get('link')) }
+}
+
+/** A whole list, part by part. */
+export async function whole<T>(load: (query: { cursor?: string }) => Promise<Part<T>>): Promise<T[]> {
+  const all: T[] = []
+  let cursor: string | null = null
+  do {
+    const { entries, next }: Part<T> = await load(cursor === null ? {} : { cursor })
+    all.push(...entries)
+    cursor = next
+  } while (cursor !== null)
+  return all
+}
+
+export const listObjects = (): Promise<ObjectInfo[]> =>
+  whole((query) => part(http.GET('/api/v1/objects', { params: { query } })))
 
 export const listAlgorithms = (): Promise<AlgorithmInfo[]> => answer(http.GET('/api/v1/algorithms'))
 
@@ -37,7 +64,11 @@ export const estimate = (spec: RunSpec, signal?: AbortSignal): Promise<Estimate>
 
 export const startRun = (spec: RunSpec): Promise<RunInfo> => answer(http.POST('/api/v1/runs', { body: spec }))
 
-export const listRuns = (): Promise<RunInfo[]> => answer(http.GET('/api/v1/runs'))
+/** The newest runs. */
+export const listRuns = async (): Promise<RunInfo[]> => (await listRunsFrom(null)).entries
+
+export const listRunsFrom = (cursor: string | null): Promise<Part<RunInfo>> =>
+  part(http.GET('/api/v1/runs', { params: { query: { limit: 50, ...(cursor !== null && { cursor }) } } }))
 
 export const getRun = (id: string): Promise<RunInfo> => answer(http.GET('/api/v1/runs/{id}', { params: { path: { id } } }))
 

@@ -1,4 +1,4 @@
-import { answer, http, nothing } from './client'
+import { answer, http, nothing, part, whole } from './client'
 import type {
   AccountInfo, Credentials, Decision, Identity, NewToken, PluginInfo, Role, Scope, TokenInfo,
 } from './types'
@@ -32,12 +32,14 @@ export const registerKey = (publicKey: string): Promise<AccountInfo> =>
 
 export const forgetKey = (): Promise<void> => nothing(http.DELETE('/api/v1/account/signing-key'))
 
-export const listAccounts = (): Promise<AccountInfo[]> => answer(http.GET('/api/v1/accounts'))
+export const listAccounts = (): Promise<AccountInfo[]> =>
+  whole((query) => part(http.GET('/api/v1/accounts', { params: { query } })))
 
 export const changeRole = (id: string, role: Role): Promise<AccountInfo> =>
   answer(http.POST('/api/v1/accounts/{id}/role', { params: { path: { id } }, body: { role } }))
 
-export const listPlugins = (): Promise<PluginInfo[]> => answer(http.GET('/api/v1/plugins'))
+export const listPlugins = (): Promise<PluginInfo[]> =>
+  whole((query) => part(http.GET('/api/v1/plugins', { params: { query } })))
 
 export const listCuration = (): Promise<PluginInfo[]> => answer(http.GET('/api/v1/curation'))
 

@@ -103,6 +103,24 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/account/signing-key": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Registers the key that plugins of this account are signed with, in the place of an earlier one. */
+        post: operations["register_key"];
+        /** Forgets the key; plugins that were signed with it stay signed. */
+        delete: operations["forget_key"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/account/tokens": {
         parameters: {
             query?: never;
@@ -145,7 +163,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** All accounts by name; those that want to be developers say why. */
+        /** Accounts, newest first; those that want to be developers say why. */
         get: operations["list_accounts"];
         put?: never;
         post?: never;
@@ -315,7 +333,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** What waits for a curator, oldest first. */
+        /** Everything that waits for a curator, oldest first. */
         get: operations["list_curation"];
         put?: never;
         post?: never;
@@ -369,10 +387,16 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** Stock objects, then the visitor's own, newest first. */
+        /**
+         * Stock objects, in front of the first part and beyond its limit, then the visitor's own and those that others have
+         *     published, newest first.
+         */
         get: operations["list_objects"];
         put?: never;
-        /** Uploads an OBJ file; only its owner sees it in the list. */
+        /**
+         * Uploads an OBJ file. Whoever has its id may look at it, and only its owner sees it in the list, until that decides
+         *     otherwise.
+         */
         post: operations["add_object"];
         delete?: never;
         options?: never;
@@ -391,7 +415,8 @@ export interface paths {
         get: operations["show_object"];
         put?: never;
         post?: never;
-        delete?: never;
+        /** Takes away an object, and the visitor's runs and advice with it; runs of others keep their numbers, and show no object. */
+        delete: operations["remove_object"];
         options?: never;
         head?: never;
         patch?: never;
@@ -410,6 +435,40 @@ export interface paths {
          */
         get: operations["object_mesh"];
         put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/objects/{id}/things": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** What goes with an object: the visitor's runs and advice with it. */
+        get: operations["things_of_object"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/objects/{id}/visibility": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /** Decides who sees an object; only who added it may. Runs and advice with a private object are private, too. */
+        put: operations["change_object_visibility"];
         post?: never;
         delete?: never;
         options?: never;
@@ -513,10 +572,10 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** The visitor's runs, newest first. */
+        /** The visitor's runs, newest first. A part holds fewer than asked for where the object of a run was hidden from them. */
         get: operations["list_runs"];
         put?: never;
-        /** Asks for a run. */
+        /** Asks for a run. With an `Idempotency-Key` the same request, sent again because its answer was lost, gives the same run. */
         post: operations["start_run"];
         delete?: never;
         options?: never;
@@ -535,7 +594,8 @@ export interface paths {
         get: operations["show_run"];
         put?: never;
         post?: never;
-        delete?: never;
+        /** Takes away a run with its results and the stored files that nobody else uses; one under way ends. */
+        delete: operations["remove_run"];
         options?: never;
         head?: never;
         patch?: never;
@@ -824,6 +884,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{id}/things": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** What goes with a run. */
+        get: operations["things_of_run"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{id}/vertices/{vertex}": {
         parameters: {
             query?: never;
@@ -834,6 +911,23 @@ export interface paths {
         /** The value at one vertex, as the heatmap has it. */
         get: operations["show_vertex"];
         put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{id}/visibility": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /** Decides who sees a run; only who asked for it may, and no more than see its objects. A public one is on everybody's board. */
+        put: operations["change_run_visibility"];
         post?: never;
         delete?: never;
         options?: never;
@@ -912,6 +1006,64 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/things": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Everything that the visitor has made, which is what `DELETE` takes away, and until when it stays. */
+        get: operations["show_things"];
+        put?: never;
+        post?: never;
+        /**
+         * Takes away everything that the visitor has made, with the stored files that nobody else uses; runs under way end. Plugins
+         *     stay, because results belong to them.
+         */
+        delete: operations["remove_things"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/things.tar": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Everything that the visitor has made, to take along: objects, runs with their configurations and records, advice with its
+         *     reduced objects, plugins with their reports.
+         */
+        get: operations["take_along"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/things/keep": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Keeps what a guest has made for as long again, from now on. */
+        post: operations["keep_longer"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
@@ -929,6 +1081,8 @@ export interface components {
             name: string;
             /** @description What it may do. */
             role: components["schemas"]["Role"];
+            /** @description The minisign key that its plugins may be signed with. */
+            signing_key?: string | null;
             /** @description Why its owner wants to be a developer, while that is undecided. */
             wish?: string | null;
         };
@@ -1997,6 +2151,11 @@ export interface components {
             /** @description The token. */
             token: components["schemas"]["TokenInfo"];
         };
+        /** @description Who is to see it. */
+        NewVisibility: {
+            /** @description From now on. */
+            visibility: components["schemas"]["Visibility"];
+        };
         /** @description An object as the lists show it. */
         ObjectInfo: {
             /** @description Axis-aligned bounding box: minimum x y z, maximum x y z. */
@@ -2010,6 +2169,8 @@ export interface components {
             created_us: number;
             /** @description Stable id: `stock:<name>` for stock objects, otherwise a UUID. */
             id: string;
+            /** @description Added by the caller, who decides who sees it. */
+            mine: boolean;
             /** @description Display name. */
             name: string;
             /** @description SHA-256 (hex) of the mesh (positions, then triangles, little-endian). */
@@ -2028,6 +2189,8 @@ export interface components {
              * @description Vertex count.
              */
             vertices: number;
+            /** @description Who sees it. */
+            visibility: components["schemas"]["Visibility"];
             /** @description What was noticed and mended while reading (one sentence each). */
             warnings: string[];
         };
@@ -2117,6 +2280,8 @@ export interface components {
             reason: string;
             /** @description SHA-256 (hex) of the file. */
             sha256: string;
+            /** @description The registered key of its author that it is signed with, as minisign writes it. */
+            signed_by?: string | null;
             /** @description Where it is on its way. */
             state: components["schemas"]["PluginState"];
         };
@@ -2392,11 +2557,11 @@ export interface components {
              * @description When it ended.
              */
             finished_us?: number | null;
-            /** @description Id (UUIDv7); whoever knows it may look. */
+            /** @description Id (UUIDv7). */
             id: string;
             /** @description Why it failed, one sentence. */
             message?: string | null;
-            /** @description Made by the caller (may cancel). */
+            /** @description Made by the caller, who may cancel it and decides who sees it. */
             mine: boolean;
             /** @description Name of object A. */
             object_a_name: string;
@@ -2417,6 +2582,8 @@ export interface components {
             stages: components["schemas"]["Stage"][];
             /** @description State. */
             state: components["schemas"]["State"];
+            /** @description Who sees it: what its owner decided, and no more than see its objects. */
+            visibility: components["schemas"]["Visibility"];
         };
         /** @description What to measure. */
         RunSpec: {
@@ -2712,6 +2879,11 @@ export interface components {
          * @enum {string}
          */
         Side: "a" | "b";
+        /** @description A key that plugins may be signed with. */
+        SigningKey: {
+            /** @description A minisign public key: the file `minisign.pub`, or its last line. */
+            public_key: string;
+        };
         /** @description One method. */
         Stability: {
             /** @description The algorithm with its settings. */
@@ -2962,6 +3134,35 @@ export interface components {
              */
             wrong: number;
         };
+        /** @description A run or an object, as lists call it. */
+        Thing: {
+            /** @description Its id. */
+            id: string;
+            /** @description Its name; of a run, those of its objects. */
+            name: string;
+        };
+        /** @description Runs, objects and advice of one owner: all of them, or those that go with one of them. */
+        Things: {
+            /**
+             * Format: int32
+             * @description How many pieces of advice.
+             */
+            advice: number;
+            /**
+             * Format: int64
+             * @description Bytes of the stored files that go with them: those that nobody else uses.
+             */
+            bytes: number;
+            /**
+             * Format: int64
+             * @description When a guest's things go by themselves; absent for accounts, whose things stay.
+             */
+            kept_until_us?: number | null;
+            /** @description Objects, newest first. */
+            objects: components["schemas"]["Thing"][];
+            /** @description Runs with their results, newest first. */
+            runs: components["schemas"]["Thing"][];
+        };
         /** @description One side of eps*. */
         Threshold: {
             /**
@@ -3120,6 +3321,11 @@ export interface components {
              */
             vertex: number;
         };
+        /**
+         * @description Who sees an object or a run; to others it is not there.
+         * @enum {string}
+         */
+        Visibility: "private" | "unlisted" | "public";
         /** @description Why somebody wants to be a developer. */
         Wish: {
             /** @description A sentence or two for the curators. */
@@ -3591,6 +3797,111 @@ export interface operations {
             };
         };
     };
+    register_key: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SigningKey"];
+            };
+        };
+        responses: {
+            /** @description The account as it is now */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AccountInfo"];
+                };
+            };
+            /** @description The body or the address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body came too slowly */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body does not say that it is JSON */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No public key of minisign */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    forget_key: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description There is no key any more */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     list_tokens: {
         parameters: {
             query?: never;
@@ -3755,19 +4066,36 @@ export interface operations {
     };
     list_accounts: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description Entries at most, from 1 to 200. */
+                limit?: number;
+                /** @description Where the list goes on, as the `Link` header of the part before says; absent for the first part. */
+                cursor?: string;
+            };
             header?: never;
             path?: never;
             cookie?: never;
         };
         requestBody?: never;
         responses: {
+            /** @description A part of the list */
             200: {
                 headers: {
+                    /** @description Where the list goes on: `<...>; rel="next"`; absent at its end */
+                    Link?: string;
                     [name: string]: unknown;
                 };
                 content: {
                     "application/json": components["schemas"]["AccountInfo"][];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description Nobody is logged in */
@@ -3781,6 +4109,15 @@ export interface operations {
             };
             /** @description No curator */
             403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No part of the list */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4435,19 +4772,45 @@ export interface operations {
     };
     list_objects: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description Entries at most, from 1 to 200. */
+                limit?: number;
+                /** @description Where the list goes on, as the `Link` header of the part before says; absent for the first part. */
+                cursor?: string;
+            };
             header?: never;
             path?: never;
             cookie?: never;
         };
         requestBody?: never;
         responses: {
+            /** @description A part of the list */
             200: {
                 headers: {
+                    /** @description Where the list goes on: `<...>; rel="next"`; absent at its end */
+                    Link?: string;
                     [name: string]: unknown;
                 };
                 content: {
                     "application/json": components["schemas"]["ObjectInfo"][];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No part of the list */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
         };
@@ -4558,6 +4921,65 @@ export interface operations {
             };
         };
     };
+    remove_object: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Object id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description What has gone */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Things"];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Somebody else's object */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such object */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A run with it is just ending */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     object_mesh: {
         parameters: {
             query?: never;
@@ -4606,6 +5028,146 @@ export interface operations {
             };
         };
     };
+    things_of_object: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Object id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description What DELETE of the object takes away */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Things"];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Somebody else's object */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such object */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    change_object_visibility: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Object id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewVisibility"];
+            };
+        };
+        responses: {
+            /** @description The object as it is now */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ObjectInfo"];
+                };
+            };
+            /** @description The body or the address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Somebody else's object, or a guest who publishes */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such object */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body came too slowly */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body does not say that it is JSON */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body does not fit */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     show_document: {
         parameters: {
             query?: never;
@@ -4628,19 +5190,45 @@ export interface operations {
     };
     list_plugins: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description Entries at most, from 1 to 200. */
+                limit?: number;
+                /** @description Where the list goes on, as the `Link` header of the part before says; absent for the first part. */
+                cursor?: string;
+            };
             header?: never;
             path?: never;
             cookie?: never;
         };
         requestBody?: never;
         responses: {
+            /** @description A part of the list */
             200: {
                 headers: {
+                    /** @description Where the list goes on: `<...>; rel="next"`; absent at its end */
+                    Link?: string;
                     [name: string]: unknown;
                 };
                 content: {
                     "application/json": components["schemas"]["PluginInfo"][];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No part of the list */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
         };
@@ -4662,6 +5250,8 @@ export interface operations {
                     file: string;
                     /** @description A `Manifest` as JSON; it comes before the file. */
                     manifest: string;
+                    /** @description The content of a `.minisig` file, by the key that the account has registered; it comes before the file, too. */
+                    signature?: string | null;
                 };
             };
         };
@@ -4738,7 +5328,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No plugin, or no manifest */
+            /** @description No plugin, no manifest, or a signature that does not fit */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -4956,19 +5546,45 @@ export interface operations {
     };
     list_runs: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description Entries at most, from 1 to 200. */
+                limit?: number;
+                /** @description Where the list goes on, as the `Link` header of the part before says; absent for the first part. */
+                cursor?: string;
+            };
             header?: never;
             path?: never;
             cookie?: never;
         };
         requestBody?: never;
         responses: {
+            /** @description A part of the list */
             200: {
                 headers: {
+                    /** @description Where the list goes on: `<...>; rel="next"`; absent at its end */
+                    Link?: string;
                     [name: string]: unknown;
                 };
                 content: {
                     "application/json": components["schemas"]["RunInfo"][];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No part of the list */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
         };
@@ -4976,7 +5592,10 @@ export interface operations {
     start_run: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description 1 to 200 visible characters, another one for every run; kept as long as the run */
+                "Idempotency-Key"?: string | null;
+            };
             path?: never;
             cookie?: never;
         };
@@ -5004,6 +5623,15 @@ export interface operations {
             };
         };
         responses: {
+            /** @description Was asked for before under this key */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunInfo"];
+                };
+            };
             /** @description Queued; `Location` names it */
             201: {
                 headers: {
@@ -5100,6 +5728,65 @@ export interface operations {
             };
             /** @description No such run */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description What has gone */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Things"];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Somebody else's run */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description It is just ending */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5957,6 +6644,56 @@ export interface operations {
             };
         };
     };
+    things_of_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description What DELETE of the run takes away */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Things"];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Somebody else's run */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     show_vertex: {
         parameters: {
             query: {
@@ -6015,6 +6752,105 @@ export interface operations {
                 };
             };
             /** @description No such values: errors of a run that asked no distances, another object, ... */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    change_run_visibility: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewVisibility"];
+            };
+        };
+        responses: {
+            /** @description The run as it is now */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunInfo"];
+                };
+            };
+            /** @description The body or the address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Somebody else's run, or a guest who publishes */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body came too slowly */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An object or a plugin of it is seen by fewer */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body does not say that it is JSON */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body does not fit */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -6158,6 +6994,93 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Status"];
+                };
+            };
+        };
+    };
+    show_things: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Things"];
+                };
+            };
+        };
+    };
+    remove_things: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description What has gone */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Things"];
+                };
+            };
+            /** @description A run is just ending */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    take_along: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description A folder per thing, JSON beside OBJ and Parquet */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/x-tar": number[];
+                };
+            };
+        };
+    };
+    keep_longer: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Things"];
                 };
             };
         };

@@ -150,7 +150,7 @@ describe('objects', () => {
   })
 
   it('are found at any number of triangles', () => {
-    const listed = { id: 'stock:gear@2000', name: 'gear', triangles: 2000, vertices: 1000, bounds: [], sha256: '', terms: '', stock: true, closed: true, warnings: [], created_us: 0 }
+    const listed = { id: 'stock:gear@2000', name: 'gear', triangles: 2000, vertices: 1000, bounds: [], sha256: '', terms: '', stock: true, closed: true, warnings: [], created_us: 0, visibility: 'public' as const, mine: false }
     expect(find([listed], 'stock:gear@77')).toBe(listed)
     expect(find([listed], 'stock:sponge@77')).toBeUndefined()
   })

@@ -5,19 +5,29 @@ use axum::extract::{FromRequest, Request, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use ocb_core::export::glb;
-use ocb_engine::model::{NewVisibility, ObjectInfo};
+use ocb_engine::model::{NewVisibility, ObjectInfo, Page};
 use utoipa::ToSchema;
 
 use crate::App;
-use crate::extract::{Json as Body, Path};
+use crate::extract::{Json as Body, Path, Query};
 use crate::guest::Guest;
+use crate::list;
 use crate::problem::{Problem, Result};
 use crate::upload::Upload;
 
-/// Stock objects, then the visitor's own, then the newest 200 that others have published, each newest first.
-#[utoipa::path(get, path = "/objects", tag = "objects", responses((status = 200, body = Vec<ObjectInfo>)))]
-pub(crate) async fn list_objects(State(app): State<App>, Guest(guest): Guest) -> Result<Json<Vec<ObjectInfo>>> {
-    Ok(Json(app.engine.objects(Some(&guest)).await?))
+/// Stock objects, in front of the first part and beyond its limit, then the visitor's own and those that others have
+/// published, newest first.
+#[utoipa::path(get, path = "/objects", tag = "objects", params(Page),
+    responses(
+        (status = 200, description = "A part of the list", body = Vec<ObjectInfo>, headers(("Link" = String, description = "Where the list goes on: `<...>; rel=\"next\"`; absent at its end"))),
+        (status = 422, description = "No part of the list", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn list_objects(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Query(page): Query<Page>,
+) -> Result<Response> {
+    Ok(list::answer("/api/v1/objects", &page, app.engine.objects(Some(&guest), &page).await?))
 }
 
 /// The form of an upload.

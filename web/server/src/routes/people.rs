@@ -2,22 +2,29 @@
 
 use axum::Json as Answer;
 use axum::extract::State;
-use ocb_engine::model::{AccountInfo, NewRole};
+use axum::response::Response;
+use ocb_engine::model::{AccountInfo, NewRole, Page};
 
 use crate::App;
-use crate::extract::{Json, Path};
+use crate::extract::{Json, Path, Query};
 use crate::guest::Curator;
+use crate::list;
 use crate::problem::{Problem, Result};
 
-/// All accounts by name; those that want to be developers say why.
-#[utoipa::path(get, path = "/accounts", tag = "curation",
+/// Accounts, newest first; those that want to be developers say why.
+#[utoipa::path(get, path = "/accounts", tag = "curation", params(Page),
     responses(
-        (status = 200, body = Vec<AccountInfo>),
+        (status = 200, description = "A part of the list", body = Vec<AccountInfo>, headers(("Link" = String, description = "Where the list goes on: `<...>; rel=\"next\"`; absent at its end"))),
+        (status = 422, description = "No part of the list", body = Problem, content_type = "application/problem+json"),
         (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
         (status = 403, description = "No curator", body = Problem, content_type = "application/problem+json"),
     ))]
-pub(crate) async fn list_accounts(State(app): State<App>, Curator(_): Curator) -> Result<Answer<Vec<AccountInfo>>> {
-    Ok(Answer(app.engine.accounts().await?))
+pub(crate) async fn list_accounts(
+    State(app): State<App>,
+    Curator(_): Curator,
+    Query(page): Query<Page>,
+) -> Result<Response> {
+    Ok(list::answer("/api/v1/accounts", &page, app.engine.accounts(&page).await?))
 }
 
 /// Gives an account a role. Curators decide about users and developers, administrators about all.

@@ -12,14 +12,15 @@ use axum::response::sse::Event;
 use axum::response::{IntoResponse, Response};
 use futures::stream;
 use ocb_engine::Engine;
-use ocb_engine::model::{AccountInfo, Decision, PluginInfo};
+use ocb_engine::model::{AccountInfo, Decision, Page, PluginInfo};
 use utoipa::ToSchema;
 
 use crate::App;
 use crate::events::{sse, stopped};
-use crate::extract::{Json, Path};
+use crate::extract::{Json, Path, Query};
 use crate::guest::{Curator, Member};
 use crate::limits::SUBMIT;
+use crate::list;
 use crate::problem::{Problem, Result};
 use crate::upload::Submission;
 
@@ -34,9 +35,13 @@ fn account(viewer: &Viewer) -> Option<&AccountInfo> {
 }
 
 /// The public plugins and those of the visitor, newest first; each one's report and history stand on its own page.
-#[utoipa::path(get, path = "/plugins", tag = "plugins", responses((status = 200, body = Vec<PluginInfo>)))]
-pub(crate) async fn list_plugins(State(app): State<App>, viewer: Viewer) -> Result<Answer<Vec<PluginInfo>>> {
-    Ok(Answer(app.engine.plugins(account(&viewer)).await?))
+#[utoipa::path(get, path = "/plugins", tag = "plugins", params(Page),
+    responses(
+        (status = 200, description = "A part of the list", body = Vec<PluginInfo>, headers(("Link" = String, description = "Where the list goes on: `<...>; rel=\"next\"`; absent at its end"))),
+        (status = 422, description = "No part of the list", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn list_plugins(State(app): State<App>, viewer: Viewer, Query(page): Query<Page>) -> Result<Response> {
+    Ok(list::answer("/api/v1/plugins", &page, app.engine.plugins(account(&viewer), &page).await?))
 }
 
 /// The form of a submission.
@@ -168,7 +173,7 @@ pub(crate) async fn decide(
     Ok(Answer(app.engine.decide(&id, &account, decision).await?))
 }
 
-/// What waits for a curator, oldest first.
+/// Everything that waits for a curator, oldest first.
 #[utoipa::path(get, path = "/curation", tag = "curation",
     responses(
         (status = 200, body = Vec<PluginInfo>),

@@ -4,11 +4,12 @@ use axum::Json as Answer;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use ocb_engine::model::{Estimate, NewVisibility, RunInfo, RunSpec};
+use ocb_engine::model::{Estimate, NewVisibility, Page, RunInfo, RunSpec};
 
 use crate::App;
-use crate::extract::{Json, Path};
+use crate::extract::{Json, Path, Query};
 use crate::guest::Guest;
+use crate::list;
 use crate::problem::{Problem, Result};
 
 /// A spec for the document: a knot against itself, a tenth of its size apart.
@@ -74,10 +75,18 @@ fn request_key(headers: &HeaderMap) -> Result<Option<&str>> {
     key.map(Some).ok_or_else(bad)
 }
 
-/// The visitor's runs, newest first.
-#[utoipa::path(get, path = "/runs", tag = "runs", responses((status = 200, body = Vec<RunInfo>)))]
-pub(crate) async fn list_runs(State(app): State<App>, Guest(guest): Guest) -> Result<Answer<Vec<RunInfo>>> {
-    Ok(Answer(app.engine.runs(&guest).await?))
+/// The visitor's runs, newest first. A part holds fewer than asked for where the object of a run was hidden from them.
+#[utoipa::path(get, path = "/runs", tag = "runs", params(Page),
+    responses(
+        (status = 200, description = "A part of the list", body = Vec<RunInfo>, headers(("Link" = String, description = "Where the list goes on: `<...>; rel=\"next\"`; absent at its end"))),
+        (status = 422, description = "No part of the list", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn list_runs(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Query(page): Query<Page>,
+) -> Result<Response> {
+    Ok(list::answer("/api/v1/runs", &page, app.engine.runs(&guest, &page).await?))
 }
 
 /// One run.

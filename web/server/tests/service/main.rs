@@ -5,6 +5,7 @@
 
 mod advice;
 mod errors;
+mod lists;
 mod objects;
 mod pages;
 mod people;
@@ -13,3 +14,4 @@ mod publishing;
 mod runs;
 mod stream;
 mod support;
+mod things;

@@ -207,12 +207,13 @@ async fn a_signature_is_that_of_this_file_by_the_registered_key() {
     service.stop().await;
 }
 
-/// Sends what is an ELF file and no plugin.
-pub async fn garbage(guest: &Guest) -> Response {
-    submit(guest, &manifest("1.0"), SIGNED.to_vec()).await
+/// Sends what is an ELF file and no plugin, another one for each number.
+pub async fn garbage(guest: &Guest, number: u8) -> Response {
+    submit(guest, &manifest("1.0"), [SIGNED, &[number]].concat()).await
 }
 
-async fn failed(guest: &Guest, sent: &Value) -> Value {
+/// The plugin when its check has ended, which it did not pass.
+pub async fn failed(guest: &Guest, sent: &Value) -> Value {
     let path = format!("/api/v1/plugins/{}", sent["id"].as_str().expect("an id"));
     let stream = guest.get(&format!("{path}/events")).send().await.expect("an answer");
     stream.text().await.expect("the stream ends");

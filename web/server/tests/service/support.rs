@@ -56,6 +56,12 @@ impl Service {
         Guest { client, url: self.url.clone() }
     }
 
+    /// How many files it stores.
+    pub fn blobs(&self) -> usize {
+        let folders = std::fs::read_dir(self.data.path().join("blobs")).into_iter().flatten().flatten();
+        folders.map(|folder| std::fs::read_dir(folder.path()).expect("a folder").count()).sum()
+    }
+
     /// Ends the service and waits for it.
     pub async fn stop(self) {
         self.end().await;

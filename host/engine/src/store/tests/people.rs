@@ -2,7 +2,7 @@
 
 use super::super::*;
 use super::{add, fresh_stages, object, run};
-use crate::model::{AccountInfo, CheckLine, CheckVerdict, PluginState, Role, Scope, TokenInfo};
+use crate::model::{AccountInfo, CheckLine, CheckVerdict, Cursor, PluginState, Role, Scope, TokenInfo};
 
 fn account(id: &str, name: &str) -> AccountInfo {
     AccountInfo { id: id.into(), name: name.into(), role: Role::User, wish: None, signing_key: None, created_us: 1 }
@@ -29,7 +29,7 @@ pub async fn accounts_have_one_name_and_keys_of_their_own(store: Store) {
     assert_eq!(store.notes_on("x").await.unwrap().len(), 1, "what did not happen is not noted");
     store.set_signing_key("1", Some("RWkey"), NOTE).await.unwrap();
     let now = AccountInfo { role: Role::Developer, signing_key: Some("RWkey".into()), ..ada };
-    assert_eq!(store.accounts().await.unwrap(), std::slice::from_ref(&now));
+    assert_eq!(store.accounts(&Cursor::start(), 9).await.unwrap(), std::slice::from_ref(&now));
 
     store.add_key("s", "1", &key("a", later), true).await.unwrap();
     store.add_key("t", "1", &key("b", later), false).await.unwrap();
@@ -60,9 +60,9 @@ pub async fn accounts_have_one_name_and_keys_of_their_own(store: Store) {
     }
     store.move_things("guest", "account:1").await.unwrap();
     assert_eq!(store.run_of_request("account:1", "k").await.unwrap().map(|row| row.id).as_deref(), Some("t"));
-    assert_eq!(store.objects_of("account:1").await.unwrap().len(), 1);
-    assert_eq!(store.runs_of("account:1", 9).await.unwrap().len(), 3);
-    assert!(store.runs_of("guest", 9).await.unwrap().is_empty());
+    assert_eq!(store.objects_for(Some("account:1"), &Cursor::start(), 9).await.unwrap().len(), 1);
+    assert_eq!(store.runs_of("account:1", &Cursor::start(), 9).await.unwrap().len(), 3);
+    assert!(store.runs_of("guest", &Cursor::start(), 9).await.unwrap().is_empty());
 }
 
 pub async fn the_log_shows_what_was_changed_by_hand(store: Store) {
@@ -129,7 +129,7 @@ pub async fn a_submission_is_checked_three_times_at_most(store: Store) {
     let told = store.notes_on("p").await.unwrap();
     assert_eq!(
         (told.len(), told[0].action.as_str(), store.notes_on("x").await.unwrap().len()),
-        (1, "failed the check", 4)
+        (1, "failed the check", 5)
     );
     store.describe_submission("p", &[], "class").await.unwrap();
     assert_eq!(store.submissions().await.unwrap()[0].hardware_class.as_deref(), Some("class"));

@@ -2,7 +2,7 @@
 
 use super::super::*;
 use super::{add, object, run};
-use crate::model::{State, Visibility};
+use crate::model::{Cursor, State, Visibility};
 
 pub async fn only_what_is_public_is_in_the_lists_of_others(store: Store) {
     store.add_blob("m", 1, "x").await.unwrap();
@@ -11,7 +11,7 @@ pub async fn only_what_is_public_is_in_the_lists_of_others(store: Store) {
     store.claim().await.unwrap();
     store.end_run("r", State::Running, State::Done, None).await.unwrap();
     let listed = async |viewer: Option<&str>| {
-        let objects = store.public_objects(viewer, 9).await.unwrap().into_iter().map(|row| row.info.id);
+        let objects = store.objects_for(viewer, &Cursor::start(), 9).await.unwrap().into_iter().map(|row| row.info.id);
         let runs = store.finished_runs(viewer, 9).await.unwrap().into_iter().map(|row| row.id);
         (objects.collect::<Vec<_>>(), runs.collect::<Vec<_>>())
     };
@@ -22,7 +22,7 @@ pub async fn only_what_is_public_is_in_the_lists_of_others(store: Store) {
         assert_eq!(store.run("r").await.unwrap().unwrap().visibility, hidden);
         assert_eq!(listed(Some("other")).await, (vec![], vec![]));
         assert_eq!(listed(None).await, (vec![], vec![]));
-        assert_eq!(listed(Some("me")).await, (vec![], vec!["r".to_owned()]), "one's own objects have a list of their own");
+        assert_eq!(listed(Some("me")).await, (vec!["o".to_owned()], vec!["r".to_owned()]));
     }
     store.set_object_visibility("o", Visibility::Public).await.unwrap();
     store.set_run_visibility("r", Visibility::Public).await.unwrap();

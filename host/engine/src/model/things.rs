@@ -1,0 +1,28 @@
+//! What somebody has made, and what goes with it.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// A run or an object, as lists call it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct Thing {
+    /// Its id.
+    pub id: String,
+    /// Its name; of a run, those of its objects.
+    pub name: String,
+}
+
+/// Runs, objects and advice of one owner: all of them, or those that go with one of them.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct Things {
+    /// Runs with their results, newest first.
+    pub runs: Vec<Thing>,
+    /// Objects, newest first.
+    pub objects: Vec<Thing>,
+    /// How many pieces of advice.
+    pub advice: u32,
+    /// Bytes of the stored files that go with them: those that nobody else uses.
+    pub bytes: u64,
+    /// When a guest's things go by themselves; absent for accounts, whose things stay.
+    pub kept_until_us: Option<i64>,
+}

@@ -1,0 +1,56 @@
+//! What an owner has, and taking it away, on both databases.
+
+use super::super::things::Unused;
+use super::super::*;
+use super::{add, advice_info, object, result, run, set_info};
+use crate::model::Thing;
+use ocb_core::query::Query;
+
+pub async fn what_is_taken_away_takes_the_files_that_nobody_else_uses(store: Store) {
+    for (file, bytes) in [("mesh", 10), ("set", 20), ("records", 30), ("paper", 40), ("proof", 50)] {
+        store.add_blob(file, bytes, "x").await.unwrap();
+    }
+    store.add_object(&object("o"), Some("me"), "mesh").await.unwrap();
+    store.add_object(&object("p"), Some("other"), "mesh").await.unwrap();
+    store.keep_set("k", &set_info(), "set", 1, 1.0).await.unwrap();
+    for (id, owner, of) in [("r", "me", "o"), ("s", "other", "o"), ("t", "me", "p")] {
+        let mut row = run(id, Some(owner), 1, 1);
+        row.spec.object_a = of.to_owned();
+        add(&store, row).await;
+        store.set_of_run(id, &set_info(), "set").await.unwrap();
+    }
+    let stored = StoredResult { records: Some("records".into()), ..result("a", 1) };
+    store.keep_result("r", 0, &stored, 1, Query::Proximity).await.unwrap();
+    let mut info = advice_info("v");
+    info.spec.object_a = "o".to_owned();
+    store.add_advice(&info, Some("me")).await.unwrap();
+    let paper = StoredPaper { mesh: "paper".into(), certificate: "proof".into(), file: "f.obj".into() };
+    store.end_advice(&info, &[vec![paper], vec![]]).await.unwrap();
+
+    let with_object = store.belongings("me", Some("o")).await.unwrap();
+    let ids = |things: &[Thing]| things.iter().map(|thing| thing.id.clone()).collect::<Vec<_>>();
+    assert_eq!((ids(&with_object.runs), ids(&with_object.objects)), (vec!["r".to_owned()], vec!["o".to_owned()]));
+    assert_eq!(with_object.advice, ["v"]);
+    assert_eq!(store.belongings("me", None).await.unwrap().runs.len(), 2);
+    assert_eq!(store.owners().await.unwrap().len(), 2);
+    assert!(store.last_wanted("me").await.unwrap() > Some(1) && store.last_wanted("nobody").await.unwrap().is_none());
+    let before = store.last_wanted("me").await.unwrap();
+    store.keep_longer("me").await.unwrap();
+    store.keep_longer("me").await.unwrap();
+    assert!(store.last_wanted("me").await.unwrap() > before);
+
+    let unused = |sha256: &str, bytes| Unused { sha256: sha256.into(), bytes };
+    let expected = [unused("paper", 40), unused("proof", 50), unused("records", 30)];
+    assert_eq!(store.take_away(&with_object, false).await.unwrap(), expected, "the mesh and the set are others', too");
+    assert!(store.run("r").await.unwrap().is_some() && store.set("k").await.unwrap().is_some());
+    assert_eq!(store.take_away(&with_object, true).await.unwrap(), expected);
+    assert!(store.run("r").await.unwrap().is_none() && store.object("o").await.unwrap().is_none());
+    assert!(store.advice("v").await.unwrap().is_none() && store.results("r").await.unwrap().is_empty());
+    assert!(store.run("s").await.unwrap().is_some() && store.run("t").await.unwrap().is_some());
+    // With the last run that has it the set goes, with the last object the mesh.
+    for (owner, left) in [("me", vec![]), ("other", vec![unused("mesh", 10), unused("set", 20)])] {
+        let all = store.belongings(owner, None).await.unwrap();
+        assert_eq!(store.take_away(&all, true).await.unwrap(), left);
+    }
+    assert!(store.set("k").await.unwrap().is_none() && store.owners().await.unwrap().is_empty());
+}

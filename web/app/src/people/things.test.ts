@@ -1,0 +1,12 @@
+import { describe, expect, it } from 'vitest'
+import { inWords } from './things'
+
+describe('what goes, in words', () => {
+  const thing = { id: 'x', name: 'x' }
+  it('counts and joins', () => {
+    expect(inWords({ runs: [], objects: [], advice: 0, bytes: 0 })).toBe('There is nothing to delete.')
+    expect(inWords({ runs: [thing], objects: [], advice: 0, bytes: 0 })).toBe('1 run will be gone for good.')
+    const all = inWords({ runs: [thing, thing], objects: [thing], advice: 3, bytes: 2048 })
+    expect(all).toMatch(/^2 runs, 1 object and 3 pieces of advice will be gone for good, with .* of files that nobody else uses\.$/)
+  })
+})

@@ -1,0 +1,131 @@
+//! What a visitor has made: how long it stays, and taking it away.
+
+use axum::Json;
+use axum::body::Body;
+use axum::extract::State;
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+use futures::stream;
+use ocb_engine::model::Things;
+use tokio::fs::File;
+use tokio::io::AsyncReadExt;
+
+use crate::App;
+use crate::extract::Path;
+use crate::guest::Guest;
+use crate::problem::{Problem, Result};
+
+/// Bytes that are read and sent at once.
+const CHUNK: usize = 64 << 10;
+
+/// Everything that the visitor has made, which is what `DELETE` takes away, and until when it stays.
+#[utoipa::path(get, path = "/things", tag = "things", responses((status = 200, body = Things)))]
+pub(crate) async fn show_things(State(app): State<App>, Guest(guest): Guest) -> Result<Json<Things>> {
+    Ok(Json(app.engine.things(&guest).await?))
+}
+
+/// Takes away everything that the visitor has made, with the stored files that nobody else uses; runs under way end. Plugins
+/// stay, because results belong to them.
+#[utoipa::path(delete, path = "/things", tag = "things",
+    responses(
+        (status = 200, description = "What has gone", body = Things),
+        (status = 409, description = "A run is just ending", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn remove_things(State(app): State<App>, Guest(guest): Guest) -> Result<Json<Things>> {
+    Ok(Json(app.engine.remove_things(&guest).await?))
+}
+
+/// Keeps what a guest has made for as long again, from now on.
+#[utoipa::path(post, path = "/things/keep", tag = "things", responses((status = 200, body = Things)))]
+pub(crate) async fn keep_longer(State(app): State<App>, Guest(guest): Guest) -> Result<Json<Things>> {
+    Ok(Json(app.engine.keep_longer(&guest).await?))
+}
+
+/// Everything that the visitor has made, to take along: objects, runs with their configurations and records, advice with its
+/// reduced objects, plugins with their reports.
+#[utoipa::path(get, path = "/things.tar", tag = "things",
+    responses((status = 200, description = "A folder per thing, JSON beside OBJ and Parquet", body = [u8], content_type = "application/x-tar")))]
+pub(crate) async fn take_along(State(app): State<App>, Guest(guest): Guest) -> Result<Response> {
+    // One at a time: each is written to the disk before it is sent.
+    let _turn = app.packing.lock().await;
+    let file = app.engine.archive(&guest).await?;
+    let length = file.metadata().map_err(Problem::fault)?.len();
+    let chunks = stream::try_unfold(File::from_std(file), async |mut file| {
+        let mut chunk = vec![0; CHUNK];
+        let read = file.read(&mut chunk).await?;
+        chunk.truncate(read);
+        Ok::<_, std::io::Error>((read > 0).then_some((chunk, file)))
+    });
+    let headers = [
+        (header::CONTENT_TYPE, "application/x-tar".to_owned()),
+        (header::CONTENT_DISPOSITION, "attachment; filename=\"opencollbench.tar\"".to_owned()),
+        (header::CONTENT_LENGTH, length.to_string()),
+    ];
+    Ok((headers, Body::from_stream(chunks)).into_response())
+}
+
+/// What goes with a run.
+#[utoipa::path(get, path = "/runs/{id}/things", tag = "things",
+    params(("id" = String, Path, description = "Run id")),
+    responses(
+        (status = 200, description = "What DELETE of the run takes away", body = Things),
+        (status = 403, description = "Somebody else's run", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn things_of_run(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Path(id): Path<String>,
+) -> Result<Json<Things>> {
+    Ok(Json(app.engine.things_of_run(&id, &guest).await?))
+}
+
+/// Takes away a run with its results and the stored files that nobody else uses; one under way ends.
+#[utoipa::path(delete, path = "/runs/{id}", tag = "things",
+    params(("id" = String, Path, description = "Run id")),
+    responses(
+        (status = 200, description = "What has gone", body = Things),
+        (status = 403, description = "Somebody else's run", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "It is just ending", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn remove_run(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Path(id): Path<String>,
+) -> Result<Json<Things>> {
+    Ok(Json(app.engine.remove_run(&id, &guest).await?))
+}
+
+/// What goes with an object: the visitor's runs and advice with it.
+#[utoipa::path(get, path = "/objects/{id}/things", tag = "things",
+    params(("id" = String, Path, description = "Object id")),
+    responses(
+        (status = 200, description = "What DELETE of the object takes away", body = Things),
+        (status = 403, description = "Somebody else's object", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn things_of_object(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Path(id): Path<String>,
+) -> Result<Json<Things>> {
+    Ok(Json(app.engine.things_of_object(&id, &guest).await?))
+}
+
+/// Takes away an object, and the visitor's runs and advice with it; runs of others keep their numbers, and show no object.
+#[utoipa::path(delete, path = "/objects/{id}", tag = "things",
+    params(("id" = String, Path, description = "Object id")),
+    responses(
+        (status = 200, description = "What has gone", body = Things),
+        (status = 403, description = "Somebody else's object", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "A run with it is just ending", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn remove_object(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    Path(id): Path<String>,
+) -> Result<Json<Things>> {
+    Ok(Json(app.engine.remove_object(&id, &guest).await?))
+}
