@@ -26,6 +26,13 @@ pub struct ChartArgs {
     /// For the kind `accuracy`: what to chart speed against.
     #[arg(long, value_enum, default_value_t = AccuracyArg::Digits)]
     pub accuracy: AccuracyArg,
+    /// For the kinds `ecdf`, `bv-tests` and `primitive-tests`: only the configurations of this selection (`ocb select --help`
+    /// tells the language).
+    #[arg(long = "where", value_name = "SELECTION")]
+    pub selection: Option<String>,
+    /// Algorithm whose columns are meant where the selection names none [default: the run's only one].
+    #[arg(long, value_name = "ID")]
+    pub algorithm: Option<String>,
     /// File to write: .svg or .png (the picture), .csv, .parquet or .json (its numbers).
     #[arg(short, long, value_name = "FILE")]
     pub out: PathBuf,
@@ -50,7 +57,12 @@ pub async fn chart(store: &Store, args: &ChartArgs, json: bool) -> Result<ExitCo
 
 async fn made(engine: &Engine, args: &ChartArgs) -> Result<(String, Chart)> {
     let run = run::find(engine, &args.run).await?;
-    let request = ChartRequest { kind: args.kind.into(), accuracy: args.accuracy.into() };
+    let request = ChartRequest {
+        kind: args.kind.into(),
+        accuracy: args.accuracy.into(),
+        selection: args.selection.clone(),
+        algorithm: args.algorithm.clone(),
+    };
     let chart = engine.chart(&run.id, request, Some(OWNER)).await?;
     Ok((run.id, chart))
 }

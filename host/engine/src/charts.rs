@@ -7,6 +7,8 @@ mod resolution;
 mod times;
 mod work;
 
+use std::sync::Arc;
+
 use ocb_chart::{Chart, Series};
 use ocb_core::statistics::bootstrap_interval;
 
@@ -26,21 +28,49 @@ impl Inner {
                 "The run {run:?} has nothing to chart: no algorithm has a time."
             )));
         }
-        let chart = match request.kind {
+        let chosen = self.chosen_for(&row, &results, &request).await?;
+        let mut chart = match request.kind {
             ChartKind::Accuracy => {
                 let measured: Vec<Measured> = self.measured_of(&row).await?;
                 of_run(&measured, request.accuracy)
             }
             ChartKind::Distance => self.time_by_distance(&row, &results, viewer).await?,
             ChartKind::Triangles => self.time_by_triangles(&row, &results, viewer).await?,
-            ChartKind::Ecdf => self.times_spread(&row, &results).await?,
-            ChartKind::BvTests | ChartKind::PrimitiveTests => self.time_by_tests(&row, &results, request.kind).await?,
+            ChartKind::Ecdf => self.times_spread(&row, &results, chosen.as_deref()).await?,
+            ChartKind::BvTests | ChartKind::PrimitiveTests => {
+                self.time_by_tests(&row, &results, request.kind, chosen.clone()).await?
+            }
             ChartKind::Resolution => resolution::chart(&results),
         };
         if chart.series.iter().all(|series| series.points.is_empty()) {
-            return Err(EngineError::NotFound(nothing(request.kind).into()));
+            let why =
+                if chosen.is_some() { "The selection holds no configuration of these." } else { nothing(request.kind) };
+            return Err(EngineError::NotFound(why.into()));
+        }
+        if let (Some(selection), Some(chosen)) = (&request.selection, &chosen) {
+            let n = chosen.iter().filter(|is| **is).count();
+            chart.notes.push(format!("Only the {n} of {} configurations of the selection {selection}.", chosen.len()));
         }
         Ok(chart)
+    }
+
+    /// The configurations of the request's selection; none when it has none.
+    async fn chosen_for(
+        &self,
+        row: &RunRow,
+        results: &[AlgorithmResult],
+        request: &ChartRequest,
+    ) -> Result<Option<Arc<[bool]>>> {
+        let Some(selection) = &request.selection else { return Ok(None) };
+        if !request.kind.takes_selection() {
+            return Err(EngineError::Invalid(
+                "This chart is of whole runs; a selection goes with the kinds ecdf, bv_tests and primitive_tests."
+                    .into(),
+            ));
+        }
+        let only = if let [one] = results { one.algorithm.as_str() } else { "" };
+        let algorithm = request.algorithm.as_deref().unwrap_or(only);
+        Ok(Some(self.chosen(&row.id, algorithm, selection).await?))
     }
 
     /// The summaries of a run that come with a time.

@@ -264,9 +264,9 @@ impl Engine {
         self.inner.export(run, request, map, scale, Format::Ply).await
     }
 
-    /// Distribution of the time per query of one algorithm.
-    pub async fn ecdf(&self, run: &str, algorithm: &str) -> Result<Ecdf> {
-        self.inner.ecdf(run, algorithm).await
+    /// Distribution of the time per query of one algorithm, over all configurations or those that a selection holds.
+    pub async fn ecdf(&self, run: &str, algorithm: &str, selection: Option<&str>) -> Result<Ecdf> {
+        self.inner.ecdf(run, algorithm, selection).await
     }
 
     /// The records of one algorithm as Parquet.

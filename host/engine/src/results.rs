@@ -151,10 +151,19 @@ impl Inner {
         Ok((stored, blob))
     }
 
-    /// Distribution of the time per query.
-    pub async fn ecdf(&self, run: &str, algorithm: &str) -> Result<Ecdf> {
+    /// Distribution of the time per query, over all configurations or those that a selection holds.
+    pub async fn ecdf(&self, run: &str, algorithm: &str, selection: Option<&str>) -> Result<Ecdf> {
+        let chosen = match selection {
+            Some(selection) => Some(self.chosen(run, algorithm, selection).await?),
+            None => None,
+        };
+        self.ecdf_of(run, algorithm, chosen.as_deref()).await
+    }
+
+    /// The same over all, or the `chosen`.
+    pub async fn ecdf_of(&self, run: &str, algorithm: &str, chosen: Option<&[bool]>) -> Result<Ecdf> {
         let (_, records) = self.records(run, algorithm).await?;
-        let mut times = records.time_ns.clone();
+        let mut times: Vec<f64> = records.rows(chosen).map(|row| records.time_ns[row]).collect();
         times.sort_unstable_by(f64::total_cmp);
         let (time_ns, share) = statistics::ecdf(&times, ECDF_POINTS).into_iter().unzip();
         Ok(Ecdf { algorithm: algorithm.to_owned(), n: times.len() as u32, time_ns, share })

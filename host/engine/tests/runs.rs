@@ -4,7 +4,7 @@ mod common;
 
 use ocb_core::configuration::{Class, Method};
 use ocb_core::statistics::{Outliers, Statistic};
-use ocb_engine::model::{HeatmapRequest, Measure, Page, RunSpec, StageKind, State};
+use ocb_engine::model::{ChartKind, ChartRequest, Ecdf, HeatmapRequest, Measure, Page, RunSpec, StageKind, State};
 use ocb_engine::{Engine, EngineConfig, EngineError};
 
 fn request(algorithm: &str, measure: Measure, statistic: Statistic) -> HeatmapRequest {
@@ -58,15 +58,16 @@ async fn a_run_goes_from_object_to_heatmap() {
     assert_eq!(longest.range.unwrap()[1], times.iter().copied().fold(0.0, f64::max));
     assert_eq!(longest.values.len(), engine.mesh(&run.spec.object_a).await.unwrap().positions().len());
     assert_eq!((longest.n, longest.unit.as_str()), (set.configurations, "ns"));
-    let ecdf = engine.ecdf(&run.id, "parry").await.unwrap();
+    let ecdf = engine.ecdf(&run.id, "parry", None).await.unwrap();
     assert_eq!((ecdf.n, ecdf.share.last().copied()), (set.configurations, Some(1.0)));
+    a_selection_has_its_own_charts(&engine, &run.id, &ecdf).await;
     assert!(engine.records_parquet(&run.id, "parry").await.unwrap().starts_with(b"PAR1"));
     let map = request("parry", Measure::BvTests, Statistic::Mean);
     let glb = engine.heatmap_glb(&run.id, &map, Default::default(), Default::default()).await.unwrap();
     assert!(glb.starts_with(b"glTF"));
     let ply = engine.heatmap_ply(&run.id, &map, Default::default(), Default::default()).await.unwrap();
     assert!(ply.starts_with(b"ply"));
-    let absent = engine.ecdf(&run.id, "quantum").await.unwrap_err().to_string();
+    let absent = engine.ecdf(&run.id, "quantum", None).await.unwrap_err().to_string();
     assert!(absent.contains("box-tree, brute-force, parry"), "{absent}");
 
     // The same set is found again, and its file may be brought back as a file of configurations.
@@ -165,6 +166,41 @@ async fn our_own_plugins_pass_the_check() {
     let gate = &report.lines[1];
     assert!(gate.check.starts_with("ELF gate") && gate.evidence.contains("a program"), "{report:#?}");
     assert!(gate.hint.as_ref().is_some_and(|hint| hint.contains("-shared")), "{report:#?}");
+}
+
+/// Charts of the selected configurations alone: as many as the selection counts, and no others.
+async fn a_selection_has_its_own_charts(engine: &Engine, run: &str, whole: &Ecdf) {
+    let median = whole.time_ns[whole.share.iter().position(|share| *share >= 0.5).unwrap()];
+    let slow = format!("time of parry in [{median}, 1e12]");
+    let counted = engine.selected(run, "parry", &slow).await.unwrap().n;
+    assert!(0 < counted && counted < whole.n, "{counted} of {}", whole.n);
+    let ecdf = engine.ecdf(run, "parry", Some(&slow)).await.unwrap();
+    assert_eq!((ecdf.n, ecdf.time_ns.last()), (counted, whole.time_ns.last()));
+    assert!(ecdf.time_ns[0] >= median, "{ecdf:?}");
+    assert_eq!(engine.ecdf(run, "parry", Some("time in [1000s, 2000s]")).await.unwrap().n, 0);
+    let chart = |kind, selection: &str, algorithm: Option<&str>| {
+        let (selection, algorithm) = (Some(selection.to_owned()), algorithm.map(str::to_owned));
+        engine.chart(run, ChartRequest { kind, accuracy: Default::default(), selection, algorithm }, None)
+    };
+    let spread = chart(ChartKind::Ecdf, &slow, None).await.unwrap();
+    assert_eq!(spread.series.len(), 3);
+    for series in &spread.series {
+        assert!(series.points.iter().all(|point| point.n == u64::from(counted)), "{series:?}");
+    }
+    let note = spread.notes.last().unwrap();
+    assert!(note.contains(&format!("{counted} of {}", whole.n)) && note.contains(&slow), "{note}");
+    let tests = chart(ChartKind::PrimitiveTests, "time in [0, 1000s]", Some("parry")).await.unwrap();
+    let counted: u64 = tests.series[0].points.iter().map(|point| point.n).sum();
+    assert_eq!(counted, u64::from(whole.n));
+    for (kind, selection, word) in [
+        (ChartKind::Ecdf, "time in [1us, 1s]", "of which algorithm"),
+        (ChartKind::Ecdf, "time of parry in [1000s, 2000s]", "holds no configuration"),
+        (ChartKind::Ecdf, "tame", "character 1"),
+        (ChartKind::Accuracy, slow.as_str(), "whole runs"),
+    ] {
+        let said = chart(kind, selection, None).await.unwrap_err().to_string();
+        assert!(said.contains(word), "{said}");
+    }
 }
 
 #[test]

@@ -58,6 +58,12 @@ fn configurations_are_selected_listed_and_subtracted_by_the_same_words() {
     let table = desk.run(&["worst", "latest", "--algorithm", "brute-force", "--limit", "2"]).stdout;
     assert_eq!(table.lines().count(), 3, "{table}");
 
+    let spread = desk.path("spread.csv");
+    let args = ["chart", "latest", "--kind", "ecdf", "--where", chosen, "--algorithm", "box-tree", "-o"];
+    desk.json(&[&args[..], &[spread.to_str().expect("text")]].concat());
+    let spread = std::fs::read_to_string(&spread).expect("a file");
+    assert!(spread.lines().skip(1).all(|line| line.split(',').any(|cell| cell == n.to_string())), "{n}: {spread}");
+
     let map = desk.path("difference.csv");
     let file = map.to_str().expect("text");
     let against = ["--algorithm", "box-tree", "--against", "brute-force", "--measure", "wrong", "-o", file];

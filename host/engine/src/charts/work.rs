@@ -1,6 +1,7 @@
 //! How times spread, and how they go with the work that an algorithm counts.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use ocb_chart::{Axis, Chart, Form, Point, Scale};
 use rayon::prelude::*;
@@ -17,10 +18,15 @@ const STEPS: f64 = 4.0;
 
 impl Inner {
     /// The distribution of the time per query.
-    pub(super) async fn times_spread(&self, row: &RunRow, results: &[AlgorithmResult]) -> Result<Chart> {
+    pub(super) async fn times_spread(
+        &self,
+        row: &RunRow,
+        results: &[AlgorithmResult],
+        chosen: Option<&[bool]>,
+    ) -> Result<Chart> {
         let mut all = Vec::new();
         for (place, result) in results.iter().enumerate() {
-            let curve = self.ecdf(&row.id, &result.algorithm).await?;
+            let curve = self.ecdf_of(&row.id, &result.algorithm, chosen).await?;
             let points = curve.time_ns.iter().zip(&curve.share);
             let points = points.map(|(ns, share)| Point::at(*ns, *share, u64::from(curve.n))).collect();
             all.push(series(&result.name, place, Form::Steps, points));
@@ -42,13 +48,16 @@ impl Inner {
         row: &RunRow,
         results: &[AlgorithmResult],
         kind: ChartKind,
+        chosen: Option<Arc<[bool]>>,
     ) -> Result<Chart> {
         let mut all = Vec::new();
         for (place, result) in results.iter().enumerate() {
             let (_, records) = self.records(&row.id, &result.algorithm).await?;
+            let chosen = chosen.clone();
             let points = blocking(move || {
                 let tests = if kind == ChartKind::BvTests { &records.bv_tests } else { &records.primitive_tests };
-                Ok(binned(tests.iter().zip(&records.time_ns).filter_map(|(tests, ns)| Some(((*tests)?, *ns)))))
+                let rows = records.rows(chosen.as_deref());
+                Ok(binned(rows.filter_map(|row| Some((tests[row]?, records.time_ns[row])))))
             })
             .await?;
             if !points.is_empty() {

@@ -45,6 +45,14 @@ pub struct RecordColumns {
     pub flips: Vec<Option<u32>>,
 }
 
+impl RecordColumns {
+    /// All rows, or those of the configurations that are `chosen`.
+    pub fn rows(&self, chosen: Option<&[bool]>) -> impl Iterator<Item = usize> {
+        let is_chosen = move |row: &usize| chosen.is_none_or(|all| all[self.configuration[*row] as usize]);
+        (0..self.configuration.len()).filter(is_chosen)
+    }
+}
+
 /// The records as Parquet, one row per measured configuration.
 pub fn records_parquet(of: &RecordsOf, records: &[Record]) -> Result<Vec<u8>> {
     let answers: Vec<Flat> = records.iter().map(|r| Flat::from(&r.answer)).collect();

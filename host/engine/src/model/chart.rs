@@ -26,7 +26,7 @@ pub enum ChartKind {
 }
 
 /// Which chart; the query string of the chart routes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema, IntoParams)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub struct ChartRequest {
     /// Kind.
@@ -35,4 +35,19 @@ pub struct ChartRequest {
     #[serde(default)]
     #[param(inline)]
     pub accuracy: Accuracy,
+    /// For `ecdf`, `bv_tests` and `primitive_tests`: only the configurations of this selection, e.g.
+    /// `time of parry in [1ms, 1s] & near(vertex 8367, 0.05)`.
+    #[serde(default, rename = "where", skip_serializing_if = "Option::is_none")]
+    #[param(rename = "where")]
+    pub selection: Option<String>,
+    /// Algorithm whose columns are meant where the selection names none [default: the run's only one].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub algorithm: Option<String>,
+}
+
+impl ChartKind {
+    /// Is it made of the records of this run alone, so that some of its configurations can be chosen?
+    pub fn takes_selection(self) -> bool {
+        matches!(self, Self::Ecdf | Self::BvTests | Self::PrimitiveTests)
+    }
 }

@@ -37,6 +37,13 @@ impl Inner {
         .await
     }
 
+    /// Which configurations a selection holds; columns without `of` are those of `algorithm`.
+    pub async fn chosen(&self, run: &str, algorithm: &str, selection: &str) -> Result<Arc<[bool]>> {
+        let selection = read(selection)?;
+        let table = self.table(run, algorithm, Some(&selection), false).await?;
+        blocking(move || Ok(table.choose(&selection)?.into())).await
+    }
+
     /// The records of the selected configurations as Parquet.
     pub async fn selected_records(&self, run: &str, algorithm: &str, selection: &str) -> Result<Vec<u8>> {
         let selection = read(selection)?;
@@ -133,7 +140,7 @@ pub fn read(text: &str) -> Result<Selection> {
 
 fn selected_of(lane: &Lane, chosen: &[bool]) -> SelectedOf {
     let records = &lane.records;
-    let rows = || (0..records.configuration.len()).filter(|&row| chosen[records.configuration[row] as usize]);
+    let rows = || records.rows(Some(chosen));
     let mut times: Vec<f64> = rows().map(|row| records.time_ns[row]).collect();
     times.sort_unstable_by(f64::total_cmp);
     let at = |q: f64| (!times.is_empty()).then(|| quantile(&times, q));

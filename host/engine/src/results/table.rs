@@ -204,7 +204,13 @@ impl Columns for Table {
         if column == Column::Distance {
             return Ok(self.set.placed.iter().map(|p| p.truth.distance_hi).collect());
         }
-        let lane = self.lane(of.unwrap_or(&self.looked_at))?;
+        let algorithm = of.unwrap_or(&self.looked_at);
+        if algorithm.is_empty() {
+            let sentence =
+                "The selection does not say of which algorithm; write for example `time of box-tree in [1ms, 1s]`.";
+            return Err(EngineError::Invalid(sentence.to_owned()));
+        }
+        let lane = self.lane(algorithm)?;
         let counted = |tests: &[Option<u64>]| {
             if tests.iter().all(Option::is_none) {
                 let algorithm = &lane.algorithm;

@@ -88,7 +88,7 @@ export const setObjectVisibility = (id: string, visibility: Visibility): Promise
 export const getEcdf = (id: string, algorithm: string): Promise<Ecdf> =>
   answer(http.GET('/api/v1/runs/{id}/ecdf', { params: { path: { id }, query: { algorithm } } }))
 
-export const getChart = (id: string, query: { kind: ChartKind; accuracy: Accuracy }): Promise<Chart> =>
+export const getChart = (id: string, query: { kind: ChartKind; accuracy: Accuracy; where?: string; algorithm?: string }): Promise<Chart> =>
   answer(http.GET('/api/v1/runs/{id}/chart', { params: { path: { id }, query } }))
 
 /** Filters of the board as the API names them; what is left out is chosen. */

@@ -54,6 +54,7 @@ pub(crate) async fn show_board_csv(
         (status = 200, body = Chart),
         (status = 400, description = "Unknown kind", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such run, or nothing to chart", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The selection cannot be read or applied", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn show_chart(
     State(app): State<App>,
@@ -70,6 +71,7 @@ pub(crate) async fn show_chart(
     responses(
         (status = 200, description = "One line per point", body = String, content_type = "text/csv"),
         (status = 404, description = "No such run, or nothing to chart", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The selection cannot be read or applied", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn chart_as_csv(
     State(app): State<App>,
@@ -87,6 +89,7 @@ pub(crate) async fn chart_as_csv(
     responses(
         (status = 200, description = "One row per point", body = [u8], content_type = "application/vnd.apache.parquet"),
         (status = 404, description = "No such run, or nothing to chart", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The selection cannot be read or applied", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn chart_as_parquet(
     State(app): State<App>,

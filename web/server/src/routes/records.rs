@@ -34,17 +34,18 @@ pub(crate) struct OfSelection {
 
 /// Empirical distribution of the time per query.
 #[utoipa::path(get, path = "/runs/{id}/ecdf", tag = "results",
-    params(("id" = String, Path, description = "Run id"), OfAlgorithm),
+    params(("id" = String, Path, description = "Run id"), OfSelection),
     responses(
         (status = 200, body = Ecdf),
         (status = 404, description = "No such run, or no records of this algorithm", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The selection cannot be read or applied", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn show_ecdf(
     State(app): State<App>,
     Path(id): Path<String>,
-    Query(of): Query<OfAlgorithm>,
+    Query(of): Query<OfSelection>,
 ) -> Result<Json<Ecdf>> {
-    Ok(Json(app.engine.ecdf(&id, &of.algorithm).await?))
+    Ok(Json(app.engine.ecdf(&id, &of.algorithm, of.selection.as_deref()).await?))
 }
 
 /// The records of one algorithm as Parquet.

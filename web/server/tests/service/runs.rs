@@ -80,6 +80,12 @@ async fn check_numbers(guest: &Guest, path: &str, configurations: u64) {
 
     let ecdf = guest.json(&format!("{path}/ecdf?algorithm=box-tree")).await;
     assert_eq!(ecdf["n"], configurations);
+    let none = guest.json(&format!("{path}/ecdf?algorithm=box-tree&where=wrong")).await;
+    assert_eq!(none["n"], 0);
+    let chosen = guest.json(&format!("{path}/chart?kind=ecdf&where=!wrong%20of%20box-tree")).await;
+    assert!(chosen["notes"].as_array().expect("notes").iter().any(|n| n.to_string().contains("!wrong of box-tree")));
+    let bad = guest.get(&format!("{path}/chart?kind=ecdf&where=tame")).send().await.expect("an answer");
+    assert!(problem(bad, 422).await.contains("at character 1"));
     let response = guest.get(&format!("{path}/ecdf?algorithm=parry")).send().await.expect("an answer");
     problem(response, 404).await;
 

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import { freshName, readSelections, tidy, writeSelections, type NamedSelection } from './list'
+import { freshName, readSelections, tidy, whereOf, writeSelections, type NamedSelection } from './list'
 
 const list: NamedSelection[] = [
   { name: 'slow', where: 'time of box-tree:leaf_size=4 in [500, 15000]', on: true },
@@ -15,6 +15,12 @@ describe('the list of selections', () => {
     expect(readSelections('slow')).toBeUndefined()
     expect(readSelections('a:')).toBeUndefined()
     expect(readSelections(Array.from({ length: 13 }, () => 'a:wrong').join(';'))).toBeUndefined()
+  })
+
+  it('is one predicate of those that are on', () => {
+    expect(whereOf(list)).toBe('(time of box-tree:leaf_size=4 in [500, 15000])')
+    expect(whereOf(list.map((one) => ({ ...one, on: true })))).toMatch(/^\(time .*\) & \(near\(vertex 8367, 0\.05\)\)$/)
+    expect(whereOf([])).toBe('')
   })
 
   it('names', () => {

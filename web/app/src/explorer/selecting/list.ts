@@ -22,6 +22,10 @@ export function readSelections(text: string): NamedSelection[] | undefined {
   return list.length <= MOST_SELECTIONS && list.every(({ where }) => where !== '') ? list : undefined
 }
 
+/** What holds of the configurations that all selections choose which are on; nothing when none is. */
+export const whereOf = (list: readonly NamedSelection[]): string =>
+  list.filter(({ on }) => on).map(({ where }) => `(${where})`).join(' & ')
+
 /** A name without the signs that the link uses. */
 export function tidy(name: string): string {
   return name.replace(/[:;]/g, ' ').replace(/^-+/, '').trim().slice(0, LONGEST_NAME)
