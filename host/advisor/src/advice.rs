@@ -11,9 +11,11 @@ use serde::{Deserialize, Serialize};
 use crate::choice::{Ladders, Levels, fastest, smallest};
 use crate::detail::{Detail, detail};
 use crate::ladder::Level;
-use crate::points::{Point, points};
+use crate::point::Point;
+use crate::points::{Plot, points};
 use crate::question::{Question, Told};
 use crate::share::Share;
+use crate::stand_ins::LeftOut;
 use crate::timing::{Measured, ratio};
 use crate::watch::Watch;
 
@@ -54,6 +56,10 @@ pub struct Advice {
     pub held_out: HeldOut,
     /// Ways to answer, measured on the same configurations.
     pub points: Vec<Point>,
+    /// Ways that are missing among them.
+    #[serde(default)]
+    #[schema(required = true)]
+    pub left_out: Vec<LeftOut>,
     /// Where on the objects detail is needed.
     pub detail: [Detail; 2],
     /// What the work took, seconds.
@@ -108,7 +114,7 @@ pub fn advise(scene: &Scene, watch: &dyn Watch) -> Option<Advice> {
         Question::Clearance { .. } => fastest(&ladders, question, sample, watch)?,
     };
     let stages: Vec<Levels> = stages.into_iter().filter(|levels| *levels != [0, 0]).collect();
-    let (points, times) = points(&ladders, question, &stages, sample, PASSES, watch)?;
+    let Plot { points, left_out, times } = points(&ladders, question, &stages, sample, PASSES, watch)?;
     let first = ladders.pair(stages.first().copied().unwrap_or_default());
     let half = |width: f64| Some(width / 2.0).filter(|_| matches!(question, Question::Distance { .. }));
     let guaranteed_error = points.iter().find(|p| p.advised).and_then(|p| p.guaranteed_error);
@@ -127,6 +133,7 @@ pub fn advise(scene: &Scene, watch: &dyn Watch) -> Option<Advice> {
         guaranteed_anywhere: half(first.most_width()),
         held_out: hold(&ladders, question, &stages, scene.held_out, watch)?,
         points,
+        left_out,
         detail: detail(&ladders, question, sample, watch)?,
         stages,
         seconds: started.elapsed().as_secs_f64(),

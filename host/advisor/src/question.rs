@@ -22,6 +22,16 @@ pub enum Question {
     },
 }
 
+impl Question {
+    /// What a yes or no is about: the clearance, or where a distance is asked, its tolerance.
+    pub(crate) fn reach(self) -> f64 {
+        match self {
+            Self::Distance { tolerance } => tolerance,
+            Self::Clearance { clearance } => clearance,
+        }
+    }
+}
+
 /// An answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Told {

@@ -5,7 +5,7 @@ mod support;
 
 use ocb_convex_parts::ConvexParts;
 use ocb_fields::{Lattice, Nearest, cover, inside};
-use opencollbench_plugin::{Algorithm, Collision, Pose};
+use opencollbench_plugin::{Algorithm, Collision, Placed, Pose, Uncounted};
 use parry3d_f64::transformation::try_convex_hull;
 use support::{Dice, Loaded, Scene, Soup};
 
@@ -16,6 +16,11 @@ const REACH: f64 = 0.03;
 
 fn loaded(soup: &Soup, depth: u32) -> Loaded<ConvexParts> {
     Loaded::with(ConvexParts::with_depth(depth), soup)
+}
+
+fn within(hulls: &mut Loaded<ConvexParts>, pose_a: &Pose, pose_b: &Pose, reach: f64) -> bool {
+    let (a, b) = (Placed { object: &hulls.a, pose: pose_a }, Placed { object: &hulls.a, pose: pose_b });
+    hulls.algorithm.within(a, b, reach, &mut Uncounted)
 }
 
 /// Poses of an object and itself, so far apart, and the true distances.
@@ -56,6 +61,9 @@ fn distances_err_downwards_by_no_more_than_hulls_stick_out_and_less_with_more_pa
             let answer = hulls.distance(pose_a, pose_b).distance;
             assert!(answer <= truth + TOLERANCE, "{parts} parts: {answer} is more than {truth}");
             assert!(answer >= truth - 2.0 * out - TOLERANCE, "{parts} parts: {answer} for {truth} with {out}");
+            for (reach, near) in [(0.9 * answer, answer == 0.0), (1.1 * answer + 1e-3, true)] {
+                assert_eq!(within(&mut hulls, pose_a, pose_b, reach), near, "{parts} parts: {answer} within {reach}");
+            }
             assert!(*truth > 0.0 || hulls.collide(pose_a, pose_b) != Collision::Apart, "missed with {parts} parts");
             sum += truth - answer;
         }

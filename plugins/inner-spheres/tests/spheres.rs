@@ -5,7 +5,7 @@ mod support;
 
 use ocb_inner_spheres::InnerSpheres;
 use ocb_triangles::vector::{Vector, dot, sub};
-use opencollbench_plugin::{Algorithm, Collision, Placed, Pose, Refusal};
+use opencollbench_plugin::{Algorithm, Collision, Placed, Pose, Refusal, Uncounted};
 use support::{Dice, Loaded, Scene, Soup};
 
 fn length(v: Vector) -> f64 {
@@ -79,7 +79,12 @@ fn the_distance_errs_upwards_within_what_is_left_out_and_less_with_more_spheres(
         let bound = 2.0 * (left_out + 0.2);
         let mut sum = 0.0;
         for (pose_a, pose_b, truth) in &scenes {
-            let error = tree.distance(pose_a, pose_b).distance - truth;
+            let distance = tree.distance(pose_a, pose_b).distance;
+            for (reach, near) in [(0.9 * distance, distance == 0.0), (1.1 * distance, true)] {
+                let (a, b) = (Placed { object: &tree.a, pose: pose_a }, Placed { object: &tree.a, pose: pose_b });
+                assert_eq!(tree.algorithm.within(a, b, reach, &mut Uncounted), near, "{distance} within {reach}");
+            }
+            let error = distance - truth;
             assert!(error >= -1e-12 && error <= bound, "{spheres} spheres: {error} of {bound}");
             sum += error;
         }

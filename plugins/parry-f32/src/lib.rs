@@ -1,34 +1,6 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
-#[path = "../../parry/src/counted.rs"]
-mod counted;
-#[path = "../../parry/src/wrapper.rs"]
-mod wrapper;
-
-use opencollbench_plugin::{About, raw};
-use parry3d as parry;
-pub use wrapper::Parry;
-
-const ABOUT: About = About {
-    id: c"parry-f32",
-    name: c"parry, single precision",
-    version: c"0.31.1",
-    authors: c"S\xc3\xa9bastien Crozet and the parry contributors; wrapped by the OpenCollBench contributors",
-    license: c"Apache-2.0",
-    url: c"https://parry.rs",
-    capabilities: raw::CAPABILITY_SINGLE_PRECISION,
-    ..About::new()
-};
+pub use ocb_methods::parry::single::Parry;
 
 opencollbench_plugin::export!(Parry: distance contacts counters);
-
-/// From the interface's precision to parry's.
-fn narrow(x: f64) -> parry::math::Real {
-    x as parry::math::Real
-}
-
-/// And back.
-fn widen(x: parry::math::Real) -> f64 {
-    f64::from(x)
-}

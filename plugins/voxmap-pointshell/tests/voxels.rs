@@ -4,7 +4,7 @@
 mod support;
 
 use ocb_voxmap_pointshell::VoxmapPointshell;
-use opencollbench_plugin::{Algorithm, Collision, Placed, Pose, Uncounted};
+use opencollbench_plugin::{Algorithm, Collision, Placed, Pose, Refusal, Uncounted};
 use support::{Dice, Loaded, Scene, Soup};
 
 /// Of the README: no false alarm is further apart than so many voxels.
@@ -59,6 +59,30 @@ fn no_collision_is_missed_and_false_alarms_are_near_and_fewer_with_smaller_voxel
 #[test]
 fn the_same_on_scraps_without_area() {
     check(&Soup::scraps(), 1.2, 60);
+}
+
+/// A map for a clearance calls "near" all that is within it, and nothing that is more than 5.2 voxels further away.
+#[test]
+fn a_map_for_a_clearance_misses_nothing_within_it() {
+    let soup = Soup::torus(16, 8);
+    let scenes = scenes(&soup, 5, 0.1, (0..60).map(|round| 1.5 + 3.0 * f64::from(round) / 60.0));
+    for (voxel, clearance) in [(0.05, 0.1), (0.05, 0.6), (0.02, 0.25)] {
+        let mut map = Loaded::with(VoxmapPointshell::with_voxel(voxel).beyond(clearance), &soup);
+        let (mut within, mut beyond) = (0, 0);
+        for (pose_a, pose_b, truth) in &scenes {
+            let near = map.collide(pose_a, pose_b) != Collision::Apart;
+            assert!(near || *truth > clearance, "{truth} is within {clearance}, and missed with {voxel}");
+            assert!(
+                !near || *truth <= clearance + 5.2 * voxel * diagonal(&soup),
+                "{truth} for {clearance} with {voxel}"
+            );
+            within += usize::from(near && *truth > 0.0);
+            beyond += usize::from(!near);
+        }
+        assert!(within > 3 && beyond > 3, "{within} and {beyond} of {}: this tests one side only", scenes.len());
+    }
+    let too_far = VoxmapPointshell::with_voxel(0.01).beyond(1.0).load_mesh(soup.view());
+    assert!(matches!(&too_far, Err(Refusal::Error(why)) if why.contains("no further than 16")), "{too_far:?}");
 }
 
 /// The voxels of a large object are large, too: whichever is given first, its map is asked.

@@ -57,6 +57,8 @@ const TRIANGLES: &str = "ocb-triangles";
 const HIERARCHY: &str = "ocb-hierarchy";
 /// What the plugins that approximate share: distances to a surface, lattices, trees of balls.
 const FIELDS: &str = "ocb-fields";
+/// The methods that the advisor compares with, and their plugins export.
+const METHODS: &str = "ocb-methods";
 /// Sixteen numbers at once. It knows nothing of ours either.
 const LANES: &str = "ocb-lanes";
 /// The methods of ocb-fast and simdop, which ocb-auto chooses from.
@@ -90,9 +92,10 @@ fn a_floor_knows_only_the_floors_below() {
         (HIERARCHY, &[PLUGIN_API, TRIANGLES]),
         (WIDE, &[PLUGIN_API, TRIANGLES, LANES, HIERARCHY]),
         (FIELDS, &[PLUGIN_API, TRIANGLES]),
+        (METHODS, &[PLUGIN_API, TRIANGLES, FIELDS]),
         ("ocb-core", &[]),
         ("ocb-chart", &[]),
-        ("ocb-advisor", &["ocb-core"]),
+        ("ocb-advisor", &["ocb-core", METHODS, PLUGIN_API]),
         ("ocb-sandbox", &["ocb-core", PLUGIN_API]),
         ("ocb-stability", &["ocb-core"]),
         ("ocb-engine", &["ocb-advisor", "ocb-chart", "ocb-core", "ocb-sandbox", "ocb-stability"]),
@@ -100,7 +103,7 @@ fn a_floor_knows_only_the_floors_below() {
         ("ocb-cli", &["ocb-core", "ocb-advisor", "ocb-engine", "ocb-server"]),
         ("ocb-tests", &["ocb-chart", "ocb-core", "ocb-sandbox", "ocb-engine", "ocb-server", "ocb-cli", PLUGIN_API]),
     ]);
-    may.extend(PLUGINS.map(|p| (p, &[PLUGIN_API, TRIANGLES, HIERARCHY, WIDE, FIELDS] as &[&str])));
+    may.extend(PLUGINS.map(|p| (p, &[PLUGIN_API, TRIANGLES, HIERARCHY, WIDE, FIELDS, METHODS] as &[&str])));
     let members = dependencies(&metadata());
     for (name, needs) in &members {
         let allowed = may

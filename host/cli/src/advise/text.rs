@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use ocb_advisor::{Advice, Kind, Measured, Point, Question, Share};
+use ocb_advisor::{Advice, Kind, Measured, Point, Question, Share, Unit};
 
 use crate::output;
 
@@ -31,10 +31,14 @@ pub fn card(advice: &Advice, written: &[PathBuf]) -> String {
     lines.push(table(advice));
     lines.push(String::new());
     lines.push(
-        "Times of one thread of this program's own search, [95 % interval]; hulls and boxes have no certificate. An error \
-         is a share of A's longest side."
+        "Times of one thread, [95 % interval], asked in turn in this process: of this program's own search, and of what is \
+         named as `ocb bench` names it the method's own. What is uncertified promises nothing; its errors are what was \
+         seen on these configurations. An error is a share of A's longest side."
             .to_owned(),
     );
+    for left_out in &advice.left_out {
+        lines.push(format!("Left out: {} ({}).", left_out.what.join(", "), left_out.reason));
+    }
     lines.extend(written.iter().map(|path| path.display().to_string()));
     lines.join("\n")
 }
@@ -76,20 +80,15 @@ fn stages(advice: &Advice, stages: &[[usize; 2]]) -> String {
 
 fn table(advice: &Advice) -> String {
     let row = |point: &Point| {
-        let name = match point.kind {
-            Kind::Whole => "whole objects, distance".to_owned(),
-            Kind::SameQuestion => "whole objects, this question".to_owned(),
-            Kind::YesNo => "whole objects, beyond the tolerance or not".to_owned(),
-            Kind::Levels => format!("levels {}", stages(advice, &point.stages)),
-            Kind::Advised => "ADVISED".to_owned(),
-            Kind::Hulls => "convex hulls (uncertified)".to_owned(),
-            Kind::Boxes => "boxes (uncertified)".to_owned(),
+        let error = |e: Option<f64>| match e.map(|e| e / advice.longest_side) {
+            Some(e) if e > 0.0 && e < 1e-4 => format!("{e:.1e}"),
+            Some(e) => format!("{e:.5}"),
+            None => "-".to_owned(),
         };
-        let error = |e: Option<f64>| e.map_or_else(|| "-".to_owned(), |e| format!("{:.5}", e / advice.longest_side));
         let some = |s: &Option<Share>| s.as_ref().map_or_else(|| "-".to_owned(), share);
         vec![
-            name,
-            point.triangles.to_string(),
+            name(advice, point),
+            format!("{} {}", point.elements, unit(point.unit)),
             estimate(&point.micros),
             estimate(&point.faster),
             error(point.guaranteed_error),
@@ -99,9 +98,48 @@ fn table(advice: &Advice) -> String {
             some(&point.missed),
         ]
     };
-    let headings =
-        ["asked", "triangles", "us", "times faster", "guaranteed", "observed", "falls back", "false alarms", "missed"];
+    let headings = [
+        "asked",
+        "model of both",
+        "us",
+        "times faster",
+        "guaranteed",
+        "observed",
+        "falls back",
+        "false alarms",
+        "missed",
+    ];
     output::table(&headings, advice.points.iter().map(row).collect(), &[1, 2, 3, 4, 5, 6, 7, 8])
+}
+
+fn name(advice: &Advice, point: &Point) -> String {
+    let what = match point.kind {
+        Kind::Whole => "whole objects, distance".to_owned(),
+        Kind::SameQuestion => "whole objects, this question".to_owned(),
+        Kind::YesNo => "whole objects, beyond the tolerance or not".to_owned(),
+        Kind::Levels => format!("levels {}", stages(advice, &point.stages)),
+        Kind::Advised => "ADVISED".to_owned(),
+        Kind::Hulls => "convex hulls".to_owned(),
+        Kind::Boxes => "boxes".to_owned(),
+        Kind::ConvexParts => "convex parts".to_owned(),
+        Kind::InnerSpheres => "inner spheres".to_owned(),
+        Kind::Voxels if matches!(advice.question, Question::Distance { .. }) => {
+            "voxels, beyond the tolerance or not".to_owned()
+        }
+        Kind::Voxels => "voxels".to_owned(),
+        Kind::DoublePrecision => "whole objects in f64".to_owned(),
+        Kind::SinglePrecision => "whole objects in f32".to_owned(),
+    };
+    let algorithm = point.algorithm.as_ref().map_or_else(String::new, |algorithm| format!(", {algorithm}"));
+    format!("{what}{algorithm}{}", if point.certified { "" } else { " (uncertified)" })
+}
+
+fn unit(unit: Unit) -> &'static str {
+    match unit {
+        Unit::Triangles => "triangles",
+        Unit::Spheres => "spheres",
+        Unit::Voxels => "voxels",
+    }
 }
 
 fn length(advice: &Advice, x: f64) -> String {

@@ -27,7 +27,9 @@ fn advice_comes_with_reduced_objects_whose_certificates_hold() {
     assert!(length(&held["observed_error"]) <= 0.05 * side, "{held}");
     let kinds: Vec<&str> =
         advice["points"].as_array().expect("points").iter().filter_map(|p| p["kind"].as_str()).collect();
-    for kind in ["whole", "same_question", "levels", "advised", "yes_no", "hulls", "boxes"] {
+    for kind in
+        ["whole", "same_question", "levels", "advised", "yes_no", "hulls", "boxes", "convex_parts", "inner_spheres"]
+    {
         assert!(kinds.contains(&kind), "{kind} of {kinds:?}");
     }
 
@@ -60,8 +62,16 @@ fn a_clearance_is_answered_exactly_and_told_as_a_card() {
     let few = ["--question", "clearance=0.2mm", "--configurations", "48", "--held-out", "96"];
     let said = desk.run(&[&SCENE[..], &few].concat());
     assert_eq!(said.code, 0, "{said:?}");
-    for words in ["Further apart than 2.0000e-1", "Held out: 0 of 96", "boxes (uncertified)", "ADVISED", "times faster"]
-    {
+    for words in [
+        "Further apart than 2.0000e-1",
+        "Held out: 0 of 96",
+        "boxes (uncertified)",
+        "ADVISED",
+        "times faster",
+        " spheres ",
+        "Left out: voxmap-pointshell:voxel=0.01 (A: the clearance is",
+        "in f32, parry-f32",
+    ] {
         assert!(said.stdout.contains(words), "{words}: {}", said.stdout);
     }
 }

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest'
-import type { Advice } from '../api/types'
-import { headline, interval, ofSide, shareText, stagesText } from './words'
+import type { Advice, AdvicePoint } from '../api/types'
+import { headline, interval, ofSide, pointName, settingText, shareText, sizeText, stagesText } from './words'
 
 const levels = [8000, 4000, 2000].map((triangles) => ({ triangles, thickness: 0, deviation: 0 }))
 const advice = { levels_a: levels, levels_b: levels, longest_side: 2, stages: [[2, 1]], triangles_before: 16_000, triangles_after: 6000 } as unknown as Advice
@@ -17,4 +17,13 @@ test('numbers come with their intervals, shares with their counts', () => {
   expect(shareText({ seen: 3, of: 300, lo: 0, hi: 0.03 })).toMatch(/^3 of 300 \(1\s%\)$/)
   expect(shareText(null)).toBe('–')
   expect(ofSide(advice, 0.02)).toMatch(/^1\s%$/)
+})
+
+test('another method is named with its setting, and its size in what it consists of', () => {
+  const spheres = { kind: 'inner_spheres', algorithm: 'inner-spheres:spheres=512', elements: 1024, unit: 'spheres' } as AdvicePoint
+  expect(pointName(advice, spheres)).toBe('Inner spheres, inner-spheres:spheres=512 (uncertified)')
+  expect(sizeText(spheres)).toBe('1,024 spheres')
+  expect(settingText(spheres)).toBe('spheres=512')
+  expect(settingText({ ...spheres, kind: 'single_precision', algorithm: 'parry-f32' })).toBe('f32')
+  expect(settingText({ ...spheres, kind: 'boxes', algorithm: null })).toBe('')
 })

@@ -34,7 +34,22 @@ export function pointName(advice: Advice, point: AdvicePoint): string {
     case 'advised': return 'Advised'
     case 'hulls': return 'Convex hulls (uncertified)'
     case 'boxes': return 'Boxes (uncertified)'
+    case 'convex_parts': return `Convex parts, ${point.algorithm} (uncertified)`
+    case 'inner_spheres': return `Inner spheres, ${point.algorithm} (uncertified)`
+    case 'voxels': return `Voxels${advice.question.kind === 'distance' ? ', yes or no' : ''}, ${point.algorithm} (uncertified)`
+    case 'double_precision': return `Whole objects in f64, ${point.algorithm} (uncertified)`
+    case 'single_precision': return `Whole objects in f32, ${point.algorithm} (uncertified)`
   }
+}
+
+/** How large its model is, and in what that is counted. */
+export const sizeText = ({ elements, unit }: AdvicePoint): string => `${count(elements)} ${unit}`
+
+/** The setting of a method's knob, or its precision: what stands beside its mark. */
+export function settingText({ kind, algorithm }: AdvicePoint): string {
+  if (kind === 'single_precision') return 'f32'
+  if (kind === 'double_precision') return 'f64'
+  return algorithm?.split(':')[1] ?? ''
 }
 
 /** The advice in one sentence. */

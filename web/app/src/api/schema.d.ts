@@ -1123,6 +1123,8 @@ export interface components {
             guaranteed_error?: number | null;
             /** @description What advice says of configurations it was not made from. */
             held_out: components["schemas"]["HeldOut"];
+            /** @description Ways that are missing among them. */
+            left_out: components["schemas"]["AdviceLeftOut"][];
             /** @description The levels of A, finest first; the first is the object. */
             levels_a: components["schemas"]["LevelFacts"][];
             /** @description The levels of B. */
@@ -1194,13 +1196,27 @@ export interface components {
          * @description What kind of model a way asks.
          * @enum {string}
          */
-        AdviceKind: "whole" | "same_question" | "yes_no" | "levels" | "advised" | "hulls" | "boxes";
+        AdviceKind: "whole" | "same_question" | "yes_no" | "levels" | "advised" | "hulls" | "boxes" | "convex_parts" | "inner_spheres" | "voxels" | "double_precision" | "single_precision";
+        /** @description What is not on the plot, and why. */
+        AdviceLeftOut: {
+            /** @description In one sentence. */
+            reason: string;
+            /** @description As `ocb bench` calls them, or a word for what is no algorithm. */
+            what: string[];
+        };
         /** @description A way to answer. */
         AdvicePoint: {
             /** @description Is it the advice? */
             advised: boolean;
+            /** @description What another method is called where it can be measured by itself (`ocb bench`), with its setting. */
+            algorithm?: string | null;
             /** @description Can it not be wrong by more than it says? */
             certified: boolean;
+            /**
+             * Format: int32
+             * @description How large the first model asked is, of both objects together.
+             */
+            elements: number;
             falls_back?: components["schemas"]["Share"] | null;
             false_alarms?: components["schemas"]["Share"] | null;
             /** @description How many times faster than the whole objects asked for their distance. */
@@ -1222,11 +1238,8 @@ export interface components {
             observed_error?: number | null;
             /** @description Numbers of the levels, coarsest stage first; none for what is no level. */
             stages: number[][];
-            /**
-             * Format: int32
-             * @description Triangles of the first model asked, of both objects together.
-             */
-            triangles: number;
+            /** @description In what that is counted. */
+            unit: components["schemas"]["AdviceUnit"];
         };
         /** @description What is asked of every configuration; lengths are the objects' own. */
         AdviceQuestion: {
@@ -1255,6 +1268,11 @@ export interface components {
             /** @description What is asked of every configuration. */
             question: components["schemas"]["Asked"];
         };
+        /**
+         * @description What a model consists of.
+         * @enum {string}
+         */
+        AdviceUnit: "triangles" | "spheres" | "voxels";
         /** @description How many of some answers agree with exact arithmetic. */
         Agreement: {
             /**
@@ -5853,6 +5871,13 @@ export interface operations {
                 kind: components["schemas"]["ChartKind"];
                 /** @description For `accuracy`: what to chart speed against. */
                 accuracy?: "wrong" | "missed" | "false_alarms" | "digits" | "distance";
+                /**
+                 * @description For `ecdf`, `bv_tests` and `primitive_tests`: only the configurations of this selection, e.g.
+                 *     `time of parry in [1ms, 1s] & near(vertex 8367, 0.05)`.
+                 */
+                where?: string;
+                /** @description Algorithm whose columns are meant where the selection names none [default: the run's only one]. */
+                algorithm?: string;
             };
             header?: never;
             path: {
@@ -5889,6 +5914,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The selection cannot be read or applied */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     chart_as_csv: {
@@ -5898,6 +5932,13 @@ export interface operations {
                 kind: components["schemas"]["ChartKind"];
                 /** @description For `accuracy`: what to chart speed against. */
                 accuracy?: "wrong" | "missed" | "false_alarms" | "digits" | "distance";
+                /**
+                 * @description For `ecdf`, `bv_tests` and `primitive_tests`: only the configurations of this selection, e.g.
+                 *     `time of parry in [1ms, 1s] & near(vertex 8367, 0.05)`.
+                 */
+                where?: string;
+                /** @description Algorithm whose columns are meant where the selection names none [default: the run's only one]. */
+                algorithm?: string;
             };
             header?: never;
             path: {
@@ -5935,6 +5976,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The selection cannot be read or applied */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     chart_as_parquet: {
@@ -5944,6 +5994,13 @@ export interface operations {
                 kind: components["schemas"]["ChartKind"];
                 /** @description For `accuracy`: what to chart speed against. */
                 accuracy?: "wrong" | "missed" | "false_alarms" | "digits" | "distance";
+                /**
+                 * @description For `ecdf`, `bv_tests` and `primitive_tests`: only the configurations of this selection, e.g.
+                 *     `time of parry in [1ms, 1s] & near(vertex 8367, 0.05)`.
+                 */
+                where?: string;
+                /** @description Algorithm whose columns are meant where the selection names none [default: the run's only one]. */
+                algorithm?: string;
             };
             header?: never;
             path: {
@@ -5974,6 +6031,15 @@ export interface operations {
             };
             /** @description No such run, or nothing to chart */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The selection cannot be read or applied */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -6115,6 +6181,8 @@ export interface operations {
             query: {
                 /** @description Algorithm id. */
                 algorithm: string;
+                /** @description Only the configurations of this selection, e.g. `time in [500us, 15ms] & near(vertex 8367, 0.05)`. */
+                where?: string;
             };
             header?: never;
             path: {
@@ -6144,6 +6212,15 @@ export interface operations {
             };
             /** @description No such run, or no records of this algorithm */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The selection cannot be read or applied */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -1,10 +1,10 @@
-//! parry's triangle mesh behind the plugin interface, in the precision of whatever its crate calls `parry`: this file
-//! belongs to the plugins parry and parry-f32.
+//! parry's triangle mesh behind the plugin interface, in the precision of whatever its parent calls `library`: this file
+//! belongs to both modules beside it.
 
-use crate::parry::math::{Matrix, Pose, Real, Rotation, Vector};
-use crate::parry::query::{self, ClosestPoints, ShapeDistance, Unsupported};
-use crate::parry::shape::TriMesh;
-use crate::{narrow, widen};
+use super::library::math::{Matrix, Pose, Real, Rotation, Vector};
+use super::library::query::{self, ClosestPoints, ShapeDistance, Unsupported};
+use super::library::shape::TriMesh;
+use super::{narrow, widen};
 use opencollbench_plugin::{
     About, Algorithm, Answer, Collision, ContactList, Contacts, Count, Distance, Mesh, Placed, Refusal, Separation,
 };
@@ -14,7 +14,7 @@ use opencollbench_plugin::{
 pub struct Parry;
 
 impl Algorithm for Parry {
-    const ABOUT: About = crate::ABOUT;
+    const ABOUT: About = super::ABOUT;
 
     type Object = TriMesh;
 
@@ -28,13 +28,31 @@ impl Algorithm for Parry {
         let (pose_a, pose_b) = (pose(&a), pose(&b));
         if work.is_counting() {
             let pose12 = pose_a.inv_mul(&pose_b);
-            return Ok(match crate::counted::first_contact(a.object, b.object, &pose12, work) {
+            return Ok(match super::counted::first_contact(a.object, b.object, &pose12, work) {
                 Some([a, b]) => Collision::Pair(a, b),
                 None => Collision::Apart,
             });
         }
         let answer = query::intersection_test(&pose_a, a.object, &pose_b, b.object).map_err(unsupported)?;
         Ok(if answer.intersecting { Collision::Pair(answer.subshape1, answer.subshape2) } else { Collision::Apart })
+    }
+}
+
+impl Parry {
+    /// Are the surfaces no further apart than this, as parry finds it? More than 0: by its search for the closest points
+    /// within a margin.
+    pub fn within(
+        &mut self,
+        a: Placed<'_, Self>,
+        b: Placed<'_, Self>,
+        reach: f64,
+        work: &mut impl Count,
+    ) -> Answer<bool> {
+        if reach <= 0.0 {
+            return Ok(self.collide(a, b, work)? != Collision::Apart);
+        }
+        let found = query::closest_points(&pose(&a), a.object, &pose(&b), b.object, narrow(reach));
+        Ok(found.map_err(unsupported)? != ClosestPoints::Disjoint)
     }
 }
 
@@ -48,7 +66,7 @@ impl Contacts for Parry {
         work: &mut impl Count,
     ) -> Answer<()> {
         let pose12 = pose(&a).inv_mul(&pose(&b));
-        crate::counted::each_contact(a.object, b.object, &pose12, work, |a, b| {
+        super::counted::each_contact(a.object, b.object, &pose12, work, |a, b| {
             found.push(a, b);
             true
         });
@@ -60,7 +78,7 @@ impl Distance for Parry {
     fn distance(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<Separation> {
         let (pose_a, pose_b) = (pose(&a), pose(&b));
         let answer: ShapeDistance = if work.is_counting() {
-            crate::counted::distance(a.object, b.object, &pose_a.inv_mul(&pose_b), work)
+            super::counted::distance(a.object, b.object, &pose_a.inv_mul(&pose_b), work)
         } else {
             query::distance(&pose_a, a.object, &pose_b, b.object).map_err(unsupported)?
         };

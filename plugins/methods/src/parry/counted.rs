@@ -5,11 +5,11 @@
 
 use std::cell::RefCell;
 
-use crate::parry::bounding_volume::{Aabb, BoundingVolume};
-use crate::parry::math::{Pose, Real};
-use crate::parry::partitioning::BvhNode;
-use crate::parry::query::{self, ShapeDistance};
-use crate::parry::shape::{Shape, TriMesh, Triangle};
+use super::library::bounding_volume::{Aabb, BoundingVolume};
+use super::library::math::{Pose, Real};
+use super::library::partitioning::BvhNode;
+use super::library::query::{self, ShapeDistance};
+use super::library::shape::{Shape, TriMesh, Triangle};
 use opencollbench_plugin::Count;
 
 /// As `query::intersection_test`.

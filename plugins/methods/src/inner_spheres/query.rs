@@ -7,7 +7,7 @@ use ocb_triangles::Frame;
 use ocb_triangles::vector::{Vector, add, dot, rotate, sub};
 use opencollbench_plugin::{Count, Placed};
 
-use crate::InnerSpheres;
+use super::InnerSpheres;
 
 /// Two nodes and how far they are apart; negative when they overlap.
 pub type Pair = (f64, [u32; 2]);
@@ -30,18 +30,18 @@ impl<'a> Traversal<'a> {
         Self { a: a.object, b: b.object, rotation, offset: rotate(&of_a, frame.offset) }
     }
 
-    /// Does a sphere of A meet a sphere of B?
-    pub fn meet(&self, open: &mut Vec<Pair>, work: &mut impl Count) -> bool {
-        self.below(0.0, open, work) <= 0.0
+    /// Is a sphere of A so near to a sphere of B?
+    pub fn within(&self, reach: f64, open: &mut Vec<Pair>, work: &mut impl Count) -> bool {
+        self.below([reach; 2], open, work) <= reach
     }
 
     /// How far apart are the spheres of both objects? 0 when some meet.
     pub fn distance(&self, open: &mut Vec<Pair>, work: &mut impl Count) -> f64 {
-        self.below(f64::INFINITY, open, work).max(0.0)
+        self.below([f64::INFINITY, 0.0], open, work).max(0.0)
     }
 
-    /// The smallest gap between two spheres if it is at most `limit`; one that is not above 0 is as good as any other.
-    fn below(&self, limit: f64, open: &mut Vec<Pair>, work: &mut impl Count) -> f64 {
+    /// The smallest gap between two spheres if it is at most `limit`; one that is `enough` is as good as any other.
+    fn below(&self, [limit, enough]: [f64; 2], open: &mut Vec<Pair>, work: &mut impl Count) -> f64 {
         let (mut best, mut within) = (f64::INFINITY, limit);
         open.clear();
         open.push((self.gap([0, 0]), [0, 0]));
@@ -52,7 +52,7 @@ impl<'a> Traversal<'a> {
             }
             let Some(children) = self.children(pair) else {
                 (best, within) = (gap, gap.min(within));
-                if best <= 0.0 {
+                if best <= enough {
                     break;
                 }
                 continue;
@@ -82,10 +82,12 @@ impl<'a> Traversal<'a> {
         volume
     }
 
+    #[inline]
     fn nodes(&self, [a, b]: [u32; 2]) -> [&BallNode; 2] {
         [&self.a.nodes[a as usize], &self.b.nodes[b as usize]]
     }
 
+    #[inline]
     fn gap(&self, pair: [u32; 2]) -> f64 {
         let [Ball { center: a, radius }, Ball { center: b, radius: other }] = self.nodes(pair).map(|node| node.ball);
         let between = sub(add(rotate(&self.rotation, b), self.offset), a);
@@ -93,6 +95,7 @@ impl<'a> Traversal<'a> {
     }
 
     /// The pairs below: the larger of the two is opened. None for two spheres.
+    #[inline]
     fn children(&self, pair: [u32; 2]) -> Option<[[u32; 2]; 2]> {
         let [a, b] = self.nodes(pair);
         match (a.count > 0, b.count > 0) {

@@ -11,6 +11,8 @@ use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
 pub struct Part {
     /// The corners of the hull, and of a part that is flat, more.
     pub points: Vec<Vector>,
+    /// How many triangles the hull has; of a flat part, as many as its points would make in its plane.
+    pub triangles: usize,
     /// The middle of a ball around it.
     pub middle: Vector,
     /// The ball's radius.
@@ -35,15 +37,22 @@ pub fn decompose(mesh: &Mesh<'_>, depth: u32, resolution: u32) -> Vec<Part> {
 impl Part {
     fn around(points: Vec<Vector>) -> Self {
         // What has no volume has no hull as parry makes them, but a furthest point all the same.
-        let points = try_convex_hull(&points).map_or(points, |(corners, _)| corners);
+        let (points, triangles) = match try_convex_hull(&points) {
+            Ok((corners, triangles)) => (corners, triangles.len()),
+            Err(_) => {
+                let triangles = points.len().saturating_sub(2);
+                (points, triangles)
+            }
+        };
         let limit = |pick: fn(Vector, Vector) -> Vector| points.iter().copied().reduce(pick).unwrap_or_default();
         let middle = 0.5 * (limit(Vector::min) + limit(Vector::max));
         let radius = points.iter().map(|&p| (p - middle).length()).fold(0.0, f64::max);
-        Self { points, middle, radius }
+        Self { points, triangles, middle, radius }
     }
 }
 
 impl SupportMap for Part {
+    #[inline]
     fn local_support_point(&self, direction: Vector) -> Vector {
         let further = |p: Vector, q: Vector| if q.dot(direction) > p.dot(direction) { q } else { p };
         self.points.iter().copied().reduce(further).unwrap_or_default()
