@@ -23,7 +23,7 @@ build: tools pages stock ## the same without serving
 	@$(MAKE) --silent --keep-going plugins-cpp || echo "make: going on without the wrappers that were not built"
 
 plugins-cpp: ## build the wrappers of the C++ libraries that are installed, and say how to get the others
-	@$(MAKE) --no-print-directory -C plugins/cpp
+	@$(MAKE) --no-print-directory --jobs=$(shell nproc) -C plugins/cpp
 
 # Against your own copy: make plugin-pqp PQP_DIR=/path/to/it, likewise rapid, v-collide, solid (see plugins/cpp/README.md).
 plugin-%:

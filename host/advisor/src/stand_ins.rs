@@ -27,7 +27,9 @@ const VOXELS: [f64; 2] = [0.01, 0.005];
 const MOST_TO_CUT: usize = 500_000;
 
 /// Nobody waits longer than this for the answers of one method; its times take three times as long again.
-const LONGEST: Duration = Duration::from_secs(10);
+const LONGEST: Duration = Duration::from_secs(4);
+/// After so many answers it is known how long all of them will take.
+const ENOUGH_TO_TELL: u32 = 20;
 
 /// What is not on the plot, and why.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
@@ -151,15 +153,17 @@ impl Workshop<'_> {
         let elements = M::elements(&a) + M::elements(&b);
         let mut ask = ask(method, [a, b], self.question);
         let started = Instant::now();
-        let answer = |placed: &Placed| {
+        let answer = |(before, placed): (u32, &Placed)| {
             self.step()?;
-            if started.elapsed() > LONGEST {
+            let so_far = started.elapsed();
+            let all = so_far * self.sample.len() as u32 / before.max(1);
+            if so_far > LONGEST || before >= ENOUGH_TO_TELL && all > LONGEST {
                 let why = format!("it needs more than {} s for {} answers", LONGEST.as_secs(), self.sample.len());
                 return Err(Without::Because(why));
             }
             ask(&placed.configuration).map_err(Without::Because)
         };
-        let told = self.sample.iter().map(answer).collect::<Result<_, _>>()?;
+        let told = (0..).zip(self.sample).map(answer).collect::<Result<_, _>>()?;
         Ok((elements, ask, told))
     }
 
