@@ -1,0 +1,41 @@
+//! Objects.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use super::Visibility;
+
+/// An object as the lists show it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ObjectInfo {
+    /// Stable id: `stock:<name>` for stock objects, otherwise a UUID.
+    pub id: String,
+    /// Display name.
+    pub name: String,
+    /// Triangle count.
+    pub triangles: u32,
+    /// Vertex count.
+    pub vertices: u32,
+    /// Axis-aligned bounding box: minimum x y z, maximum x y z.
+    pub bounds: [f64; 6],
+    /// SHA-256 (hex) of the mesh (positions, then triangles, little-endian).
+    pub sha256: String,
+    /// Where it comes from and under which terms.
+    pub terms: String,
+    /// Ships with the service.
+    pub stock: bool,
+    /// Every edge has exactly two triangles.
+    pub closed: bool,
+    /// What was noticed and mended while reading (one sentence each).
+    pub warnings: Vec<String>,
+    /// When it was added.
+    pub created_us: i64,
+    /// Who sees it.
+    #[serde(default)]
+    #[schema(required = true)]
+    pub visibility: Visibility,
+    /// Added by the caller, who decides who sees it.
+    #[serde(default)]
+    #[schema(required = true)]
+    pub mine: bool,
+}
