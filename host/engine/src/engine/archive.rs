@@ -30,12 +30,12 @@ impl Engine {
         }
         for run in &all.runs {
             // With an object that was hidden from them since, nothing of the run is there for its owner either.
-            if self.run_is_for(&run.id, Some(owner)).await.is_ok() {
+            if is_there(self.run_is_for(&run.id, Some(owner)).await)? {
                 self.pack_run(&mut packer, &run.id, owner).await?;
             }
         }
         for id in &all.advice {
-            if self.advice_is_for(id, Some(owner)).await.is_ok() {
+            if is_there(self.advice_is_for(id, Some(owner)).await)? {
                 self.pack_advice(&mut packer, id).await?;
             }
         }
@@ -81,6 +81,15 @@ impl Engine {
             packer.add(&format!("{folder}/{}", plain(&row.file)), &self.inner.blobs.get(&row.blob).await?)?;
         }
         Ok(())
+    }
+}
+
+/// What is hidden is left out; a fault ends the packing, so that nothing is missing without a word.
+fn is_there(looked: Result<()>) -> Result<bool> {
+    match looked {
+        Ok(()) => Ok(true),
+        Err(EngineError::NotFound(_)) => Ok(false),
+        Err(fault) => Err(fault),
     }
 }
 
