@@ -48,7 +48,7 @@ static ocb_status distance(ocb_instance *instance, ocb_object *a, const double *
     (void)instance, (void)a, (void)pose_a, (void)b, (void)pose_b, (void)request;
     unsigned long long begun = __rdtsc();
     unsigned long long product = begun;
-    for (int i = 0; i < 9000; i++) {
+    for (int i = 0; i < 12000; i++) {
         product *= 3;
         __asm__ volatile("" : "+r"(product));
     }

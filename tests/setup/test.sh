@@ -25,16 +25,22 @@ step() { # step NAME COMMAND...: run it, keep its output, remember a failure
 }
 
 . tests/setup/services.sh
-trap stop_services EXIT
+beside=
+trap 'stop_services; [ -z "$beside" ] || kill "$beside" 2>/dev/null || true' EXIT
 trap 'exit 130' INT TERM
 
 step build bash -c 'make -s pages stock && cargo build --release --workspace && cargo test --release --workspace --no-run && make -s plugins-cpp'
-step check make -s check
 step vitest npm --prefix web/app run test
 start_services || broken+=(services)
 step rust cargo test --release --workspace --no-fail-fast
 step faults tests/oracle-check/faults.py quick
+# What only compiles goes beside the browser, which mostly waits.
+make -s check > "$logs/beside.log" 2>&1 &
+beside=$!
 step browser bash -c 'npm --prefix tests/e2e ci --no-audit --no-fund && npm --prefix tests/e2e test'
+wait "$beside"
+step check bash -c 'cat "$1"; exit "$2"' check "$logs/beside.log" $?
+beside=
 
 # Each test program says its own counts; a step that broke without a counted failure counts as one.
 read -r passed failed < <(cat "$logs"/{rust,vitest,browser}.log 2>/dev/null | sed 's/\x1b\[[0-9;]*m//g' | awk '

@@ -6,8 +6,8 @@ use ocb_tests::place::{built, shared};
 use ocb_tests::process::{command, output};
 use serde_json::Value;
 
-/// Measuring seconds per algorithm. What does not fit is left out evenly: the subset is the start of a shuffled order.
-const BUDGET: &str = "8";
+/// Measuring seconds per algorithm: far more than one pass over all needs on any machine.
+const BUDGET: &str = "120";
 
 /// What is known of a set of configurations.
 enum Known {
@@ -26,8 +26,9 @@ fn known(set: &str) -> Known {
 }
 
 /// Those that are asked. Parry is not: an instance that is scaled down may meet its absolute tolerance, and its false alarm
-/// would be no fault of ours. Others have tests of their own.
-const ALGORITHMS: [&str; 3] = ["brute-force", "box-tree", "ocb-fast"];
+/// would be no fault of ours. Nor is brute force, which takes a second for a question of this size. Others have tests of
+/// their own.
+const ALGORITHMS: [&str; 2] = ["box-tree", "ocb-fast"];
 
 /// `ocb bench` on the set with these algorithms; gives the run and, per algorithm, the records by column.
 fn bench(set: &str, query: &str) -> (Value, BTreeMap<String, Vec<BTreeMap<String, String>>>) {
@@ -59,7 +60,7 @@ fn rows(csv: &str) -> Vec<BTreeMap<String, String>> {
     lines.map(|l| header.iter().cloned().zip(l.split(',').map(str::to_owned)).collect()).collect()
 }
 
-/// All algorithms answered, none wrongly, and those with trees of both objects answered for the set.
+/// All algorithms answered all of the set, none wrongly.
 fn check_run(run: &Value, set: &str, query: &str) {
     assert_eq!(run["set"]["configurations"], 1000, "{set}");
     let results = run["results"].as_array().expect("results");
@@ -69,12 +70,7 @@ fn check_run(run: &Value, set: &str, query: &str) {
         println!("{set} {query} {name}: {n} of 1000 configurations, wrong {}", r["wrong"]);
         assert_eq!(r["outcome"]["name"], "Completed", "{set} {query} {name}: {}", r["outcome"]["message"]);
         assert_eq!(r["wrong"], 0, "{set} {query} {name}: {}", r["verdicts"]);
-        assert!(n == 1000 || r["budget_limited"] == true, "{set} {query} {name}: only {n} and not for want of time");
-        // Brute force takes a second and more for one of these queries; on a busy machine a tree may leave some out.
-        assert!(
-            n >= if ["box-tree", "ocb-fast"].contains(&name) { 900 } else { 1 },
-            "{set} {query} {name}: only {n} configurations measured"
-        );
+        assert_eq!(n, 1000, "{set} {query} {name}: not all of the configurations measured");
     }
 }
 

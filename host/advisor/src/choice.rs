@@ -1,6 +1,6 @@
 //! Which levels of detail are enough for a question on some configurations.
 
-use ocb_core::configuration::Placed;
+use ocb_core::configuration::{Configuration, Placed};
 use ocb_core::lod::{Answer, LodPair};
 use ocb_core::oracle::Pair;
 use rayon::prelude::*;
@@ -96,7 +96,8 @@ pub(crate) fn fastest(
     watch: &dyn Watch,
 ) -> Option<Vec<Levels>> {
     // Evenly out of all, so that every distance is among them.
-    let tried: Vec<Placed> = sample.iter().step_by(sample.len().div_ceil(TRIED)).copied().collect();
+    let apart = sample.len().div_ceil(TRIED);
+    let tried: Vec<Configuration> = sample.iter().step_by(apart).map(|placed| placed.configuration).collect();
     let mut best: Vec<Levels> = Vec::new();
     let mut least = f64::INFINITY;
     loop {
@@ -106,7 +107,7 @@ pub(crate) fn fastest(
         candidates.push(best.clone());
         let hybrids: Vec<Hybrid> = candidates.iter().map(|stages| ladders.hybrid(stages)).collect();
         let ways: Vec<Way> = hybrids.iter().map(|hybrid| way(move |c| hybrid.answer(question, c))).collect();
-        let sums: Vec<f64> = times(&ways, &tried, 3, watch)?.iter().map(|t| t.iter().sum()).collect();
+        let sums: Vec<f64> = times(&ways, &tried, 3, watch)?.iter().map(|t| t.iter().flatten().sum()).collect();
         let (winner, sum) =
             sums.iter().enumerate().min_by(|x, y| x.1.total_cmp(y.1)).map(|(i, sum)| (i, *sum)).expect("one at least");
         // What was measured together is compared; a little less is nothing.

@@ -28,8 +28,8 @@ pub(crate) fn certified(
 
 /// The errors that were seen of a way which promises nothing: of distances the largest, of "is it clear?" both kinds of
 /// wrong answers, each counted among the configurations where it is possible.
-pub(crate) fn seen(mut point: Point, question: Question, sample: &[Placed], told: &[Told]) -> Point {
-    let answers = || told.iter().zip(sample);
+pub(crate) fn seen(mut point: Point, question: Question, sample: &[Placed], told: &[Option<Told>]) -> Point {
+    let answers = || told.iter().zip(sample).filter_map(|(told, placed)| Some((told.as_ref()?, placed)));
     let distances = answers().filter_map(|(told, placed)| match told {
         Told::Distance(found) => Some(off(found.middle(), placed)),
         Told::Clear(_) => None,
@@ -44,7 +44,7 @@ pub(crate) fn seen(mut point: Point, question: Question, sample: &[Placed], told
         };
         Share::of(these().filter(|told| *told != clear).count() as u32, these().count() as u32)
     };
-    if told.iter().any(|told| matches!(told, Told::Clear(_))) {
+    if told.iter().any(|told| matches!(told, Some(Told::Clear(_)))) {
         (point.false_alarms, point.missed) = (Some(share(true)), Some(share(false)));
     }
     point

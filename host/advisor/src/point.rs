@@ -85,9 +85,11 @@ pub struct Point {
     pub unit: Unit,
     /// What another method is called where it can be measured by itself (`ocb bench`), with its setting.
     pub algorithm: Option<String>,
+    /// How many of the configurations it was asked about, drawn at random, where all of them would take too long.
+    pub asked: Option<u32>,
     /// Time of a query, microseconds.
     pub micros: Measured,
-    /// How many times faster than the whole objects asked for their distance.
+    /// How many times faster than the whole objects asked for their distance, about the same configurations.
     pub faster: Measured,
     /// No answer was or could have been further off (half the widest interval); absent where nothing is certified.
     pub guaranteed_error: Option<f64>,
@@ -115,6 +117,7 @@ impl Point {
             elements,
             unit: kind.unit(),
             algorithm: None,
+            asked: None,
             micros: none,
             faster: none,
             guaranteed_error: None,

@@ -13,7 +13,7 @@ use crate::proxy::{self, Proxy};
 use crate::question::{Question, Told};
 use crate::share::Share;
 use crate::stand_ins::{LeftOut, leave_out, stand_ins};
-use crate::timing::{Way, mean, ratio, times, way};
+use crate::timing::{Way, mean, ratio, times, way, way_of};
 use crate::watch::Watch;
 
 /// Nanoseconds of every configuration.
@@ -101,30 +101,32 @@ pub(crate) fn points(
                 Question::Clearance { clearance } => Told::Clear(distance > clearance),
             }
         };
-        let told: Vec<Told> = sample.par_iter().map(|placed| tell(&placed.configuration)).collect();
+        let told: Vec<_> = sample.par_iter().map(|placed| Some(tell(&placed.configuration))).collect();
         all.push(Candidate { point: seen(Point::new(*kind, &[], triangles), question, sample, &told), way: way(tell) });
     }
     for stand_in in stand_ins {
         let mut point = Point::new(stand_in.kind, &[], stand_in.elements as u32);
         point.algorithm = Some(stand_in.algorithm);
+        let asked: Vec<bool> = stand_in.told.iter().map(Option::is_some).collect();
+        let some = asked.iter().filter(|asked| **asked).count();
+        point.asked = (some < sample.len()).then_some(some as u32);
         let ask = RefCell::new(stand_in.ask);
-        let way = way(move |c| (ask.borrow_mut())(c));
+        let way = way_of(asked, move |c| (ask.borrow_mut())(c));
         all.push(Candidate { point: seen(point, question, sample, &stand_in.told), way });
     }
     let (mut points, ways): (Vec<Point>, Vec<Way>) = all.into_iter().map(|c| (c.point, c.way)).unzip();
-    let mut measured = times(&ways, sample, passes, watch)?;
+    let configurations: Vec<Configuration> = sample.iter().map(|placed| placed.configuration).collect();
+    let mut measured = times(&ways, &configurations, passes, watch)?;
     for (point, own) in points.iter_mut().zip(&measured) {
-        let micros = own.iter().map(|ns| ns / 1000.0).collect::<Vec<_>>();
-        (point.micros, point.faster) = (mean(&micros), ratio(&measured[0], own));
+        let both = || own.iter().zip(&measured[0]).filter_map(|(own, whole)| Some([(*own)?, (*whole)?]));
+        let [own, whole]: [Vec<f64>; 2] = [0, 1].map(|i| both().map(|both| both[i]).collect());
+        let micros: Vec<f64> = own.iter().map(|ns| ns / 1000.0).collect();
+        (point.micros, point.faster) = (mean(&micros), ratio(&whole, &own));
     }
     let advised = points.iter().position(|p| p.advised).expect("the advice is among the ways");
-    let advised = std::mem::take(&mut measured[advised]);
-    let mut measured = measured.into_iter();
-    let times = Times {
-        distance: measured.next().unwrap_or_default(),
-        same_question: measured.next().unwrap_or_default(),
-        advised,
-    };
+    // All configurations of these.
+    let mut of = |way: usize| std::mem::take(&mut measured[way]).into_iter().flatten().collect();
+    let times = Times { distance: of(0), same_question: of(1), advised: of(advised) };
     Some(Plot { points, left_out, times })
 }
 

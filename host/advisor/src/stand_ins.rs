@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use ocb_core::configuration::Placed;
 use ocb_core::mesh::Mesh;
+use ocb_core::numbers::Numbers;
 use ocb_methods::convex_parts::ConvexParts;
 use ocb_methods::inner_spheres::InnerSpheres;
 use ocb_methods::parry::{double, single};
@@ -28,8 +29,8 @@ const MOST_TO_CUT: usize = 500_000;
 
 /// Nobody waits longer than this for the answers of one method; its times take three times as long again.
 const LONGEST: Duration = Duration::from_secs(4);
-/// After so many answers it is known how long all of them will take.
-const ENOUGH_TO_TELL: u32 = 20;
+/// Of a method that would need longer for all configurations, the answers to so many at least are a point.
+const ENOUGH: usize = 20;
 
 /// What is not on the plot, and why.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
@@ -41,14 +42,14 @@ pub struct LeftOut {
     pub reason: String,
 }
 
-/// A method for both objects, and what it told of every configuration.
+/// A method for both objects, and what it told of every configuration that it was asked about.
 pub(crate) struct StandIn {
     pub(crate) kind: Kind,
     pub(crate) algorithm: String,
     /// Of both objects.
     pub(crate) elements: usize,
     pub(crate) ask: Ask,
-    pub(crate) told: Vec<Told>,
+    pub(crate) told: Vec<Option<Told>>,
 }
 
 /// Why there is none.
@@ -69,7 +70,7 @@ struct Workshop<'a> {
 }
 
 /// Elements, how to ask, and the answers.
-type Made = Result<(usize, Ask, Vec<Told>), Without>;
+type Made = Result<(usize, Ask, Vec<Option<Told>>), Without>;
 
 /// How to make one.
 struct Recipe {
@@ -153,17 +154,21 @@ impl Workshop<'_> {
         let elements = M::elements(&a) + M::elements(&b);
         let mut ask = ask(method, [a, b], self.question);
         let started = Instant::now();
-        let answer = |(before, placed): (u32, &Placed)| {
+        // In a drawn order, so that those who end early have been asked about all distances.
+        let mut order: Vec<usize> = (0..self.sample.len()).collect();
+        Numbers::new(0).shuffle(&mut order);
+        let mut told = vec![None; self.sample.len()];
+        for (before, &i) in order.iter().enumerate() {
             self.step()?;
-            let so_far = started.elapsed();
-            let all = so_far * self.sample.len() as u32 / before.max(1);
-            if so_far > LONGEST || before >= ENOUGH_TO_TELL && all > LONGEST {
-                let why = format!("it needs more than {} s for {} answers", LONGEST.as_secs(), self.sample.len());
+            if started.elapsed() > LONGEST {
+                if before >= ENOUGH {
+                    break;
+                }
+                let why = format!("it needs more than {} s for {ENOUGH} answers", LONGEST.as_secs());
                 return Err(Without::Because(why));
             }
-            ask(&placed.configuration).map_err(Without::Because)
-        };
-        let told = (0..).zip(self.sample).map(answer).collect::<Result<_, _>>()?;
+            told[i] = Some(ask(&self.sample[i].configuration).map_err(Without::Because)?);
+        }
         Ok((elements, ask, told))
     }
 

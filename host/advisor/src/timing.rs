@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use ocb_core::configuration::{Configuration, Placed};
+use ocb_core::configuration::Configuration;
 use ocb_core::numbers::Numbers;
 use ocb_core::statistics::bootstrap_interval;
 use serde::{Deserialize, Serialize};
@@ -22,29 +22,51 @@ pub struct Measured {
 }
 
 /// A way to answer.
-pub type Way<'a> = Box<dyn Fn(&Configuration) + 'a>;
+pub struct Way<'a> {
+    ask: Box<dyn Fn(&Configuration) + 'a>,
+    /// Of which configurations; of all, if it is empty.
+    only: Vec<bool>,
+}
+
+impl Way<'_> {
+    fn is_asked(&self, configuration: usize) -> bool {
+        self.only.is_empty() || self.only[configuration]
+    }
+}
 
 /// A way that asks, whatever the answer is.
 pub fn way<'a, T>(ask: impl Fn(&Configuration) -> T + 'a) -> Way<'a> {
-    Box::new(move |configuration| {
-        black_box(ask(configuration));
-    })
+    way_of(Vec::new(), ask)
 }
 
-/// For every way the nanoseconds of every configuration, the median of `passes`; in each pass every configuration is
-/// asked of all ways in turn, so that whatever disturbs the machine disturbs all of them. The turns are drawn anew each time:
-/// a way that always came second would find the caches as the first one left them. `None` when it was stopped.
-pub fn times(ways: &[Way], configurations: &[Placed], passes: usize, watch: &dyn Watch) -> Option<Vec<Vec<f64>>> {
+/// The same for these configurations only.
+pub fn way_of<'a, T>(only: Vec<bool>, ask: impl Fn(&Configuration) -> T + 'a) -> Way<'a> {
+    let ask = Box::new(move |configuration: &Configuration| {
+        black_box(ask(configuration));
+    });
+    Way { ask, only }
+}
+
+/// For every way the nanoseconds of every configuration, the median of `passes`, and nothing where it is not asked; in
+/// each pass every configuration is asked of all ways in turn, so that whatever disturbs the machine disturbs all of them.
+/// The turns are drawn anew each time: a way that always came second would find the caches as the first one left them.
+/// `None` when it was stopped.
+pub fn times(
+    ways: &[Way],
+    configurations: &[Configuration],
+    passes: usize,
+    watch: &dyn Watch,
+) -> Option<Vec<Vec<Option<f64>>>> {
     let mut all = vec![vec![Vec::with_capacity(passes); configurations.len()]; ways.len()];
     let total = (passes * configurations.len()) as u64;
     let mut turns: Vec<usize> = (0..ways.len()).collect();
     let mut numbers = Numbers::new(0);
     for pass in 0..passes {
-        for (i, placed) in configurations.iter().enumerate() {
+        for (i, configuration) in configurations.iter().enumerate() {
             numbers.shuffle(&mut turns);
-            for &turn in &turns {
+            for &turn in turns.iter().filter(|&&turn| ways[turn].is_asked(i)) {
                 let start = Instant::now();
-                ways[turn](black_box(&placed.configuration));
+                (ways[turn].ask)(black_box(configuration));
                 all[turn][i].push(start.elapsed().as_nanos() as f64);
             }
             watch.step("measuring", (pass * configurations.len() + i + 1) as u64, total);
@@ -53,9 +75,9 @@ pub fn times(ways: &[Way], configurations: &[Placed], passes: usize, watch: &dyn
             }
         }
     }
-    let median = |mut times: Vec<f64>| {
+    let median = |mut times: Vec<f64>| -> Option<f64> {
         times.sort_unstable_by(f64::total_cmp);
-        times[times.len() / 2]
+        times.get(times.len() / 2).copied()
     };
     Some(all.into_iter().map(|way| way.into_iter().map(median).collect()).collect())
 }
@@ -76,4 +98,25 @@ pub fn ratio(first: &[f64], second: &[f64]) -> Measured {
     };
     let (lo, hi) = bootstrap_interval(&numbers, ratio, 0);
     Measured { value: ratio(&mut numbers.clone()), lo, hi }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use ocb_core::pose::Pose;
+
+    use super::*;
+    use crate::watch::Unwatched;
+
+    #[test]
+    fn who_is_asked_about_some_has_times_of_these() {
+        let configuration = Configuration { pose_a: Pose::identity(), pose_b: Pose::identity() };
+        let (all, some) = (Cell::new(0), Cell::new(0));
+        let ways = [way(|_| all.set(all.get() + 1)), way_of(vec![false, true, true], |_| some.set(some.get() + 1))];
+        let measured = times(&ways, &[configuration; 3], 5, &Unwatched).expect("nobody stops it");
+        assert_eq!((all.get(), some.get()), (15, 10));
+        let there: Vec<Vec<bool>> = measured.iter().map(|times| times.iter().map(Option::is_some).collect()).collect();
+        assert_eq!(there, [[true; 3], [false, true, true]]);
+    }
 }

@@ -4,18 +4,21 @@ use std::io::{BufRead, IsTerminal};
 use std::process::ExitCode;
 
 use ocb_engine::Engine;
-use ocb_engine::model::Role;
+use ocb_engine::model::{InvitationInfo, InvitationRequest, InvitationState, Page, Role};
 
 use crate::args::{AdminCommand, Store};
 use crate::failure::{Failure, Result};
 use crate::open::{self, Purpose};
 use crate::output;
 
-/// Makes an account of any role, or looks whether the audit log is whole.
+/// Makes an account of any role, invites developers, or looks whether the audit log is whole.
 pub async fn admin(store: &Store, command: &AdminCommand, json: bool) -> Result<ExitCode> {
     let engine = open::open(store, Purpose::Look).await?;
     let done = match command {
         AdminCommand::Create { name, role } => create(&engine, name, role, json).await,
+        AdminCommand::Invite { recipient, days, server } => invite(&engine, recipient, *days, server, json).await,
+        AdminCommand::Invitations => invitations(&engine, json).await,
+        AdminCommand::Revoke { id } => revoke(&engine, id, json).await,
         AdminCommand::Audit => audit(&engine, json).await,
     };
     engine.shutdown().await;
@@ -29,6 +32,52 @@ async fn create(engine: &Engine, name: &str, role: &str, json: bool) -> Result<(
         return output::print_json(&account);
     }
     output::print(&format!("{} is now {}.", account.name, role.name()))
+}
+
+async fn invite(engine: &Engine, recipient: &str, days: u32, server: &str, json: bool) -> Result<()> {
+    let asked = InvitationRequest { recipient: recipient.to_owned(), days };
+    let made = engine.invite(None, asked, server.trim_end_matches('/'), None).await?;
+    if json { output::print_json(&made) } else { output::print(&made.link) }
+}
+
+async fn invitations(engine: &Engine, json: bool) -> Result<()> {
+    let (mut all, mut page) = (Vec::new(), Page::default());
+    loop {
+        let part = engine.invitations(&page).await?;
+        all.extend(part.entries);
+        let Some(next) = part.next else { break };
+        page = page.behind(&next);
+    }
+    if json {
+        return output::print_json(&all);
+    }
+    if all.is_empty() {
+        return output::print("No invitations yet; `ocb admin invite WHOM` makes one.");
+    }
+    let row = |one: &InvitationInfo| {
+        let by = one.invited_by.clone().unwrap_or_else(|| "the operator".to_owned());
+        let accepted = one.accepted_by.clone().unwrap_or_default();
+        vec![one.id.clone(), state(one.state).to_owned(), one.recipient.clone(), by, accepted]
+    };
+    let headings = ["invitation", "state", "for", "made by", "accepted by"];
+    output::print(&output::table(&headings, all.iter().map(row).collect(), &[]))
+}
+
+async fn revoke(engine: &Engine, id: &str, json: bool) -> Result<()> {
+    let invitation = engine.revoke_invitation(None, id).await?;
+    if json {
+        return output::print_json(&invitation);
+    }
+    output::print(&format!("The invitation for {} opens nothing any more.", invitation.recipient))
+}
+
+fn state(state: InvitationState) -> &'static str {
+    match state {
+        InvitationState::Open => "open",
+        InvitationState::Accepted => "accepted",
+        InvitationState::Revoked => "withdrawn",
+        InvitationState::Expired => "expired",
+    }
 }
 
 /// From the environment, or the first line of the input: on the command line everybody on the machine would see it.

@@ -1,21 +1,28 @@
 //! What can be said on the command line.
 
+mod looking;
 mod plugins;
+mod runs;
 mod services;
+mod suite;
+mod things;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+pub use looking::{HeatmapArgs, SelectArgs, WorstArgs};
 pub use plugins::{AdminCommand, PluginCommand, SubmitArgs};
-pub use services::{ServiceArgs, Shown, VisibilityArgs};
+pub use runs::{ReplayArgs, RunCommand};
+pub use services::{CiteArgs, CiteAs, Cited, LookArgs, ServiceArgs, Shown, VisibilityArgs};
+pub use suite::{SuiteCommand, SuiteRunArgs};
+pub use things::{Deleted, PlaceArgs, ThingsCommand};
 
 use ocb_engine::Profile;
 
 use crate::board::BoardArgs;
 use crate::chart::ChartArgs;
-use crate::choice::{ColormapArg, MeasureArg, OutliersArg, ScaleArg, SideArg, StatisticArg, WorstByArg};
 use crate::placing::PlacingArgs;
 
 /// Benchmarks of collision detection.
@@ -35,7 +42,8 @@ const EXIT_CODES: &str = "Exit codes:
   0    done; for a benchmark: every algorithm completed and no answer was wrong
   1    our fault or the machine's; for `ocb truth pairs`: an answer differs from the truth in the file
   2    bad input; nothing of it was kept
-  3    the run finished, but an algorithm failed or gave wrong answers; for `ocb advise --verify`: the certificate does not hold
+  3    the run finished, but an algorithm failed or gave wrong answers; for `ocb advise --verify`: the certificate does not hold;
+       for `ocb replay`: an answer was another one, or could not be asked again
   130  stopped by Ctrl-C; the run is cancelled and nothing goes on running";
 
 /// Where data, runner and plugins are.
@@ -70,6 +78,9 @@ pub struct Store {
     /// Folder with the Stanford objects, `bunny.obj` and `dragon.obj` [default: `stock` beside this program or above it].
     #[arg(long, global = true, env = "OCB_STOCK", value_name = "DIR", hide_env_values = true)]
     pub stock_dir: Option<PathBuf>,
+    /// File of the suite that public plugins are measured on [default: the newest that ships].
+    #[arg(long = "suite-file", global = true, env = "OCB_SUITE", value_name = "FILE", hide_env_values = true)]
+    pub suite_file: Option<PathBuf>,
 }
 
 impl Store {
@@ -119,8 +130,17 @@ pub enum Command {
         #[command(subcommand)]
         command: RunCommand,
     },
+    /// Ask every question of a repro archive again, in the jail, and compare every answer bit by bit.
+    Replay(ReplayArgs),
     /// Send a plugin to a service, which checks it.
     Submit(SubmitArgs),
+    /// Look at what you have made, here or on a service, delete it, or take it along.
+    Things {
+        #[command(subcommand)]
+        command: ThingsCommand,
+    },
+    /// Tell how a run or a plugin on a service is cited: BibTeX, CFF, its stable link.
+    Cite(CiteArgs),
     /// Decide who sees a run or an object of yours on a service.
     Visibility(VisibilityArgs),
     /// Look after a service's accounts, on its data folder while it is stopped.
@@ -133,6 +153,11 @@ pub enum Command {
     /// Tell what this machine has for the jail, what it lacks and how to get it; exit code 1 when foreign plugins could
     /// not run under the chosen profile.
     Doctor,
+    /// The public benchmark: scenes, distances and questions that every public plugin is measured on.
+    Suite {
+        #[command(subcommand)]
+        command: SuiteCommand,
+    },
     /// Compare algorithms over all runs: speed against accuracy, with a table and a chart.
     Board(BoardArgs),
     /// Write a chart of a run as .svg, .png, .csv, .parquet or .json.
@@ -365,23 +390,6 @@ pub enum ObjectCommand {
     List,
 }
 
-/// `ocb run`
-#[derive(Debug, Subcommand)]
-pub enum RunCommand {
-    /// List runs, newest first.
-    List,
-    /// Show one run with its table.
-    Show {
-        /// Run id, or `latest`.
-        run: String,
-    },
-    /// Measure all configurations of a run that was a preview.
-    Refine {
-        /// Run id, or `latest`.
-        run: String,
-    },
-}
-
 /// `ocb stability`
 #[derive(Debug, Args)]
 pub struct StabilityArgs {
@@ -407,79 +415,4 @@ pub struct StabilityArgs {
     /// Folder for the failing cases: both objects as OBJ, poses, expected and got, the command line.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-}
-
-/// `ocb heatmap`
-#[derive(Debug, Args)]
-pub struct HeatmapArgs {
-    /// Run id, or `latest`.
-    pub run: String,
-    /// File to write: .glb (colours and values), .ply (colours and quality) or .csv (vertex, value, count, dropped).
-    #[arg(short, long, value_name = "FILE")]
-    pub output: PathBuf,
-    /// Algorithm [default: the run's only one].
-    #[arg(long, value_name = "ID")]
-    pub algorithm: Option<String>,
-    /// What to show.
-    #[arg(long, value_enum, default_value_t = MeasureArg::Time)]
-    pub measure: MeasureArg,
-    /// Which statistic of the values at a vertex.
-    #[arg(long, value_enum, default_value_t = StatisticArg::Median)]
-    pub statistic: StatisticArg,
-    /// What to do with values outside the IQR fence.
-    #[arg(long, value_enum, default_value_t = OutliersArg::PerVertex)]
-    pub outliers: OutliersArg,
-    /// Which object.
-    #[arg(long, value_enum, default_value_t = SideArg::A)]
-    pub side: SideArg,
-    /// Colours.
-    #[arg(long, value_enum, default_value_t = ColormapArg::Turbo)]
-    pub colormap: ColormapArg,
-    /// Subtract the values of this algorithm; colours are purple (less), white (0) and orange (more).
-    #[arg(long, value_name = "ID")]
-    pub against: Option<String>,
-    /// Subtract the values of this run on the same object.
-    #[arg(long, value_name = "RUN")]
-    pub against_run: Option<String>,
-    /// Only the configurations of this selection (`ocb select --help` tells the language).
-    #[arg(long = "where", value_name = "SELECTION")]
-    pub selection: Option<String>,
-    /// How values are spread over the colours.
-    #[arg(long, value_enum, default_value_t = ScaleArg::Linear)]
-    pub scale: ScaleArg,
-}
-
-/// `ocb worst`
-#[derive(Debug, Args)]
-pub struct WorstArgs {
-    /// Run id, or `latest`.
-    pub run: String,
-    /// Algorithm [default: the run's only one].
-    #[arg(long, value_name = "ID")]
-    pub algorithm: Option<String>,
-    /// What counts as worse.
-    #[arg(long, value_enum, default_value_t = WorstByArg::Time)]
-    pub by: WorstByArg,
-    /// How many at most.
-    #[arg(long, default_value_t = 100)]
-    pub limit: u32,
-    /// Only the configurations of this selection.
-    #[arg(long = "where", value_name = "SELECTION")]
-    pub selection: Option<String>,
-}
-
-/// `ocb select`
-#[derive(Debug, Args)]
-pub struct SelectArgs {
-    /// Run id, or `latest`.
-    pub run: String,
-    /// The selection.
-    #[arg(long = "where", value_name = "SELECTION")]
-    pub selection: String,
-    /// Algorithm whose columns are meant where the selection names none [default: the run's only one].
-    #[arg(long, value_name = "ID")]
-    pub algorithm: Option<String>,
-    /// File for the records of that algorithm: .parquet or .csv.
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
 }

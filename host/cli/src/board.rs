@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use ocb_engine::chart::svg;
-use ocb_engine::model::{Board, BoardFilter, BoardRequest, BoardRow};
+use ocb_engine::model::{Board, BoardFilter, BoardRequest, BoardRow, BoardSuite};
 
 use crate::args::Store;
 use crate::choice::AccuracyArg;
@@ -16,6 +16,9 @@ use crate::{output, picture, units};
 /// `ocb board`
 #[derive(Debug, Args)]
 pub struct BoardArgs {
+    /// Version of the suite whose results are compared, or none for runs [default: the newest suite that was measured].
+    #[arg(long, value_name = "VERSION")]
+    pub suite: Option<String>,
     /// The question: collision_first, collision_all or proximity, with +solid for solid bodies.
     #[arg(long)]
     pub question: Option<String>,
@@ -61,6 +64,7 @@ const HEADINGS: [&str; 13] = [
 /// Prints the table and writes the chart.
 pub async fn board(store: &Store, args: &BoardArgs, json: bool) -> Result<ExitCode> {
     let request = BoardRequest {
+        suite: args.suite.clone(),
         question: args.question.clone(),
         class: args.class.clone(),
         hardware: args.hardware.clone(),
@@ -85,8 +89,10 @@ pub async fn board(store: &Store, args: &BoardArgs, json: bool) -> Result<ExitCo
     Ok(ExitCode::SUCCESS)
 }
 
-fn text(board: &Board) -> String {
+/// The board as lines of text.
+pub fn text(board: &Board) -> String {
     let mut lines: Vec<String> = board.filters.iter().map(filter).collect();
+    lines.extend(board.suite.as_ref().map(suite));
     if board.rows.is_empty() {
         lines.push(empty(board));
         return lines.join("\n");
@@ -102,6 +108,17 @@ fn text(board: &Board) -> String {
     let reason = |row: &BoardRow| Some(format!("{}: no rank. {}", row.algorithm, row.reason.as_ref()?));
     lines.extend(board.rows.iter().filter_map(reason));
     lines.join("\n")
+}
+
+fn suite(suite: &BoardSuite) -> String {
+    let [newest, oldest] = [suite.newest_us, suite.oldest_us].map(|us| units::wait(seconds_since(us)));
+    format!(
+        "suite {} ({}), {} scenarios, on {}, measured {newest} to {oldest} ago",
+        suite.version,
+        &suite.sha256[..12],
+        suite.scenarios,
+        suite.hardware
+    )
 }
 
 /// A filter with what else could be chosen.

@@ -7,6 +7,7 @@ mod bench;
 mod board;
 mod chart;
 mod choice;
+mod cite;
 mod doctor;
 mod failure;
 mod generate;
@@ -18,12 +19,15 @@ mod output;
 mod picture;
 mod placing;
 mod plugin;
+mod replay;
 mod run;
 mod select;
 mod serve;
 mod service;
 mod stability;
 mod submit;
+mod suite;
+mod things;
 mod truth;
 mod units;
 mod visibility;
@@ -32,7 +36,8 @@ mod worst;
 use std::process::ExitCode;
 
 use clap::Parser;
-use tracing_subscriber::EnvFilter;
+use tracing_subscriber::filter::{LevelFilter, Targets};
+use tracing_subscriber::prelude::*;
 
 use args::{Cli, Command};
 use failure::{Failure, Result};
@@ -43,9 +48,13 @@ async fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => return failure::usage(&error),
     };
-    let level = if matches!(cli.command, Command::Serve(_)) { "info" } else { "error" };
-    let filter = EnvFilter::try_from_env("OCB_LOG").unwrap_or_else(|_| EnvFilter::new(level));
-    tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();
+    let level = if matches!(cli.command, Command::Serve(_)) { LevelFilter::INFO } else { LevelFilter::ERROR };
+    let wanted = std::env::var("OCB_LOG").ok().and_then(|wanted| wanted.parse().ok());
+    let filter: Targets = wanted.unwrap_or_else(|| Targets::new().with_default(level));
+    tracing_subscriber::registry()
+        .with(tracing_subscriber::fmt::layer().with_writer(std::io::stderr))
+        .with(filter)
+        .init();
     match command(cli).await {
         Ok(code) => code,
         Err(failure) => failure.report(),
@@ -63,11 +72,15 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Plugin { command } => plugin::plugin(&store, &command, json).await,
         Command::Object { command } => object::object(&store, &command, json).await,
         Command::Run { command } => run::run(&store, &command, json).await,
+        Command::Replay(args) => replay::replay(&store, &args, json).await,
         Command::Submit(args) => submit::submit(&args, json).await,
+        Command::Things { command } => things::things(&store, &command, json).await,
+        Command::Cite(args) => cite::cite(&args, json).await,
         Command::Visibility(args) => visibility::visibility(&args, json).await,
         Command::Admin { command } => admin::admin(&store, &command, json).await,
         Command::Stability(args) => stability::stability(&store, &args, json).await,
         Command::Doctor => doctor::doctor(&store, json),
+        Command::Suite { command } => suite::suite(&store, &command, json).await,
         Command::Board(args) => board::board(&store, &args, json).await,
         Command::Chart(args) => chart::chart(&store, &args, json).await,
         Command::Heatmap(args) => heatmap::heatmap(&store, &args, json).await,

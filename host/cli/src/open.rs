@@ -74,6 +74,7 @@ fn config(store: &Store, data: PathBuf, purpose: Purpose) -> EngineConfig {
         config.plugins.clone_from(&store.plugins);
     }
     config.stock_dir = store.stock_dir.clone().or_else(beside_us);
+    config.suite.clone_from(&store.suite_file);
     config.dispatch = purpose != Purpose::Look;
     config.featured = purpose == Purpose::Serve;
     config

@@ -1,16 +1,17 @@
 //! `ocb run`: what was measured.
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use ocb_engine::model::{Page, RunInfo, State};
 use ocb_engine::{Engine, EngineError};
 
 use crate::args::{RunCommand, Store};
-use crate::failure::Result;
+use crate::failure::{Failure, Result};
 use crate::open::{self, OWNER, Purpose};
-use crate::{bench, output, plugin, serve};
+use crate::{bench, output, plugin, serve, units};
 
-/// Lists, shows or refines.
+/// Lists, shows, refines or packs.
 pub async fn run(store: &Store, command: &RunCommand, json: bool) -> Result<ExitCode> {
     let refines = matches!(command, RunCommand::Refine { .. });
     let engine = open::open(store, if refines { Purpose::Measure } else { Purpose::Look }).await?;
@@ -18,6 +19,7 @@ pub async fn run(store: &Store, command: &RunCommand, json: bool) -> Result<Exit
         RunCommand::List => list(&engine, json).await.map(|()| ExitCode::SUCCESS),
         RunCommand::Show { run } => show(&engine, run, json).await.map(|()| ExitCode::SUCCESS),
         RunCommand::Refine { run } => refine(&engine, run, json).await,
+        RunCommand::Repro { run, output } => repro(&engine, run, output, json).await.map(|()| ExitCode::SUCCESS),
     };
     engine.shutdown().await;
     done
@@ -62,6 +64,18 @@ async fn list(engine: &Engine, json: bool) -> Result<()> {
 async fn show(engine: &Engine, id: &str, json: bool) -> Result<()> {
     let run = find(engine, id).await?;
     if json { output::print_json(&run) } else { output::print(&bench::table::summary(&run)) }
+}
+
+async fn repro(engine: &Engine, id: &str, path: &Path, json: bool) -> Result<()> {
+    let run = find(engine, id).await?;
+    let mut packed = engine.repro(&run.id).await?;
+    let unwritten = |e| Failure::file("write", path, &e);
+    let mut file = std::fs::File::create(path).map_err(unwritten)?;
+    let bytes = std::io::copy(&mut packed, &mut file).map_err(unwritten)?;
+    if json {
+        return output::print_json(&serde_json::json!({ "run": run.id, "file": path, "bytes": bytes }));
+    }
+    output::print(&format!("{} ({}); ocb replay {0} asks it again", path.display(), units::bytes(bytes)))
 }
 
 /// The run of that id; `latest` is the newest of the command line.

@@ -10,6 +10,7 @@
 //! count are swapped: a method may be faster one way round, and the time shall be that of the question as it was asked.
 
 use nalgebra::{Matrix3, Point3};
+use serde::{Deserialize, Serialize};
 
 use crate::configuration::Configuration;
 use crate::mesh::Mesh;
@@ -17,6 +18,8 @@ use crate::numbers::Numbers;
 use crate::pose::Pose;
 use crate::query::Answer;
 
+/// Grows when the same seed gives other instances, which a recorded run can then not be asked again as.
+pub const VERSION: u32 = 1;
 /// Scales are from 2^-3 to 2^3.
 const EXPONENTS: usize = 7;
 /// Coordinates between these magnitudes can be scaled that far, in single precision as well.
@@ -34,12 +37,21 @@ pub struct Presentation {
 }
 
 /// Which instance of a configuration within one presentation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Instance {
     /// Tells repeats apart.
     pub number: u32,
     /// Its time does not count, so the objects may be swapped.
     pub aside: bool,
+}
+
+/// As what a question of a run was put.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AskedAs {
+    /// Number of the process, whose presentation follows from the run's seed; absent: the objects as they are.
+    pub process: Option<u32>,
+    /// Which instance within it.
+    pub instance: Instance,
 }
 
 /// A question in a presentation's numbers.

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::instance::AskedAs;
 use crate::query::{Answer, Counters};
 
 /// A list of contacts compared with the complete one; pairs within the precision band are free either way.
@@ -113,6 +114,8 @@ pub struct Record {
     pub counters: Option<Counters>,
     /// The answer of the first pass, or of the first with a graver verdict.
     pub answer: Answer,
+    /// As what the question was put that `answer` answers.
+    pub asked: AskedAs,
     /// Its comparison with the truth.
     pub verdict: Verdict,
     /// For a list of contacts.

@@ -4,6 +4,7 @@ mod common;
 
 use nalgebra::Point3;
 use ocb_core::configuration::Placed;
+use ocb_core::instance::AskedAs;
 use ocb_core::oracle::{Pair, Shape, U64};
 use ocb_core::pose::Pose;
 use ocb_core::query::{Answer, Query, Semantics};
@@ -52,6 +53,7 @@ impl Ladder {
             passes: 1,
             counters: None,
             answer: answer(i),
+            asked: AskedAs::default(),
             verdict: Verdict::Correct,
             contacts: None,
             flips: 0,

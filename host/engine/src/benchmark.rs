@@ -254,7 +254,7 @@ impl Bench<'_> {
             placed: &set.placed,
             query: self.row.spec.query,
             semantics: self.row.spec.semantics,
-            coherent: matches!(set.method, Method::Trajectory { .. }),
+            coherent: measure::is_coherent(&set.method),
         };
         let algorithms = self.row.spec.algorithms.clone();
         let reference = crate::spec::reference(&self.row.spec, &self.inner.registry).map(|c| c.info.clone());

@@ -2,7 +2,8 @@
 //!
 //! Two algorithms are compared on the same pairs of objects at the same distances, on one hardware class, with the same
 //! thing delivered; what was measured on a part of that only has no place. Where several runs hold the same, the newest
-//! plugin file counts, and of its runs the one with the most configurations. Over several scenarios counts are added,
+//! plugin file counts, and of its runs the one with the most configurations (of a suite: the one judged by the newest
+//! oracle). The results of a suite are never mixed with other runs, nor with those of another version. Over several scenarios counts are added,
 //! eps* and the error of distances are the worst, and the time is the mean with every scenario asked equally often.
 
 mod family;
@@ -11,6 +12,7 @@ mod frontier;
 mod keys;
 mod picture;
 mod row;
+mod suite;
 
 use ocb_chart::Chart;
 
@@ -18,6 +20,7 @@ use crate::model::{
     Accuracy, AlgorithmResult, Board, BoardRequest, BoardRow, CellState, FamilyResult, Preview, RunSpec, SetInfo,
     Stability, StabilityPassed, StabilityTable,
 };
+use crate::suite::Suite;
 use crate::{EngineError, Result};
 
 /// A value of a filter, for programs and for people.
@@ -40,6 +43,10 @@ pub struct Measured {
     pub hardware: Named,
     /// Under all layers of the jail, so that it may be ranked.
     pub ranked: bool,
+    /// The suite that the run belongs to.
+    pub suite: Option<Named>,
+    /// Why its plugin has no place any more, if so.
+    pub standing: Option<String>,
     /// Of how many configurations these are a preview: measured, and in all.
     pub preview: Option<(u32, u64)>,
     /// The question.
@@ -54,6 +61,12 @@ pub struct Measured {
     pub plugin_sha256: String,
     /// The numbers.
     pub result: AlgorithmResult,
+}
+
+/// A suite as the filters name it.
+pub fn suite(suite: &Suite) -> Named {
+    let Suite { document, sha256, .. } = suite;
+    Named { value: document.version.to_string(), words: format!("suite {} ({})", document.version, &sha256[..12]) }
 }
 
 /// Where and when one run was measured.
@@ -86,6 +99,8 @@ impl Measured {
             finished_us: run.finished_us,
             hardware: Named { value: class.to_owned(), words: format!("{cpu} ({short})") },
             ranked: run.ranked,
+            suite: None,
+            standing: None,
             preview: run.preview.map(|preview| (preview.n, preview.of)),
             question: keys::question(run.spec),
             scene: keys::scene(run.spec, run.names),
@@ -101,17 +116,19 @@ impl Measured {
 ///
 /// # Errors
 /// `Invalid` when the precision that is asked for is neither a word nor a number that makes sense.
-pub fn board(measured: Vec<Measured>, request: &BoardRequest) -> Result<Board> {
+pub fn board(measured: Vec<Measured>, request: &BoardRequest, suites: &[Suite]) -> Result<Board> {
     let needed = Needed::parse(request.precision.as_deref())?;
     let results = measured.len() as u32;
     let (left, mut filters) = filter::narrowed(measured, request);
-    let mut rows = row::rows(&left);
+    let expected = suite::expected(suites, &filters);
+    let mut rows = row::rows(&left, expected.as_ref().map_or(&[], |(_, scenarios)| scenarios));
+    let suite = expected.and_then(|(suite, scenarios)| suite::shown(suite, scenarios.len(), &left));
     let precision = filter::precise(&mut rows, &needed, request.precision.as_deref());
     filters.push(precision);
     frontier::place(&mut rows, request.accuracy);
     let finding = frontier::finding(&rows);
     let chart = picture::chart(&rows, request.accuracy, "board", &finding);
-    Ok(Board { filters, results, rows, finding, chart })
+    Ok(Board { filters, results, suite, rows, finding, chart })
 }
 
 /// Speed against accuracy of the algorithms of one run, each contract class with a frontier of its own. Among themselves
@@ -121,7 +138,7 @@ pub fn of_run(measured: &[Measured], accuracy: Accuracy) -> Chart {
     for class in filter::classes(measured) {
         let members = measured.iter().filter(|m| m.result.class == class);
         let members: Vec<Measured> = members.map(|m| Measured { preview: None, ..m.clone() }).collect();
-        let mut own = row::rows(&members);
+        let mut own = row::rows(&members, &[]);
         frontier::place(&mut own, accuracy);
         rows.append(&mut own);
     }

@@ -3,6 +3,7 @@
 //! The meaning of each column, its unit and its frame stand in `host/README.md`; the file itself carries the schema
 //! version, the run, the hardware class and the plugin's hash as key-value metadata.
 
+mod answers;
 mod board;
 mod charts;
 mod csv;
@@ -25,12 +26,13 @@ use parquet::file::properties::WriterProperties;
 
 use crate::{EngineError, Result};
 
+pub use answers::{AnswerRow, Flat, read_answers};
 pub use board::board_parquet;
 pub use charts::chart_parquet;
 pub use csv::csv;
 pub use ipc::{Numbers, stream};
 pub use records::{RecordColumns, RecordsOf, read_records, records_parquet};
-pub use sets::{SetOf, read_poses, read_set, set_parquet};
+pub use sets::{SetOf, read_poses, read_set, set_parquet, set_versions};
 pub use truths::{contacts_parquet, truths_parquet};
 
 /// Version of the columns; grows when a column changes its meaning.

@@ -21,6 +21,8 @@ pub struct EngineConfig {
     pub profile: Profile,
     /// Folder with `bunny.obj` and `dragon.obj`, each with its terms in `<name>.terms`.
     pub stock_dir: Option<PathBuf>,
+    /// The file of the suite to measure public plugins on; the newest that ships when absent.
+    pub suite: Option<PathBuf>,
     /// Work on the queue. Off for commands that only read.
     pub dispatch: bool,
     /// Queue a quick run for the start page when there is none yet.
@@ -44,6 +46,7 @@ impl EngineConfig {
             plugins: vec![folder],
             profile: Profile::Production,
             stock_dir: None,
+            suite: None,
             dispatch: true,
             featured: false,
             guest_days: 30,

@@ -6,7 +6,7 @@ use std::time::Duration;
 use tokio::runtime::Handle;
 
 use crate::benchmark::{self, End};
-use crate::engine::Inner;
+use crate::engine::{INTERACTIVE, Inner};
 use crate::measure::Stop;
 use crate::model::State;
 use crate::runlog::plain_event;
@@ -113,10 +113,11 @@ async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
     announce(inner).await
 }
 
-/// Tells those who wait how many are ahead of them.
+/// Tells those who wait how many are ahead of them; nobody waits for what the service wants for itself, which comes last.
 pub async fn announce(inner: &Inner) -> Result<()> {
     let running = inner.store.running().await?.len() as u32;
-    for (ahead, run) in (running..).zip(inner.store.queued().await?) {
+    let queued = inner.store.queued().await?;
+    for (ahead, run) in (running..).zip(queued.iter().filter(|run| run.priority <= INTERACTIVE)) {
         inner.bell.tell(&inner.store, &run.id, plain_event(State::Queued, ahead)).await?;
     }
     Ok(())

@@ -3,20 +3,28 @@
 mod advice;
 mod archive;
 mod charts;
+mod citations;
 mod featured;
 mod follow;
+mod invitations;
 mod people;
 mod plugins;
+mod quotas;
+mod repro;
+mod requests;
 mod runs;
 mod selecting;
 mod sets;
 mod stability;
+mod standing;
+mod suite;
 mod things;
 mod visibility;
 
 pub use charts::{board_csv, chart_csv, chart_parquet};
 pub use people::SESSION;
 pub use plugins::{MAX_PLUGIN_BYTES, conflict};
+pub use requests::Made;
 pub use sets::SetJob;
 
 use std::fs::File;
@@ -34,6 +42,7 @@ use tokio::task::JoinHandle;
 
 use crate::advice::Advices;
 use crate::blobs::Blobs;
+use crate::boxed;
 use crate::cache::Cache;
 use crate::columns::RecordColumns;
 use crate::machine::{Machine, lock_data_folder};
@@ -46,6 +55,7 @@ use crate::registry::{Extent, Registry, check_plugin};
 use crate::results::Format;
 use crate::runlog::Bell;
 use crate::store::Store;
+use crate::suite::Suite;
 use crate::{EngineConfig, EngineError, Result, configurations, dispatcher, estimate, spec};
 
 /// Priority of what somebody waits for.
@@ -72,6 +82,10 @@ pub struct Inner {
     pub registry: Registry,
     pub machine: Machine,
     pub bell: Bell,
+    /// What public plugins are measured on.
+    pub suite: Suite,
+    /// Held while it is found out what of the suite is missing, until that is in the queue.
+    planning: tokio::sync::Mutex<()>,
     /// Rung when the queue has something new.
     pub wake: Notify,
     /// The run at work and how it is stopped.
@@ -110,6 +124,7 @@ impl Engine {
     /// # Errors
     /// [`EngineError::Busy`] when another process has this folder open; `Fault` when folder, database, blob storage or
     /// runner cannot be used.
+    #[boxed]
     pub async fn open(config: EngineConfig) -> Result<Self> {
         std::fs::create_dir_all(&config.data).map_err(|e| {
             EngineError::Fault(format!("The data folder {} cannot be made: {e}.", config.data.display()))
@@ -118,10 +133,13 @@ impl Engine {
         let store = Store::open(&config.data, config.database_url.as_deref()).await?;
         let blobs = Blobs::open(&config.data, config.blob_url.as_deref())?;
         let registry = Registry::open(&config, &store).await?;
+        let suite = Suite::open(config.suite.as_deref())?;
         let inner = Arc::new(Inner {
             objects: Objects::new(store.clone(), blobs.clone(), config.stock_dir.clone()),
             machine: Machine::observe()?,
             bell: Bell::new(),
+            suite,
+            planning: tokio::sync::Mutex::default(),
             wake: Notify::new(),
             current: Mutex::new(None),
             sets: Cache::new(4),
@@ -144,6 +162,7 @@ impl Engine {
             dispatcher::recover(&engine.inner).await?;
             engine.recover_advice().await?;
             engine.feature_a_run().await?;
+            engine.catch_up_with_the_suite().await?;
             engine.inner.spawn(dispatcher::work(engine.inner.clone()));
             engine.inner.spawn(engine.clone().sweep());
         }
@@ -152,6 +171,7 @@ impl Engine {
 
     /// Stops working: a run under way goes back into the queue; when this returns, everything known is on disk and another
     /// engine may open the folder, whoever still holds a handle of this one.
+    #[boxed]
     pub async fn shutdown(&self) {
         self.inner.closing.store(true, Ordering::SeqCst);
         self.inner.stop_current(None);
@@ -168,6 +188,7 @@ impl Engine {
     }
 
     /// The service at a glance.
+    #[boxed]
     pub async fn status(&self) -> Result<Status> {
         Ok(Status {
             version: env!("CARGO_PKG_VERSION").into(),
@@ -181,27 +202,33 @@ impl Engine {
 
     /// Stock objects in front of the first part, then those that the viewer added and the public ones of others, newest
     /// first.
+    #[boxed]
     pub async fn objects(&self, viewer: Option<&str>, page: &Page) -> Result<Part<ObjectInfo>> {
         self.inner.objects.list(viewer, page).await
     }
 
     /// One object by id (`stock:NAME@TRIANGLES`, `stock:bunny`, `stock:dragon` or a UUID).
+    #[boxed]
     pub async fn object(&self, id: &str, viewer: Option<&str>) -> Result<ObjectInfo> {
         self.inner.objects.info_for(id, viewer).await
     }
 
     /// Reads an OBJ file and keeps its mesh; the same mesh of the same owner is kept once. Nothing is kept on error.
+    #[boxed]
     pub async fn add_object(&self, name: &str, bytes: Vec<u8>, owner: Option<&str>) -> Result<ObjectInfo> {
+        self.has_room_for_an_object(owner, bytes.len()).await?;
         self.inner.objects.add(name, bytes, owner).await
     }
 
     /// The mesh of an object.
+    #[boxed]
     pub async fn mesh(&self, id: &str) -> Result<Arc<Mesh>> {
         self.inner.objects.mesh(id).await
     }
 
     /// Keeps a file of configurations (a Parquet set of ours, JSON, CSV or raw f64 matrices) and gives the method that
     /// names it in a [`RunSpec`].
+    #[boxed]
     pub async fn add_configurations(&self, bytes: Vec<u8>) -> Result<Method> {
         let bytes = blocking(move || configurations::read_file(&bytes).map(|_| bytes)).await?;
         let length = bytes.len();
@@ -219,6 +246,7 @@ impl Engine {
     /// Checks a plugin file: format, loading in the jail, ABI, descriptor, answers on smoke configurations.
     ///
     /// What is wrong with the plugin is in the report; an error means that the check itself could not be made.
+    #[boxed]
     pub async fn check_plugin(&self, file: &Path, extent: Extent) -> Result<PluginReport> {
         let (runner, file, profile) = (self.inner.config.runner.clone(), file.to_owned(), self.inner.config.profile);
         // A thread of its own: a jail ends with the thread that started it.
@@ -228,6 +256,7 @@ impl Engine {
     }
 
     /// Number of configurations, expected time and wait of a run that is not asked for yet; checks the spec as `submit`.
+    #[boxed]
     pub async fn estimate(&self, spec: &RunSpec, viewer: Option<&str>) -> Result<Estimate> {
         estimate::estimate(&self.inner, &self.check(spec, viewer).await?).await
     }
@@ -238,11 +267,13 @@ impl Engine {
     }
 
     /// Values on the vertices of one object of the run.
+    #[boxed]
     pub async fn heatmap(&self, run: &str, request: &HeatmapRequest) -> Result<Heatmap> {
         self.inner.heatmap(run, request).await
     }
 
     /// The coloured object as glTF binary, with the raw values.
+    #[boxed]
     pub async fn heatmap_glb(
         &self,
         run: &str,
@@ -254,6 +285,7 @@ impl Engine {
     }
 
     /// The coloured object as PLY, with the raw values.
+    #[boxed]
     pub async fn heatmap_ply(
         &self,
         run: &str,
@@ -265,21 +297,25 @@ impl Engine {
     }
 
     /// Distribution of the time per query of one algorithm, over all configurations or those that a selection holds.
+    #[boxed]
     pub async fn ecdf(&self, run: &str, algorithm: &str, selection: Option<&str>) -> Result<Ecdf> {
         self.inner.ecdf(run, algorithm, selection).await
     }
 
     /// The records of one algorithm as Parquet.
+    #[boxed]
     pub async fn records_parquet(&self, run: &str, algorithm: &str) -> Result<Vec<u8>> {
         self.inner.records_parquet(run, algorithm).await
     }
 
     /// The records of one algorithm as CSV with a header line.
+    #[boxed]
     pub async fn records_csv(&self, run: &str, algorithm: &str) -> Result<Vec<u8>> {
         self.inner.records_csv(run, algorithm).await
     }
 
     /// The run's configuration set with its truth as Parquet.
+    #[boxed]
     pub async fn configurations_parquet(&self, run: &str) -> Result<Vec<u8>> {
         self.inner.configurations_parquet(run).await
     }

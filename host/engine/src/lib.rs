@@ -24,18 +24,25 @@ pub mod model;
 mod objects;
 mod passwords;
 mod registry;
+mod replay;
 mod results;
 mod runlog;
 mod signature;
 mod spec;
 pub mod stability;
 mod store;
+pub mod suite;
 pub mod truth;
 
+/// An asynchronous function whose future comes in a box. All that others call are such: the machine behind a future is
+/// compiled where it is polled, and so the whole engine once more for every program around it.
+pub(crate) use async_recursion::async_recursion as boxed;
+pub use blobs::sha256_hex;
 pub use config::{EngineConfig, Profile};
-pub use engine::{Engine, MAX_PLUGIN_BYTES, SESSION, SetJob, board_csv, chart_csv, chart_parquet};
+pub use engine::{Engine, MAX_PLUGIN_BYTES, Made, SESSION, SetJob, board_csv, chart_csv, chart_parquet};
 pub use error::{EngineError, Result};
 pub use measure::Stop;
 pub use ocb_chart as chart;
 pub use ocb_sandbox::doctor;
 pub use registry::Extent;
+pub use replay::Unpacked;

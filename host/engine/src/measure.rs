@@ -20,7 +20,7 @@ use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use ocb_core::configuration::{ConfigurationSet, Method, Placed};
+use ocb_core::configuration::{Configuration, ConfigurationSet, Method, Placed};
 use ocb_core::instance::Presentation;
 use ocb_core::mesh::Mesh;
 use ocb_core::numbers::Numbers;
@@ -149,9 +149,8 @@ pub enum News {
 const STEAL: f64 = 0.001;
 
 impl Task<'_> {
-    /// The order is part of what is measured: each configuration is near the one before.
     fn coherent(&self) -> bool {
-        matches!(self.set.method, Method::Trajectory { .. })
+        is_coherent(&self.set.method)
     }
 }
 
@@ -244,13 +243,33 @@ impl Task<'_> {
     /// The same for all algorithms in their processes of this number.
     fn instance(&self, process: u32) -> Presentation {
         let configurations = self.set.placed.iter().map(|placed| &placed.configuration);
-        let seed = self.process_seed(process);
-        Presentation::drawn(self.mesh_a, self.second(), configurations, self.coherent(), seed)
+        shown(self.mesh_a, self.second(), configurations, self.coherent(), self.seed, process)
     }
 
     fn process_seed(&self, process: u32) -> u64 {
-        Numbers::new(self.seed ^ (u64::from(process) << 40)).bits()
+        process_seed(self.seed, process)
     }
+}
+
+/// How the processes of this number in a run of this seed see the objects; `b` is absent when both are one.
+pub fn shown<'c>(
+    a: &Mesh,
+    b: Option<&Mesh>,
+    configurations: impl Iterator<Item = &'c Configuration>,
+    coherent: bool,
+    seed: u64,
+    process: u32,
+) -> Presentation {
+    Presentation::drawn(a, b, configurations, coherent, process_seed(seed, process))
+}
+
+fn process_seed(seed: u64, process: u32) -> u64 {
+    Numbers::new(seed ^ (u64::from(process) << 40)).bits()
+}
+
+/// The order of what this method finds is part of what is measured: each configuration is near the one before.
+pub fn is_coherent(method: &Method) -> bool {
+    matches!(method, Method::Trajectory { .. })
 }
 
 /// An outcome for the pages.

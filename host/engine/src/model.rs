@@ -5,17 +5,22 @@
 mod advice;
 mod board;
 mod chart;
+mod citation;
 mod contract;
 mod environment;
+mod estimate;
 mod heatmap;
+mod invitation;
 mod object;
 mod page;
 mod people;
 mod plugin;
 mod preview;
+mod replay;
 mod selecting;
 mod stability;
 mod submission;
+mod suite;
 mod things;
 mod timing;
 mod truth;
@@ -32,9 +37,12 @@ use utoipa::ToSchema;
 pub use advice::{AdviceInfo, AdviceSpec, Asked};
 pub use board::{Accuracy, Board, BoardFilter, BoardOption, BoardRequest, BoardRow, StabilityPassed};
 pub use chart::{ChartKind, ChartRequest};
+pub use citation::Citation;
 pub use contract::{ContractClass, Delivered, Order};
 pub use environment::Environment;
+pub use estimate::{AlgorithmSeconds, Estimate};
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
+pub use invitation::{Acceptance, InvitationInfo, InvitationRequest, InvitationState, NewInvitation};
 pub use object::ObjectInfo;
 pub use page::{Cursor, Page, Part};
 pub use people::{
@@ -43,12 +51,14 @@ pub use people::{
 };
 pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport, Repro};
 pub use preview::{Beside, Preview};
+pub use replay::{Difference, Recipe, RecipeAlgorithm, RecipeFile, RecipeObject, RecipeVersions, Replay, Replayed};
 pub use selecting::{Meeting, Selected, SelectedOf, WorstBy, WorstCase, WorstRequest};
 pub use stability::{
     CellState, FailingCase, FailureInfo, FailureResult, FamilyInfo, FamilyResult, RelationInfo, RelationResult,
     RelationStep, SearchResult, Stability, StabilityTable, StepResult, Tally, TessellationResult, ThresholdInfo,
 };
 pub use submission::{Action, Decision, Manifest, PluginInfo, PluginState};
+pub use suite::{BoardSuite, SuiteInfo, SuiteProgress};
 pub use things::{Thing, Things};
 pub use timing::{Draw, Reference, Timing, TimingCheck};
 pub use truth::{ContactRow, TruthRow};
@@ -143,36 +153,6 @@ fn default_passes() -> u32 {
 
 fn default_budget() -> f64 {
     60.0
-}
-
-/// What a run would cost.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct Estimate {
-    /// Number of configurations.
-    pub configurations: u64,
-    /// The set is stored already.
-    pub configurations_stored: bool,
-    /// Expected seconds to find and certify the configurations.
-    pub configuration_seconds: f64,
-    /// Expected seconds per algorithm.
-    pub measuring_seconds: Vec<AlgorithmSeconds>,
-    /// All together, without waiting.
-    pub total_seconds: f64,
-    /// Runs ahead in the queue.
-    pub runs_ahead: u32,
-    /// Expected seconds until those are done.
-    pub wait_seconds: f64,
-}
-
-/// Seconds of one algorithm.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct AlgorithmSeconds {
-    /// Algorithm id.
-    pub algorithm: String,
-    /// Seconds.
-    pub seconds: f64,
-    /// Expected to be cut by the budget.
-    pub budget_limited: bool,
 }
 
 /// State of a run or of a stage.

@@ -157,6 +157,30 @@ impl Registry {
         }
     }
 
+    /// The algorithms of the plugin file with this hash that are offered here, to whomever.
+    pub fn of_file(&self, sha256: &str) -> Vec<Arc<Contestant>> {
+        let brought = self.brought();
+        let all = self.contestants.iter().chain(brought.iter().map(|b| &b.contestant));
+        all.filter(|c| c.info.plugin_sha256 == sha256).cloned().collect()
+    }
+
+    /// The algorithms of a file that somebody gives us and that is offered to nobody.
+    pub async fn foreign(&self, file: &Path, sha256: &str) -> Result<Vec<Arc<Contestant>>> {
+        let described = self.described(file, sha256, false).await?;
+        Ok(described.into_iter().map(|info| Arc::new(Contestant::plain(info, file.to_owned(), false))).collect())
+    }
+
+    /// The one among these that is meant by the name that a run knew it by, which may carry a version and settings.
+    pub fn chosen_of(&self, known: &[Arc<Contestant>], name: &str) -> Result<Option<Contestant>> {
+        let (id, settings) = name.split_once(':').map_or((name, None), |(id, settings)| (id, Some(settings)));
+        let id = id.split('@').next().unwrap_or(id);
+        let plain = known.iter().find(|c| c.algorithm == id);
+        match (plain, settings) {
+            (Some(plain), Some(settings)) => choice::with_settings(plain, settings).map(Some),
+            (plain, _) => Ok(plain.map(|plain| Contestant::clone(plain))),
+        }
+    }
+
     /// A launcher for this plugin under the given policy; only our own plugins may run under a weaker jail.
     pub fn launcher(&self, contestant: &Contestant, policy: Policy) -> Launcher {
         Launcher::new(self.runner.clone(), Policy { trusted: contestant.trusted, profile: self.profile, ..policy })
@@ -170,18 +194,7 @@ impl Registry {
         let algorithms = match store.described(&sha256).await {
             Ok(Some(known)) => known,
             _ => {
-                let policy = Policy { trusted, profile: self.profile, ..Policy::default() };
-                let alone = Launcher::new(self.runner.clone(), policy.clone());
-                // What is made for several threads may need a library that is for their track only.
-                let threaded = Launcher::new(self.runner.clone(), Policy { threads: 2, ..policy });
-                let (path, hash) = (file.to_owned(), sha256.clone());
-                let described = blocking(move || {
-                    let refused =
-                        |first: Ending| threaded.describe(&path).map_err(|_| EngineError::Invalid(first.to_string()));
-                    let descriptors = alone.describe(&path).or_else(refused)?;
-                    Ok(descriptors.into_iter().map(|d| info(d, &hash)).collect::<Vec<_>>())
-                })
-                .await?;
+                let described = self.described(file, &sha256, trusted).await?;
                 store.keep_description(&sha256, &described).await?;
                 described
             }
@@ -191,6 +204,21 @@ impl Registry {
             Contestant::plain(info, file.to_owned(), trusted)
         };
         Ok(algorithms.into_iter().map(contestant).collect())
+    }
+
+    /// What the file with this hash says of itself, asked in the jail.
+    async fn described(&self, file: &Path, sha256: &str, trusted: bool) -> Result<Vec<AlgorithmInfo>> {
+        let policy = Policy { trusted, profile: self.profile, ..Policy::default() };
+        let alone = Launcher::new(self.runner.clone(), policy.clone());
+        // What is made for several threads may need a library that is for their track only.
+        let threaded = Launcher::new(self.runner.clone(), Policy { threads: 2, ..policy });
+        let (path, hash) = (file.to_owned(), sha256.to_owned());
+        blocking(move || {
+            let refused = |first: Ending| threaded.describe(&path).map_err(|_| EngineError::Invalid(first.to_string()));
+            let descriptors = alone.describe(&path).or_else(refused)?;
+            Ok(descriptors.into_iter().map(|d| info(d, &hash)).collect())
+        })
+        .await
     }
 }
 
@@ -206,7 +234,7 @@ pub fn plugin_hash(file: &Path) -> Result<String> {
 }
 
 /// The bytes of a plugin file that is at least an ELF file.
-fn read_plugin(file: &Path) -> Result<Vec<u8>> {
+pub fn read_plugin(file: &Path) -> Result<Vec<u8>> {
     // Its folder is nobody's business who reads a report.
     let shown = file.file_name().unwrap_or_default().display();
     let bad = |why: String| EngineError::Invalid(format!("{shown} is no plugin: {why}."));

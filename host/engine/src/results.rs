@@ -303,7 +303,8 @@ impl Heatmap {
     }
 }
 
-fn not_yet(run: &str) -> EngineError {
+/// Nothing is known of the run's configurations yet.
+pub fn not_yet(run: &str) -> EngineError {
     EngineError::NotFound(format!("The run {run:?} has no configurations yet; wait until they are found."))
 }
 

@@ -7,14 +7,17 @@ mod accounts;
 mod advice;
 mod audit;
 mod blobs;
+mod invitations;
 mod objects;
 mod plugins;
 mod queue;
+mod requests;
 mod results;
 mod runs;
 mod sets;
 mod stability;
 mod submissions;
+mod suites;
 #[cfg(test)]
 mod tests;
 mod things;
@@ -33,6 +36,7 @@ use crate::{EngineError, Result};
 
 pub use advice::{AdviceRow, StoredPaper};
 pub use audit::Note;
+pub use requests::Request;
 pub use results::StoredResult;
 pub use runs::RunRow;
 pub use submissions::{SubmissionRow, THE_SERVICE};
@@ -100,6 +104,9 @@ fn migrations() -> Migrator {
         one(9, "request keys", include_str!("../migrations/0009_request_keys.sql")),
         one(10, "visibility", include_str!("../migrations/0010_visibility.sql")),
         one(11, "retention", include_str!("../migrations/0011_retention.sql")),
+        one(12, "suite", include_str!("../migrations/0012_suite.sql")),
+        one(13, "invitations", include_str!("../migrations/0013_invitations.sql")),
+        one(14, "requests", include_str!("../migrations/0014_requests.sql")),
     ])
 }
 

@@ -36,7 +36,7 @@ fn winner(run: &RunInfo) -> &str {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn the_winner_of_a_part_is_that_of_the_whole() {
-    let repetitions: u32 = std::env::var("OCB_REPETITIONS").map_or(5, |n| n.parse().expect("a number"));
+    let repetitions: u32 = std::env::var("OCB_REPETITIONS").map_or(3, |n| n.parse().expect("a number"));
     let data = tempfile::tempdir().unwrap();
     let engine = Engine::open(common::config(data.path())).await.unwrap();
     let whole = spec(12_000, &["box-tree", "box-tree:leaf_size=16", "box-tree:leaf_size=32"]);

@@ -33,8 +33,8 @@ fn main() {
 fn spec() -> RunSpec {
     RunSpec {
         algorithms: vec!["box-tree".into(), "parry".into()],
-        budget_seconds: 6.0,
-        ..common::spec("proximity", 3000, 11)
+        budget_seconds: 2.0,
+        ..common::spec("proximity", 1500, 11)
     }
 }
 

@@ -96,12 +96,18 @@ async fn a_small_budget_measures_the_same_prefix_and_says_so() {
     spec.algorithms = vec!["brute-force".into()];
     spec.relative_distance = 0.05;
     spec.budget_seconds = 0.05;
-    let run = engine.submit(spec, Some("guest")).await.unwrap();
+    let run = engine.submit(spec.clone(), Some("guest")).await.unwrap();
     let (run, _) = common::finish(&engine, &run.id).await;
     let result = &run.results[0];
     assert!(result.budget_limited && 0 < result.n && result.n < result.of, "{} of {}", result.n, result.of);
     assert!(run.stages[2].message.as_deref().is_some_and(|m| m.contains(&format!("{} of {}", result.n, result.of))));
     assert_eq!(run.state, State::Done);
+
+    spec.budget_seconds = 1e-6;
+    let run = engine.submit(spec, Some("guest")).await.unwrap();
+    let (run, _) = common::finish(&engine, &run.id).await;
+    assert_eq!((run.state, run.results[0].n), (State::Failed, 0));
+    assert!(run.message.as_deref().is_some_and(|m| m.contains("time budget")), "{:?}", run.message);
     engine.shutdown().await;
 }
 

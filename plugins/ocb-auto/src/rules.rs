@@ -57,19 +57,17 @@ pub struct Rule<'a> {
     pub reason: &'a str,
 }
 
-const SURFACES: &[Query] = &[Query::Collision, Query::Contacts];
-
 /// The first one that fits is taken; where none does, `ocb-fast`. The bounds are those that `benches/regret` found best.
 pub const RULES: [Rule<'static>; 3] = [
     Rule {
-        queries: SURFACES,
+        queries: &[Query::Collision, Query::Contacts],
         when: &[Condition::Above(Feature::Clearance, 0.0)],
         choice: Choice::Nothing,
         reason: "balls around the objects do not meet, so that nothing in them does",
     },
     Rule {
-        queries: SURFACES,
-        when: &[Condition::Above(Feature::SizeRatio, 6.0), Condition::Below(Feature::CountRatio, 64.0)],
+        queries: &[Query::Collision],
+        when: &[Condition::Above(Feature::SizeRatio, 15.0), Condition::Below(Feature::CountRatio, 64.0)],
         choice: Choice::SimDop,
         reason: "ocb-fast opens both nodes at once, and all children of a small one meet what one of them meets; simdop asks \
                  for a node as a whole first, if the trees are of like height",

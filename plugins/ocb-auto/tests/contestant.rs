@@ -33,8 +33,8 @@ fn each_rule_has_its_configurations() {
     assert_eq!(chosen(&at(4.0), 1.0, 1), [nothing, nothing, fast]);
     assert_eq!(chosen(&at(2.2), 1.0, 1), [fast; 3]);
     assert_eq!(chosen(&at(0.5), 1.0, 1), [fast, fast, Choice::CollisionFirst]);
-    assert_eq!(chosen(&at(1.2), 0.1, 1), [simdop, simdop, fast]);
-    assert_eq!(chosen(&at(1.2), 0.1, 100), [fast; 3]);
+    assert_eq!(chosen(&at(1.1), 0.05, 1), [simdop, fast, fast]);
+    assert_eq!(chosen(&at(1.1), 0.05, 100), [fast; 3]);
 }
 
 /// A ball is no reason to miss a contact, however large the numbers are.

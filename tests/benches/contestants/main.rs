@@ -121,6 +121,12 @@ async fn measure(
         Some(poses) => (engine.add_configurations(fs::read(poses)?).await?, 0.0, None),
         None => (Method::Sphere { sampling: Sampling::Count { count: wish.count }, seed: 0 }, relative_distance, step),
     };
+    // Who does not answer this question is not asked it.
+    let known = engine.algorithms(None);
+    let answers = |wanted: &String| {
+        let name = wanted.split(':').next();
+        known.iter().all(|one| Some(one.id.as_str()) != name || one.queries.contains(&query))
+    };
     let spec = RunSpec {
         object_a: id,
         object_b: None,
@@ -130,7 +136,7 @@ async fn measure(
         relative_distance,
         step,
         ladder: false,
-        algorithms: wish.algorithms.clone(),
+        algorithms: wish.algorithms.iter().filter(|wanted| answers(wanted)).cloned().collect(),
         passes: 5,
         budget_seconds: wish.seconds,
         seed: None,

@@ -34,9 +34,9 @@ async function taken(v, id) {
 test('the board compares what was measured, filters it, and can be linked and taken away', async (t) => {
   const v = await visitor(t, { width: 1440 })
   const id = await measure(v, knot({ ladder: true }))
-  await v.go('/board?question=collision_first&scene=torus-knot@600~torus-knot@600')
+  await v.go('/board?suite=none&question=collision_first&scene=torus-knot@600~torus-knot@600')
   await v.at('board-table').waitFor()
-  const query = 'question=collision_first&scene=torus-knot@600~torus-knot@600'
+  const query = 'suite=none&question=collision_first&scene=torus-knot@600~torus-knot@600'
   const board = await v.api(`/board?${query}`)
   await same(v.page, board.chart)
   assert.equal(await v.at('finding').textContent(), board.finding)
@@ -56,6 +56,11 @@ test('the board compares what was measured, filters it, and can be linked and ta
     if (row.wrong > 0) assert.equal(row.rank ?? null, null, `${row.algorithm} was wrong and has no place`)
   }
   assert.ok(board.rows.some(({ wrong }) => wrong > 0), 'what approximates is wrong somewhere on the ladder')
+
+  // These are runs of people, and the page says so; what the suite asks stands beside it.
+  await v.at('board-people').waitFor()
+  await v.page.getByText(/What suite \d+ asks/).click()
+  assert.match(await v.page.locator('section[aria-label=Suite] dl').textContent(), /torus-knot@4000 against itself/)
 
   for (const width of [390, 1280, 1440]) {
     for (const scheme of ['light', 'dark']) {
@@ -88,7 +93,7 @@ test('the board compares what was measured, filters it, and can be linked and ta
   assert.equal(JSON.parse(await taken(v, 'chart-json')).rows.length, board.rows.length)
 
   // A filter that leaves nothing says which it was and how to go on.
-  await v.go('/board?scene=no~such')
+  await v.go('/board?suite=none&scene=no~such')
   await v.at('empty').waitFor()
   await v.accessible('an empty board')
   await v.picture('board-empty')

@@ -1,7 +1,8 @@
 //! What the board makes of given results.
 
-use ocb_engine::board::{Measured, Named, add_stability, board};
+use ocb_engine::board::{self, Measured, Named, add_stability, board};
 use ocb_engine::model::{Accuracy, Board, BoardRequest, BoardRow, Tally};
+use ocb_engine::suite::Suite;
 use serde_json::{Value, json};
 
 fn named(value: &str) -> Named {
@@ -29,6 +30,8 @@ fn measured(algorithm: &str, mean_ns: f64, n: u32, verdicts: &[(&str, u32)]) -> 
         finished_us: 1_000,
         hardware: named("this"),
         ranked: true,
+        suite: None,
+        standing: None,
         preview: None,
         question: named("collision_first"),
         scene: named("a~a"),
@@ -59,7 +62,7 @@ fn five() -> Vec<Measured> {
 
 fn ask(measured: Vec<Measured>, request: &Value) -> Board {
     let request: BoardRequest = serde_json::from_value(request.clone()).expect("a request");
-    board(measured, &request).expect("a board")
+    board(measured, &request, &[suite()]).expect("a board")
 }
 
 fn row<'a>(board: &'a Board, algorithm: &str) -> &'a BoardRow {
@@ -165,7 +168,7 @@ fn one_class_one_machine_one_scene_unless_asked_and_filters_say_what_they_took()
     let removed: Vec<(&str, u32)> = board.filters.iter().map(|f| (f.name.as_str(), f.removed)).collect();
     assert_eq!(
         removed,
-        [("question", 0), ("class", 1), ("hardware", 1), ("scene", 0), ("distance", 1), ("precision", 0)]
+        [("suite", 0), ("question", 0), ("class", 1), ("hardware", 1), ("scene", 0), ("distance", 1), ("precision", 0)]
     );
     assert_eq!(board.results, 8);
     assert_eq!(row(&board, "parry").rate.map(|r| r.value.round()), Some(250_000.0));
@@ -194,11 +197,97 @@ fn the_newest_plugin_counts_and_of_its_runs_the_largest() {
     assert_eq!((parry.n, parry.finished_us), (300, 2_000));
 }
 
+/// Two scenes of 500 triangles at two distances, first contact only.
+fn suite() -> Suite {
+    let document = json!({
+        "version": 7, "scenes": [["stock:box@500", "stock:box@500"], ["stock:box@500", "stock:sphere@500"]],
+        "separations": [{ "kind": "relative", "distance": 0.1 }, { "kind": "ladder" }], "queries": ["collision_first"],
+        "configurations": 10, "seed": 1, "passes": 3, "budget_seconds": 1.0,
+    });
+    Suite::read(&document.to_string()).expect("a suite")
+}
+
+/// Results of one algorithm in every scenario of the suite.
+fn in_suite(algorithm: &str, plugin: &str, mean_ns: f64, finished_us: i64) -> Vec<Measured> {
+    let scenarios = [
+        ("box@500~box@500", "0.1"),
+        ("box@500~box@500", "ladder"),
+        ("box@500~sphere@500", "0.1"),
+        ("box@500~sphere@500", "ladder"),
+    ];
+    let one = |(scene, distance)| Measured {
+        suite: Some(board::suite(&suite())),
+        scene: named(scene),
+        distance: named(distance),
+        plugin_sha256: plugin.into(),
+        finished_us,
+        ..measured(algorithm, mean_ns, 10, &[])
+    };
+    scenarios.map(one).into()
+}
+
+#[test]
+fn a_suite_is_a_whole_and_never_mixed_with_the_runs_of_people() {
+    let mut all = [five(), in_suite("box-tree", "p", 1_000.0, 5), in_suite("parry", "p", 2_000.0, 9)].concat();
+    all.extend(in_suite("dop-tree", "p", 500.0, 7).into_iter().take(3));
+    let shown = ask(all.clone(), &json!({}));
+    let chosen: Vec<(&str, &str)> =
+        shown.filters.iter().map(|f| (f.name.as_str(), f.chosen.as_str())).take(5).collect();
+    assert_eq!(chosen[0], ("suite", "7"));
+    assert_eq!(chosen[3..], [("hardware", "this"), ("scene", "all")]);
+    let ranks: Vec<_> =
+        shown.rows.iter().map(|row| (row.algorithm.as_str(), row.rank, row.scenarios, row.of)).collect();
+    assert_eq!(ranks, [("box-tree", Some(1), 4, 4), ("parry", Some(2), 4, 4), ("dop-tree", None, 3, 4)]);
+    let told = shown.suite.expect("it says which suite");
+    assert_eq!((told.version, told.scenarios, told.hardware.as_str()), (7, 4, "this"));
+    assert_eq!((told.oldest_us, told.newest_us, told.sha256), (5, 9, suite().sha256));
+    // Where only some were measured, all of the suite is missing, not what others have.
+    let alone = ask(in_suite("dop-tree", "p", 500.0, 7).into_iter().take(3).collect(), &json!({}));
+    assert!(row(&alone, "dop-tree").reason.as_deref().is_some_and(|why| why.contains("3 of 4 scenarios")));
+    let one = ask(all.clone(), &json!({ "scene": "box@500~sphere@500", "distance": "0.1" }));
+    assert_eq!((row(&one, "parry").of, one.suite.map(|s| s.scenarios)), (1, Some(1)));
+    // The runs of people are one filter away.
+    let people = ask(all, &json!({ "suite": "none" }));
+    assert_eq!((people.rows.len(), people.suite, people.filters[0].removed), (5, None, 11));
+}
+
+#[test]
+fn a_new_version_of_a_plugin_is_not_completed_by_results_of_the_old_one() {
+    let new = in_suite("parry", "new", 500.0, 9).into_iter().take(1);
+    let board = ask(in_suite("parry", "old", 2_000.0, 5).into_iter().chain(new).collect(), &json!({}));
+    let parry = row(&board, "parry");
+    assert_eq!((parry.plugin_sha256.as_str(), parry.scenarios, parry.rank), ("new", 1, None));
+}
+
+#[test]
+fn what_another_oracle_judged_again_counts_though_it_has_fewer_configurations() {
+    let mut all = in_suite("parry", "p", 1_000.0, 5);
+    let again = |old: &Measured| Measured { oracle: Some(5), finished_us: 9, ..old.clone() };
+    let mut renewed = again(&all[0]);
+    renewed.result.n = 8;
+    all.push(renewed);
+    let board = ask(all, &json!({}));
+    assert_eq!((row(&board, "parry").n, row(&board, "parry").oracle), (38, Some(4)));
+}
+
+#[test]
+fn who_was_taken_out_keeps_the_numbers_and_has_no_place() {
+    let mut all = [in_suite("box-tree", "p", 1_000.0, 5), in_suite("parry", "p", 500.0, 5)].concat();
+    all.iter_mut()
+        .filter(|m| m.result.algorithm == "parry")
+        .for_each(|m| m.standing = Some("Its author has withdrawn this plugin.".into()));
+    let board = ask(all, &json!({}));
+    let parry = row(&board, "parry");
+    assert_eq!((parry.rank, parry.frontier, parry.rate.is_some()), (None, false, true));
+    assert_eq!(parry.reason.as_deref(), Some("Its author has withdrawn this plugin."));
+    assert_eq!(row(&board, "box-tree").rank, Some(1));
+}
+
 #[test]
 fn a_precision_that_is_none_is_refused() {
     for bad in ["0", "-1", "NaN", "fine", "2"] {
         let request = BoardRequest { precision: Some(bad.into()), ..BoardRequest::default() };
-        let refused = board(five(), &request).expect_err("it is no precision").to_string();
+        let refused = board(five(), &request, &[]).expect_err("it is no precision").to_string();
         assert!(refused.contains(bad) && refused.contains("1e-6"), "{refused}");
     }
 }

@@ -1,19 +1,46 @@
 //! Answers that extractors and layers give on every route of a kind, put into the OpenAPI document in one place.
 
+use ocb_engine::model::Scope;
 use utoipa::openapi::path::Operation;
+use utoipa::openapi::security::{ApiKey, ApiKeyValue, Http, HttpAuthScheme, SecurityRequirement, SecurityScheme};
 use utoipa::openapi::{ContentBuilder, OpenApi, Ref, RefOr, Response, ResponseBuilder};
+
+use crate::guest::{SESSION, scope_of};
 
 /// The document with what no handler says of itself. What a route says stands.
 pub(crate) fn completed(mut document: OpenApi) -> OpenApi {
-    for item in document.paths.paths.values_mut() {
-        for operation in [&mut item.get, &mut item.put, &mut item.post, &mut item.delete].into_iter().flatten() {
-            for (status, description) in answers(operation) {
+    for (path, item) in &mut document.paths.paths {
+        let reading = item.get.iter_mut().map(|operation| (true, operation));
+        let changing = [&mut item.put, &mut item.post, &mut item.delete].into_iter().flatten();
+        for (reads, operation) in reading.chain(changing.map(|operation| (false, operation))) {
+            for (status, description) in answers(operation).into_iter().chain(to_tokens(path, reads)) {
                 let known = &mut operation.responses.responses;
                 known.entry(status.to_owned()).or_insert_with(|| problem(description));
             }
         }
     }
+    let schemes = &mut document.components.get_or_insert_default().security_schemes;
+    schemes.insert("token".to_owned(), RefOr::T(SecurityScheme::Http(Http::new(HttpAuthScheme::Bearer))));
+    let cookie = ApiKey::Cookie(ApiKeyValue::new(SESSION));
+    schemes.insert("session".to_owned(), RefOr::T(SecurityScheme::ApiKey(cookie)));
+    // Nobody needs either, except where the answer 401 says so.
+    let none = SecurityRequirement::default();
+    let of = |name: &str| SecurityRequirement::new(name, Vec::<String>::new());
+    document.security = Some(vec![none, of("token"), of("session")]);
     document
+}
+
+/// What a token hears that opens nothing, or is not for that.
+fn to_tokens(path: &str, reads: bool) -> Vec<(&'static str, &'static str)> {
+    let mut all = vec![("401", "The token in `Authorization` opens nothing")];
+    // What is there for everybody may be read with any token.
+    if !(reads && scope_of(path) == Some(Scope::Runs)) {
+        all.push((
+            "403",
+            "The token in `Authorization` is not for that, or the request was sent by a page of another site",
+        ));
+    }
+    all
 }
 
 fn answers(operation: &Operation) -> Vec<(&'static str, &'static str)> {

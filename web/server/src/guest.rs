@@ -94,10 +94,10 @@ async fn account(
 }
 
 /// What a token must be for; accounts and decisions need a person.
-fn scope_of(path: &str) -> Option<Scope> {
+pub(crate) fn scope_of(path: &str) -> Option<Scope> {
     let resource = path.strip_prefix("/api/v1/").and_then(|rest| rest.split('/').next()).unwrap_or_default();
     match resource {
-        "account" | "accounts" | "curation" => None,
+        "account" | "accounts" | "curation" | "invitations" => None,
         "plugins" => Some(Scope::Plugins),
         _ => Some(Scope::Runs),
     }
@@ -168,7 +168,7 @@ mod tests {
     fn a_token_is_for_one_thing() {
         assert_eq!(scope_of("/api/v1/plugins/x/events"), Some(Scope::Plugins));
         assert_eq!(scope_of("/api/v1/runs"), Some(Scope::Runs));
-        assert_eq!((scope_of("/api/v1/account/tokens"), scope_of("/api/v1/curation")), (None, None));
+        assert_eq!((scope_of("/api/v1/invitations"), scope_of("/api/v1/curation")), (None, None));
     }
 
     #[test]

@@ -5,6 +5,7 @@
 
 mod connections;
 mod document;
+mod download;
 mod events;
 mod extract;
 mod guest;
@@ -16,6 +17,7 @@ mod pace;
 mod pages;
 mod privacy;
 mod problem;
+mod request_key;
 mod routes;
 mod upload;
 

@@ -28,6 +28,9 @@ pub(crate) const LOG_IN: Limit = limit("log in", 10, 60);
 /// New accounts, per address.
 pub(crate) const MAKE_ACCOUNT: Limit = limit("make an account", 20, 3600);
 
+/// Secrets of invitations, per address.
+pub(crate) const ACCEPT: Limit = limit("accept an invitation", 20, 60);
+
 /// Plugins, per account.
 pub(crate) const SUBMIT: Limit = limit("submit a plugin", 30, 3600);
 

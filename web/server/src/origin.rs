@@ -1,11 +1,13 @@
-//! A page of another site must not act in a visitor's name: browsers say where a request comes from.
+//! Where a request was sent from, and to. A page of another site must not act in a visitor's name: browsers say where a request
+//! comes from.
 
 use axum::extract::Request;
 use axum::http::{HeaderMap, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-use crate::Problem;
+use crate::guest::is_secure;
+use crate::problem::{Problem, Result};
 
 /// Refuses what changes something and was sent by a page of another site. `SameSite` cookies stop most of that already;
 /// programs send neither header, and carry no cookie that a page could ride on.
@@ -28,6 +30,18 @@ fn from_elsewhere(headers: &HeaderMap) -> bool {
     text(header::ORIGIN.as_str()).is_some_and(|origin| origin.split_once("://").is_none_or(|(_, of)| of != host))
 }
 
+/// Where this service was reached, for links that are to lead back to it.
+pub(crate) fn own_origin(headers: &HeaderMap) -> Result<String> {
+    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok()).unwrap_or_default();
+    let plain = |c: char| c.is_ascii_alphanumeric() || ".-:[]".contains(c);
+    if host.is_empty() || !host.chars().all(plain) {
+        return Err(Problem::bad_request(
+            "The request does not say in Host where it was sent to, so there is no link.",
+        ));
+    }
+    Ok(format!("{}://{host}", if is_secure(headers) { "https" } else { "http" }))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -44,5 +58,17 @@ mod tests {
         assert!(from(&[("origin", "https://a.example")]));
         assert!(from(&[("origin", "null")]));
         assert!(from(&[("sec-fetch-site", "cross-site")]) && from(&[("sec-fetch-site", "same-site")]));
+    }
+
+    #[test]
+    fn links_lead_back_to_where_the_request_was_sent() {
+        let of = |pairs: &[(&'static str, &'static str)]| {
+            own_origin(&pairs.iter().map(|(k, v)| (k.parse().unwrap(), v.parse().unwrap())).collect())
+        };
+        assert_eq!(of(&[("host", "127.0.0.1:8080")]).unwrap(), "http://127.0.0.1:8080");
+        assert_eq!(of(&[("host", "a.example"), ("x-forwarded-proto", "https")]).unwrap(), "https://a.example");
+        for odd in ["", "a/b", "a\"b", "a b", "a{b", "a@b"] {
+            assert_eq!(of(&[("host", odd)]).unwrap_err().status, 400, "{odd}");
+        }
     }
 }

@@ -4,7 +4,9 @@ mod account;
 mod advice;
 mod algorithms;
 mod charts;
+mod citations;
 mod heatmaps;
+mod invitations;
 mod objects;
 mod people;
 mod plugins;
@@ -13,6 +15,7 @@ mod runs;
 mod selecting;
 mod service;
 mod stability;
+mod suite;
 mod things;
 
 use axum::Router;
@@ -83,6 +86,8 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(records::records_parquet))
         .routes(routes!(records::records_csv))
         .routes(routes!(records::configurations_parquet))
+        .routes(routes!(records::repro_zip))
+        .routes(routes!(citations::cite_run))
         .routes(routes!(charts::show_board))
         .routes(routes!(charts::show_board_csv))
         .routes(routes!(charts::show_chart))
@@ -106,11 +111,16 @@ fn api() -> OpenApiRouter<App> {
         .routes(submissions.layer(DefaultBodyLimit::disable()).layer(middleware::from_fn(upload::refuse_gently)))
         .routes(routes!(plugins::show_plugin))
         .routes(routes!(plugins::follow_plugin))
+        .routes(routes!(citations::cite_plugin))
         .routes(routes!(plugins::decide))
         .routes(routes!(plugins::list_curation))
         .routes(routes!(people::list_accounts))
         .routes(routes!(people::change_role))
+        .routes(routes!(invitations::invite, invitations::list_invitations))
+        .routes(routes!(invitations::revoke_invitation))
+        .routes(routes!(invitations::accept_invitation))
         .routes(routes!(stability::show_stability))
+        .routes(routes!(suite::show_suite))
         .routes(routes!(advice::ask_advice))
         .routes(routes!(advice::show_advice))
         .routes(routes!(advice::cancel_advice))

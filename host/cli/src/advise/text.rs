@@ -131,7 +131,12 @@ fn name(advice: &Advice, point: &Point) -> String {
         Kind::SinglePrecision => "whole objects in f32".to_owned(),
     };
     let algorithm = point.algorithm.as_ref().map_or_else(String::new, |algorithm| format!(", {algorithm}"));
-    format!("{what}{algorithm}{}", if point.certified { "" } else { " (uncertified)" })
+    let asked = point.asked.map_or_else(String::new, |asked| format!("{asked} of {} asked", advice.configurations));
+    let remarks = [if point.certified { "" } else { "uncertified" }, &asked].into_iter().filter(|r| !r.is_empty());
+    match remarks.collect::<Vec<_>>().join("; ") {
+        none if none.is_empty() => format!("{what}{algorithm}"),
+        remarks => format!("{what}{algorithm} ({remarks})"),
+    }
 }
 
 fn unit(unit: Unit) -> &'static str {
@@ -153,7 +158,7 @@ fn estimate(e: &Measured) -> String {
 
 fn share(s: &Share) -> String {
     match s.seen {
-        0 if s.of > 0 => format!("0 of {} (< {:.2} %)", s.of, 100.0 * s.hi),
+        0 if s.of > 0 => format!("0 of {} (< {:.*} %)", s.of, if s.of > 3000 { 4 } else { 2 }, 100.0 * s.hi),
         _ => format!("{} of {} ({:.1} %)", s.seen, s.of, 100.0 * s.value()),
     }
 }

@@ -60,6 +60,25 @@ pub enum AdminCommand {
         #[arg(long, default_value = "administrator", value_name = "ROLE")]
         role: String,
     },
+    /// Invite somebody to be a developer: prints a link that one account may accept once, in a browser. Curators invite on
+    /// the page of curators.
+    Invite {
+        /// For whom it is, for curators and the log.
+        recipient: String,
+        /// Days until it expires.
+        #[arg(long, default_value_t = 14, value_name = "DAYS")]
+        days: u32,
+        /// Where the service is reached.
+        #[arg(long, default_value = "http://127.0.0.1:8080", env = "OCB_SERVER", value_name = "URL")]
+        server: String,
+    },
+    /// List invitations, newest first.
+    Invitations,
+    /// Withdraw an invitation that nobody has accepted.
+    Revoke {
+        /// Its id, as `ocb admin invitations` lists it.
+        id: String,
+    },
     /// Tell whether every entry of the audit log is as it was written.
     Audit,
 }

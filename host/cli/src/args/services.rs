@@ -15,6 +15,52 @@ pub struct ServiceArgs {
     pub token: String,
 }
 
+/// Which service, perhaps as somebody.
+#[derive(Debug, Args)]
+pub struct LookArgs {
+    /// The service.
+    #[arg(long, default_value = "http://127.0.0.1:8080", env = "OCB_SERVER", value_name = "URL")]
+    pub server: String,
+    /// A token of your account there, for what not everybody sees.
+    #[arg(long, env = "OCB_TOKEN", value_name = "TOKEN", hide_env_values = true)]
+    pub token: Option<String>,
+}
+
+/// `ocb cite`
+#[derive(Debug, Args)]
+pub struct CiteArgs {
+    /// What it is.
+    #[arg(value_enum)]
+    pub what: Cited,
+    /// Its id there: the last part of its link.
+    pub id: String,
+    /// How.
+    #[arg(long, value_enum, default_value_t = CiteAs::Bibtex)]
+    pub format: CiteAs,
+    #[command(flatten)]
+    pub service: LookArgs,
+}
+
+/// What is cited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Cited {
+    /// A run with its results.
+    Run,
+    /// A plugin.
+    Plugin,
+}
+
+/// How it is cited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CiteAs {
+    /// An entry for BibTeX.
+    Bibtex,
+    /// A CITATION.cff.
+    Cff,
+    /// The stable link alone.
+    Link,
+}
+
 /// `ocb visibility`
 #[derive(Debug, Args)]
 pub struct VisibilityArgs {

@@ -4,22 +4,32 @@ use super::{Measured, Named, Needed, family, keys};
 use crate::model::{BoardFilter, BoardOption, BoardRequest, BoardRow, ContractClass};
 
 /// Takes every value of a filter that allows it.
-const ALL: &str = "all";
+pub const ALL: &str = "all";
+/// Instead of a suite: the runs of people.
+pub const NO_SUITE: &str = "none";
 
 /// Applies all filters on what was measured.
 pub fn narrowed(mut left: Vec<Measured>, request: &BoardRequest) -> (Vec<Measured>, Vec<BoardFilter>) {
     type Key = fn(&Measured) -> Option<Named>;
-    let filters: [(&str, &Option<String>, bool, Key); 5] = [
+    let filters: [(&str, &Option<String>, bool, Key); 6] = [
+        ("suite", &request.suite, false, |m| Some(suite(m))),
         ("question", &request.question, false, |m| Some(m.question.clone())),
         ("class", &request.class, false, class),
         ("hardware", &request.hardware, false, |m| Some(m.hardware.clone())),
         ("scene", &request.scene, true, |m| Some(m.scene.clone())),
         ("distance", &request.distance, true, |m| Some(m.distance.clone())),
     ];
-    let mut applied = Vec::new();
+    let mut applied: Vec<BoardFilter> = Vec::new();
     for (name, asked, all, key) in filters {
         let options = options(&left, key);
-        let chosen = asked.clone().or_else(|| most(&options)).unwrap_or_default();
+        let of_suite = applied.first().is_some_and(|suite| suite.chosen != NO_SUITE);
+        let proposed = match name {
+            "suite" => newest(&options),
+            // A suite is a whole.
+            _ if all && of_suite => Some(ALL.to_owned()),
+            _ => most(&options),
+        };
+        let chosen = asked.clone().or(proposed).unwrap_or_default();
         let before = left.len();
         if !(all && chosen == ALL) {
             left.retain(|m| key(m).is_none_or(|named| named.value == chosen));
@@ -67,6 +77,17 @@ pub fn classes(measured: &[Measured]) -> Vec<Option<ContractClass>> {
         }
     }
     classes
+}
+
+fn suite(m: &Measured) -> Named {
+    m.suite.clone().unwrap_or_else(|| Named { value: NO_SUITE.into(), words: "runs of people".into() })
+}
+
+/// The suite of the highest version; without any, the runs of people.
+fn newest(options: &[BoardOption]) -> Option<String> {
+    let version = |option: &&BoardOption| option.value.parse::<u32>().ok();
+    let newest = options.iter().filter(|option| version(option).is_some()).max_by_key(version);
+    Some(newest.map_or_else(|| NO_SUITE.to_owned(), |option| option.value.clone()))
 }
 
 /// What failed before its first answer has shown no class: it stands in each.

@@ -7,9 +7,10 @@ use ocb_core::statistics::share_interval;
 use super::{Measured, family, keys};
 use crate::model::{AlgorithmResult, BoardRow, Estimated};
 
-/// One row per algorithm with its settings, in no order.
-pub fn rows(left: &[Measured]) -> Vec<BoardRow> {
-    let mut scenarios: Vec<(&str, &str)> = Vec::new();
+/// One row per algorithm with its settings, in no order; over the scenarios that are expected, or those that occur.
+pub fn rows(left: &[Measured], expected: &[(String, String)]) -> Vec<BoardRow> {
+    let mut scenarios: Vec<(&str, &str)> =
+        expected.iter().map(|(scene, distance)| (scene.as_str(), distance.as_str())).collect();
     let mut algorithms: Vec<&str> = Vec::new();
     for m in left {
         let scenario = (m.scene.value.as_str(), m.distance.value.as_str());
@@ -21,18 +22,24 @@ pub fn rows(left: &[Measured]) -> Vec<BoardRow> {
         }
     }
     let row = |algorithm: &&str| {
-        let own: Vec<&Measured> = left.iter().filter(|m| m.result.algorithm == *algorithm).collect();
+        let mut own: Vec<&Measured> = left.iter().filter(|m| m.result.algorithm == *algorithm).collect();
+        let newest = own.iter().max_by_key(|m| m.finished_us)?.plugin_sha256.as_str();
+        own.retain(|m| m.plugin_sha256 == newest);
         let best = scenarios.iter().filter_map(|scenario| best(&own, *scenario)).collect::<Vec<_>>();
         combined(&best, scenarios.len() as u32)
     };
     algorithms.iter().filter_map(row).collect()
 }
 
-/// Of the newest plugin file the run with the most configurations, of those the newest; in this scenario.
+/// The run with the most configurations, of those the newest; in this scenario. Runs of a suite have the same ones, except
+/// that another oracle finds others.
 fn best<'a>(own: &[&'a Measured], (scene, distance): (&str, &str)) -> Option<&'a Measured> {
-    let here = || own.iter().filter(|m| m.scene.value == scene && m.distance.value == distance);
-    let newest = here().max_by_key(|m| m.finished_us)?;
-    here().filter(|m| m.plugin_sha256 == newest.plugin_sha256).max_by_key(|m| (m.result.n, m.finished_us)).copied()
+    let here = own.iter().filter(|m| m.scene.value == scene && m.distance.value == distance);
+    let better = |m: &&&Measured| match m.suite {
+        Some(_) => (m.oracle, 0, m.finished_us),
+        None => (None, m.result.n, m.finished_us),
+    };
+    here.max_by_key(better).copied()
 }
 
 fn combined(best: &[&Measured], of: u32) -> Option<BoardRow> {
@@ -104,6 +111,9 @@ fn rate(best: &[&Measured]) -> Option<Estimated> {
 
 /// Why it can have no place, if so.
 fn why_not(best: &[&Measured], of: u32) -> Option<String> {
+    if let Some(standing) = best.iter().find_map(|m| m.standing.clone()) {
+        return Some(standing);
+    }
     if let Some(failed) = best.iter().find(|m| m.result.outcome.name != "Completed") {
         return Some(failed.result.outcome.message.clone());
     }

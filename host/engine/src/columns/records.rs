@@ -4,11 +4,10 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use arrow_array::{BooleanArray, Float64Array, RecordBatch, StringArray, UInt32Array, UInt64Array};
-use nalgebra::Point3;
 use ocb_core::agreement::Said;
-use ocb_core::query::Answer;
 use ocb_core::record::{ContactScore, Record, Verdict};
 
+use super::answers::Flat;
 use super::{SCHEMA_VERSION, batch, column, from_parquet, to_parquet};
 use crate::{EngineError, Result};
 
@@ -104,6 +103,13 @@ pub fn records_parquet(of: &RecordsOf, records: &[Record]) -> Result<Vec<u8>> {
             ("point_b_y", points(1, 1)),
             ("point_b_z", points(1, 2)),
             ("flips", Arc::new(records.iter().map(|r| r.flips).collect::<UInt32Array>())),
+            ("process", Arc::new(records.iter().map(|r| r.asked.process).collect::<UInt32Array>())),
+            ("instance", Arc::new(records.iter().map(|r| r.asked.instance.number).collect::<UInt32Array>())),
+            ("aside", Arc::new(records.iter().map(|r| Some(r.asked.instance.aside)).collect::<BooleanArray>())),
+            (
+                "contacts_sha256",
+                Arc::new(answers.iter().map(|a| a.contacts_sha256.as_deref()).collect::<StringArray>()),
+            ),
         ],
     )?)
 }
@@ -144,38 +150,17 @@ impl RecordColumns {
     }
 }
 
-/// An answer of any kind in one row.
-struct Flat {
-    kind: &'static str,
-    hit: Option<bool>,
-    contacts: Option<u64>,
-    distance: Option<f64>,
-    triangles: Option<[u32; 2]>,
-    points: Option<[Point3<f64>; 2]>,
-}
-
-impl From<&Answer> for Flat {
-    fn from(answer: &Answer) -> Self {
-        let none = Flat { kind: "", hit: None, contacts: None, distance: None, triangles: None, points: None };
-        match answer {
-            Answer::Collision { hit, pair } => Flat { kind: "collision", hit: Some(*hit), triangles: *pair, ..none },
-            Answer::Contacts { total, .. } => {
-                Flat { kind: "contacts", hit: Some(*total > 0), contacts: Some(*total), ..none }
-            }
-            Answer::Distance { distance, points, triangles } => {
-                Flat { kind: "distance", distance: Some(*distance), triangles: *triangles, points: *points, ..none }
-            }
-            Answer::GaveUp => Flat { kind: "gave_up", ..none },
-            Answer::Unsupported => Flat { kind: "unsupported", ..none },
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::columns::csv;
-    use ocb_core::query::Counters;
+    use crate::columns::{csv, read_answers};
+    use ocb_core::instance::{AskedAs, Instance};
+    use ocb_core::query::{Answer, Counters};
+
+    fn asked(configuration: u32) -> AskedAs {
+        let instance = Instance { number: 2 * configuration, aside: configuration == 7 };
+        AskedAs { process: (configuration != 2).then_some(configuration), instance }
+    }
 
     fn record(configuration: u32, answer: Answer, counters: Option<Counters>) -> Record {
         Record {
@@ -193,6 +178,7 @@ mod tests {
             }),
             flips: configuration,
             answer,
+            asked: asked(configuration),
         }
     }
 
@@ -223,11 +209,19 @@ mod tests {
         let csv = String::from_utf8(csv(&file).unwrap()).unwrap();
         let lines: Vec<&str> = csv.lines().collect();
         assert!(lines[0].starts_with("configuration,time_ns,below_resolution,passes,bv_tests"), "{}", lines[0]);
-        assert_eq!(lines[1], "7,127.5,false,3,9,2,correct,collision,true,,,,,3,4,,,,,,,7");
-        assert_eq!(lines[2], "1,121.5,true,3,,,correct,distance,,,,,0.25,,,,,,,,,1");
-        assert_eq!(lines[3], "2,122.5,false,3,,,correct,gave_up,,,,,,,,,,,,,,2");
-        assert_eq!(lines[4], "3,123.5,false,3,,,correct,contacts,true,2,0.5,0.25,,,,,,,,,,3");
+        assert_eq!(lines[1], "7,127.5,false,3,9,2,correct,collision,true,,,,,3,4,,,,,,,7,7,14,true,");
+        assert_eq!(lines[2], "1,121.5,true,3,,,correct,distance,,,,,0.25,,,,,,,,,1,1,2,false,");
+        assert_eq!(lines[3], "2,122.5,false,3,,,correct,gave_up,,,,,,,,,,,,,,2,,4,false,");
+        let list = "3,123.5,false,3,,,correct,contacts,true,2,0.5,0.25,,,,,,,,,,3,3,6,false,";
+        assert!(lines[4].strip_prefix(list).is_some_and(|hash| hash.len() == 64), "{}", lines[4]);
         assert_eq!(lines.len(), 5);
+        // For a replay: as what each was asked, and every bit of it.
+        let answers = read_answers(&file).unwrap();
+        for (read, record) in answers.iter().zip(&records) {
+            assert_eq!((read.configuration, read.asked), (record.configuration, asked(record.configuration)));
+            assert!(read.answer.is_same(&Flat::from(&record.answer)));
+        }
+        assert_eq!(answers.len(), 4);
         let (schema, _) = from_parquet(&file).unwrap();
         assert_eq!(schema.metadata().get("opencollbench.run").map(String::as_str), Some("r"));
     }

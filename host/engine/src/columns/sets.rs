@@ -123,6 +123,14 @@ pub fn read_set(bytes: &[u8]) -> Result<ConfigurationSet> {
     Ok(set)
 }
 
+/// The versions of sampling and oracle that made a stored set, where it says.
+pub fn set_versions(bytes: &[u8]) -> Result<(Option<u32>, Option<u32>)> {
+    let damaged = |e: String| EngineError::Fault(format!("A stored configuration set cannot be read: {e}."));
+    let (schema, _) = from_parquet(bytes).map_err(damaged)?;
+    let said = |key: &str| schema.metadata().get(key)?.parse().ok();
+    Ok((said("opencollbench.sampling"), said("opencollbench.oracle")))
+}
+
 /// Only the poses of a set that somebody brings: whatever else the file says is found out anew.
 pub fn read_poses(bytes: &[u8]) -> std::result::Result<Vec<Configuration>, String> {
     let (_, batches) = from_parquet(bytes)?;

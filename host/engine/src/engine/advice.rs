@@ -5,8 +5,9 @@ use std::sync::Arc;
 use ocb_advisor::{Paper, Shelf};
 use ocb_core::mesh::{Mesh, obj};
 
-use super::{Engine, Inner};
+use super::{Engine, Inner, Made};
 use crate::advice::{Found, Job};
+use crate::boxed;
 use crate::model::{AdviceInfo, AdviceSpec, Asked, Side, State};
 use crate::store::{AdviceRow, StoredPaper};
 use crate::{EngineError, Result};
@@ -19,24 +20,32 @@ const MOST_OPEN: usize = 8;
 const MAX_ATTEMPTS: i64 = 3;
 
 impl Engine {
-    /// Asks how much of two objects a question needs; the work begins when its turn comes.
+    /// Asks how much of two objects a question needs; the work begins when its turn comes. True when it is new: the same asked
+    /// again under the same key gives what there is.
     ///
     /// # Errors
     /// `NotFound` without such an object, `Invalid` for a question that cannot be asked, `Busy` when too many wait.
-    pub async fn ask_advice(&self, spec: AdviceSpec, owner: Option<&str>) -> Result<AdviceInfo> {
+    #[boxed]
+    pub async fn ask_advice(&self, spec: AdviceSpec, owner: &str, key: Option<&str>) -> Result<(AdviceInfo, bool)> {
         check(spec.question)?;
         let inner = &self.inner;
-        let names = inner.objects_of(&spec, owner).await?;
+        let names = inner.objects_of(&spec, Some(owner)).await?;
+        let id = self.id_of_request(owner, Made::Advice, key, &spec).await?;
+        if inner.store.advice(&id).await?.is_some() {
+            return Ok((self.advice(&id).await?, false));
+        }
         if inner.advices.count() >= MOST_OPEN {
             return Err(EngineError::Busy("Others wait for advice already; try again in some minutes.".to_owned()));
         }
-        let id = uuid::Uuid::now_v7().to_string();
         let step = "waiting".to_owned();
         let info =
             AdviceInfo { id, spec, names, state: State::Queued, step, done: 0, total: 0, message: None, advice: None };
-        inner.store.add_advice(&info, owner).await?;
+        // Two that come at once under one key: the first stands.
+        if !inner.store.add_advice(&info, owner).await? {
+            return Ok((self.advice(&info.id).await?, false));
+        }
         inner.clone().begin_advice(inner.advices.add(info.clone()));
-        Ok(info)
+        Ok((info, true))
     }
 
     /// Begins again what an ended process left behind.
@@ -55,6 +64,7 @@ impl Engine {
     }
 
     /// How far it is, and the advice when it is done.
+    #[boxed]
     pub async fn advice(&self, id: &str) -> Result<AdviceInfo> {
         match self.inner.advices.find(id) {
             Some(job) => Ok(job.info()),
@@ -63,6 +73,7 @@ impl Engine {
     }
 
     /// Ends it; only its owner may.
+    #[boxed]
     pub async fn cancel_advice(&self, id: &str, caller: Option<&str>) -> Result<AdviceInfo> {
         let row = self.inner.advice_row(id).await?;
         if row.owner.as_deref() != caller {
@@ -74,12 +85,14 @@ impl Engine {
     }
 
     /// A reduced object as OBJ, and the name of its file; `stage` counts from the coarsest.
+    #[boxed]
     pub async fn reduced(&self, id: &str, side: Side, stage: usize) -> Result<(Vec<u8>, String)> {
         let paper = self.inner.paper(id, side, stage).await?;
         Ok((self.inner.blobs.get(&paper.mesh).await?, paper.file))
     }
 
     /// The certificate of a reduced object as JSON, and the name of its file.
+    #[boxed]
     pub async fn certificate(&self, id: &str, side: Side, stage: usize) -> Result<(Vec<u8>, String)> {
         let paper = self.inner.paper(id, side, stage).await?;
         Ok((self.inner.blobs.get(&paper.certificate).await?, paper.file.replace(".obj", ".certificate.json")))

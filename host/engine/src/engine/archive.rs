@@ -8,12 +8,14 @@ use serde::Serialize;
 use tokio::runtime::Handle;
 
 use super::Engine;
+use crate::boxed;
 use crate::objects::blocking;
 use crate::store::StoredPaper;
 use crate::{EngineError, Result};
 
 impl Engine {
     /// Everything that this owner has, as a tar archive; the file is gone when it is closed.
+    #[boxed]
     pub async fn archive(&self, owner: &str) -> Result<File> {
         let (engine, owner, handle) = (self.clone(), owner.to_owned(), Handle::current());
         blocking(move || handle.block_on(engine.packed(&owner))).await

@@ -4,7 +4,8 @@ use ocb_chart::Chart;
 
 use super::{Engine, Inner};
 use crate::board::{self, Circumstances, Measured};
-use crate::model::{Board, BoardRequest, ChartRequest, Visibility};
+use crate::boxed;
+use crate::model::{Board, BoardRequest, ChartRequest, State, Visibility};
 use crate::store::RunRow;
 use crate::{Profile, Result, columns};
 
@@ -13,17 +14,26 @@ const MOST_RUNS: i64 = 1000;
 
 impl Engine {
     /// Results of the finished runs that the viewer may see, filtered until they may be compared.
+    #[boxed]
     pub async fn board(&self, request: &BoardRequest, viewer: Option<&str>) -> Result<Board> {
+        let suites = self.inner.store.suites().await?;
+        let standings = self.inner.standings().await?;
         let mut measured = Vec::new();
         for row in self.inner.visible_runs(viewer).await? {
-            measured.extend(self.inner.measured_of(&row).await?);
+            let suite = row.suite.as_ref().and_then(|sha256| suites.iter().find(|suite| suite.sha256 == *sha256));
+            for mut result in self.inner.measured_of(&row).await? {
+                result.suite = suite.map(board::suite);
+                result.standing = standings.get(&result.plugin_sha256).and_then(|standing| standing.why_not(&result));
+                measured.push(result);
+            }
         }
-        let mut board = board::board(measured, request)?;
+        let mut board = board::board(measured, request, &suites)?;
         board::add_stability(&mut board.rows, &self.stability().await?);
         Ok(board)
     }
 
     /// One chart of a run. Others of its kind are taken from the runs that the viewer may see.
+    #[boxed]
     pub async fn chart(&self, run: &str, request: ChartRequest, viewer: Option<&str>) -> Result<Chart> {
         self.inner.chart(run, request, viewer).await
     }
@@ -46,7 +56,8 @@ pub fn chart_csv(chart: &Chart) -> Result<Vec<u8>> {
 
 impl Inner {
     /// The finished runs whose results this viewer may see in lists and comparisons, the newest first: public ones, and
-    /// the viewer's own.
+    /// the viewer's own; then those of suites.
+    #[boxed]
     pub async fn visible_runs(&self, viewer: Option<&str>) -> Result<Vec<RunRow>> {
         let mut visible = Vec::new();
         for row in self.store.finished_runs(viewer, MOST_RUNS).await? {
@@ -55,10 +66,12 @@ impl Inner {
                 visible.push(row);
             }
         }
+        visible.extend(self.store.suite_runs().await?.into_iter().filter(|row| row.state == State::Done));
         Ok(visible)
     }
 
     /// The results of one run; none when it was never measured.
+    #[boxed]
     pub async fn measured_of(&self, row: &RunRow) -> Result<Vec<Measured>> {
         let Some(machine) = &row.environment else { return Ok(Vec::new()) };
         let circumstances = Circumstances {

@@ -3,6 +3,7 @@
 use ocb_core::configuration::{Method, Sampling};
 use ocb_core::query::{Query, Semantics};
 
+use super::runs::Asking;
 use super::{BACKGROUND, Engine};
 use crate::Result;
 use crate::model::RunSpec;
@@ -43,7 +44,7 @@ impl Engine {
             precision: None,
             at_most: None,
         };
-        self.queue(spec, None, BACKGROUND, true, None).await?;
+        self.queue(spec, Asking { priority: BACKGROUND, featured: true, ..Asking::default() }).await?;
         Ok(())
     }
 }

@@ -8,6 +8,7 @@ use tokio::sync::broadcast::Receiver;
 
 use super::Engine;
 use crate::Result;
+use crate::boxed;
 use crate::model::{RunEvent, State};
 
 /// The database is looked at this often even if no bell was heard: a missed ring must not end in silence.
@@ -17,6 +18,7 @@ const LAST_WORD: Duration = Duration::from_millis(500);
 
 impl Engine {
     /// The run's events behind `after_seq` (0: all), oldest first.
+    #[boxed]
     pub async fn events(&self, id: &str, after_seq: i64) -> Result<Vec<RunEvent>> {
         self.inner.run_row(id).await?;
         self.inner.store.events(id, after_seq).await

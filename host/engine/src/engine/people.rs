@@ -2,8 +2,9 @@
 
 use std::time::Duration;
 
-use super::Engine;
+use super::{Engine, Made};
 use crate::blobs::sha256_hex;
+use crate::boxed;
 use crate::model::{AccountInfo, AuditEntry, Cursor, NewToken, Page, Part, Role, Scope, TokenInfo, TokenRequest};
 use crate::store::{Note, now_us};
 use crate::{EngineError, Result, draw, passwords, signature};
@@ -14,11 +15,14 @@ const TOKEN: Duration = Duration::from_secs(365 * 24 * 3600);
 /// Letters of a name, and of what people write about themselves.
 const NAME: std::ops::RangeInclusive<usize> = 3..=80;
 const WORDS: usize = 2000;
+/// Who has the data folder, in the log.
+pub(super) const NAME_OF_OPERATOR: &str = "the operator";
 /// Tokens of one account.
 const MAX_TOKENS: usize = 20;
 
 impl Engine {
     /// Makes an account. A name is a user name or an e-mail address.
+    #[boxed]
     pub async fn add_account(&self, name: &str, password: &str, role: Role) -> Result<AccountInfo> {
         let name = name.trim();
         let plain = |c: char| c.is_ascii_alphanumeric() || "._-@+".contains(c);
@@ -46,6 +50,7 @@ impl Engine {
     }
 
     /// The account that name and password open; the answer to a wrong name is that to a wrong password.
+    #[boxed]
     pub async fn account_with(&self, name: &str, password: &str) -> Result<AccountInfo> {
         let known = self.inner.store.password_of(name.trim()).await?;
         let (id, stored) = known.map_or((None, None), |(id, stored)| (Some(id), Some(stored)));
@@ -58,6 +63,7 @@ impl Engine {
     }
 
     /// Changes the password and logs out everywhere.
+    #[boxed]
     pub async fn change_password(&self, account: &AccountInfo, old: &str, new: &str) -> Result<()> {
         self.account_with(&account.name, old).await?;
         let password = passwords::hashed(new).await?;
@@ -67,49 +73,58 @@ impl Engine {
     }
 
     /// A new session of the account; the secret is for its browser alone.
+    #[boxed]
     pub async fn add_session(&self, account: &AccountInfo) -> Result<String> {
         self.inner.store.forget_ended_keys().await?;
-        self.add_key(account, String::new(), vec![Scope::Runs, Scope::Plugins], SESSION, true).await.map(|(_, key)| key)
+        let id = uuid::Uuid::new_v4().to_string();
+        let scopes = vec![Scope::Runs, Scope::Plugins];
+        self.add_key(account, id, String::new(), scopes, SESSION, true).await.map(|(_, key)| key)
     }
 
     async fn add_key(
         &self,
         account: &AccountInfo,
+        id: String,
         name: String,
         scopes: Vec<Scope>,
         life: Duration,
         session: bool,
     ) -> Result<(TokenInfo, String)> {
         let (secret, now) = (draw::secret(), now_us());
-        let id = uuid::Uuid::new_v4().to_string();
         let key = TokenInfo { id, name, scopes, created_us: now, expires_us: now + life.as_micros() as i64 };
         self.inner.store.add_key(&sha256_hex(secret.as_bytes()), &account.id, &key, session).await?;
         Ok((key, secret))
     }
 
     /// The account of a session.
+    #[boxed]
     pub async fn session(&self, secret: &str) -> Result<Option<AccountInfo>> {
         let opened = self.inner.store.opened_by(&sha256_hex(secret.as_bytes()), true).await?;
         Ok(opened.map(|(account, _)| account))
     }
 
     /// The account of a token, and what the token may be used for.
+    #[boxed]
     pub async fn token(&self, secret: &str) -> Result<Option<(AccountInfo, Vec<Scope>)>> {
         self.inner.store.opened_by(&sha256_hex(secret.as_bytes()), false).await
     }
 
     /// Ends one session.
+    #[boxed]
     pub async fn end_session(&self, secret: &str) -> Result<()> {
         self.inner.store.end_session(&sha256_hex(secret.as_bytes())).await
     }
 
     /// Ends all sessions of the account; its tokens stay.
+    #[boxed]
     pub async fn end_sessions(&self, account: &AccountInfo) -> Result<()> {
         self.inner.store.end_sessions(&account.id).await
     }
 
-    /// A new token for programs.
-    pub async fn add_token(&self, account: &AccountInfo, request: TokenRequest) -> Result<NewToken> {
+    /// A new token for programs. Asked again under the same key, because the secret was lost with the answer, it is the same token
+    /// with another secret.
+    #[boxed]
+    pub async fn add_token(&self, account: &AccountInfo, request: TokenRequest, key: Option<&str>) -> Result<NewToken> {
         let name = request.name.trim().to_owned();
         if name.is_empty() || name.chars().count() > *NAME.end() || name.chars().any(char::is_control) {
             return Err(EngineError::Invalid("A token has a name of 1 to 80 characters.".into()));
@@ -117,20 +132,25 @@ impl Engine {
         if request.scopes.is_empty() {
             return Err(EngineError::Invalid("A token is for something; name at least one scope.".into()));
         }
-        if self.tokens(account).await?.len() >= MAX_TOKENS {
+        let id = self.id_of_request(&account.owner(), Made::Token, key, &request).await?;
+        let known = self.tokens(account).await?;
+        if known.len() >= MAX_TOKENS && known.iter().all(|token| token.id != id) {
             return Err(EngineError::Busy(format!("An account has at most {MAX_TOKENS} tokens; end one first.")));
         }
-        let (token, secret) = self.add_key(account, name, request.scopes, TOKEN, false).await?;
+        self.inner.store.end_token(&account.id, &id).await?;
+        let (token, secret) = self.add_key(account, id, name, request.scopes, TOKEN, false).await?;
         self.inner.store.note(&account.name, "token made", &account.owner(), &token.name).await?;
         Ok(NewToken { token, secret })
     }
 
     /// The account's tokens.
+    #[boxed]
     pub async fn tokens(&self, account: &AccountInfo) -> Result<Vec<TokenInfo>> {
         self.inner.store.tokens(&account.id).await
     }
 
     /// Ends a token.
+    #[boxed]
     pub async fn end_token(&self, account: &AccountInfo, id: &str) -> Result<()> {
         if !self.inner.store.end_token(&account.id, id).await? {
             return Err(EngineError::NotFound(format!("There is no token {id:?}.")));
@@ -139,11 +159,13 @@ impl Engine {
     }
 
     /// Moves what a guest made into an account.
+    #[boxed]
     pub async fn keep_things(&self, guest: &str, account: &AccountInfo) -> Result<()> {
         self.inner.store.move_things(guest, &account.owner()).await
     }
 
     /// Accounts, newest first, for curators.
+    #[boxed]
     pub async fn accounts(&self, page: &Page) -> Result<Part<AccountInfo>> {
         let (from, limit) = page.start()?;
         let accounts = self.inner.store.accounts(&from, limit + 1).await?;
@@ -151,6 +173,7 @@ impl Engine {
     }
 
     /// Asks the curators to be made a developer.
+    #[boxed]
     pub async fn wish_to_develop(&self, account: &AccountInfo, reason: &str) -> Result<()> {
         let reason = said(reason, "say in a sentence or two what you want to submit")?;
         if account.role != Role::User {
@@ -161,6 +184,7 @@ impl Engine {
     }
 
     /// Registers the key that the account signs its plugins with, or forgets it.
+    #[boxed]
     pub async fn set_signing_key(&self, account: &AccountInfo, key: Option<&str>) -> Result<AccountInfo> {
         let key = key.map(signature::public_key).transpose()?;
         let (action, detail) =
@@ -173,6 +197,7 @@ impl Engine {
 
     /// Gives an account a role. Curators decide about users and developers, administrators about all; nobody about
     /// themselves.
+    #[boxed]
     pub async fn set_role(&self, by: &AccountInfo, id: &str, role: Role) -> Result<AccountInfo> {
         let store = &self.inner.store;
         let missing = || EngineError::NotFound(format!("There is no account {id:?}."));
@@ -193,11 +218,13 @@ impl Engine {
     }
 
     /// What was done to an account or a plugin, oldest first.
+    #[boxed]
     pub async fn audit(&self, subject: &str) -> Result<Vec<AuditEntry>> {
         self.inner.store.notes_on(subject).await
     }
 
     /// The first entry of the audit log that was changed by hand, if any.
+    #[boxed]
     pub async fn broken_audit(&self) -> Result<Option<i64>> {
         self.inner.store.broken_note().await
     }

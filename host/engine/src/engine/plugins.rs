@@ -3,6 +3,7 @@
 use super::Engine;
 use super::people::said;
 use crate::blobs::sha256_hex;
+use crate::boxed;
 use crate::model::{
     AccountInfo, Action, CheckLine, CheckVerdict, Cursor, Decision, Manifest, Page, Part, PluginInfo, PluginState, Role,
 };
@@ -28,6 +29,7 @@ impl Engine {
     }
 
     /// Takes a plugin file; true when these bytes are new. The same bytes of one account are one; a signature may come later.
+    #[boxed]
     pub async fn submit_plugin(
         &self,
         account: &AccountInfo,
@@ -104,6 +106,7 @@ impl Engine {
     }
 
     /// The public plugins and those of the viewer, newest first; without reports and history.
+    #[boxed]
     pub async fn plugins(&self, viewer: Option<&AccountInfo>, page: &Page) -> Result<Part<PluginInfo>> {
         let (from, limit) = page.start()?;
         let all = self.inner.store.submissions().await?;
@@ -116,12 +119,12 @@ impl Engine {
     }
 
     /// What waits for a curator, oldest first; without reports and history.
-    pub async fn curation(&self, curator: &AccountInfo) -> Result<Vec<PluginInfo>> {
+    #[boxed]
+    pub async fn curation(&self, curator: &AccountInfo, page: &Page) -> Result<Part<PluginInfo>> {
+        let (from, limit) = page.start()?;
         let all = self.inner.store.submissions().await?;
-        let waits = |row: &&SubmissionRow| matches!(row.state, PluginState::Awaiting | PluginState::Asked);
-        let mut rows: Vec<&SubmissionRow> = all.iter().filter(waits).collect();
-        rows.sort_by_key(|row| row.changed_us);
-        self.listed(&rows, &all, Some(curator)).await
+        let Part { entries, next } = waiting(&all, &from, limit);
+        Ok(Part { entries: self.listed(&entries, &all, Some(curator)).await?, next })
     }
 
     async fn listed(
@@ -141,6 +144,7 @@ impl Engine {
     }
 
     /// One plugin with its report. To who may not see it, it is not there.
+    #[boxed]
     pub async fn plugin(&self, id: &str, viewer: Option<&AccountInfo>) -> Result<PluginInfo> {
         let row = self.visible(id, viewer).await?;
         let all = self.inner.store.submissions().await?;
@@ -196,6 +200,7 @@ impl Engine {
     }
 
     /// Takes a step on a plugin's way.
+    #[boxed]
     pub async fn decide(&self, id: &str, by: &AccountInfo, decision: Decision) -> Result<PluginInfo> {
         let row = self.visible(id, Some(by)).await?;
         let Decision { action, reason } = decision;
@@ -232,6 +237,9 @@ impl Engine {
             return Err(EngineError::Busy("Somebody else has just decided about this plugin; look again.".into()));
         }
         self.inner.renew_plugins().await?;
+        if step.to == PluginState::Public {
+            self.measure_brought(row.algorithms.iter()).await?;
+        }
         self.plugin(id, Some(by)).await
     }
 
@@ -247,6 +255,7 @@ impl Engine {
 
 impl super::Inner {
     /// Offers what may be benchmarked now.
+    #[boxed]
     pub async fn renew_plugins(&self) -> Result<()> {
         let all = brought::brought(&self.store, &self.blobs, &self.config.data).await?;
         self.registry.offer(all);
@@ -284,6 +293,15 @@ fn step(action: Action) -> Step {
         Action::Reinstate => (false, true, &[Suspended, Excluded, Rejected], Public, "reinstated"),
     };
     Step { by_author, wants_reason, from, to, word }
+}
+
+/// What waits for a curator from this place on, oldest first: times count backwards, so that it is a list like the others.
+fn waiting<'a>(all: &'a [SubmissionRow], from: &Cursor, limit: usize) -> Part<&'a SubmissionRow> {
+    let place = |row: &&SubmissionRow| Cursor::behind(-row.changed_us, &row.id);
+    let waits = |row: &&SubmissionRow| matches!(row.state, PluginState::Awaiting | PluginState::Asked);
+    let mut rows: Vec<&SubmissionRow> = all.iter().filter(waits).filter(|row| place(row) < *from).collect();
+    rows.sort_by_key(|row| std::cmp::Reverse(place(row)));
+    Part::of(rows, limit, place)
 }
 
 fn ids(row: &SubmissionRow) -> impl Iterator<Item = &str> {
@@ -349,4 +367,49 @@ fn flags(
     let twins = all.iter().filter(|other| other.account != row.account && other.blob == row.blob);
     flags.extend(twins.map(|_| "Another account sent the same file.".to_owned()));
     flags
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_waits_comes_oldest_first_part_by_part() {
+        let manifest =
+            serde_json::json!({ "name": "n", "version": "1", "authors": "a", "license": "MIT", "queries": [] });
+        let row = |id: &str, state, changed_us| SubmissionRow {
+            id: id.into(),
+            account: "1".into(),
+            blob: id.into(),
+            file: "f.so".into(),
+            bytes: 1,
+            manifest: serde_json::from_value(manifest.clone()).unwrap(),
+            signed_by: None,
+            state,
+            reason: String::new(),
+            hardware_class: None,
+            algorithms: Vec::new(),
+            created_us: 1,
+            changed_us,
+        };
+        use PluginState::{Asked, Awaiting, Public};
+        let all = [
+            row("c", Awaiting, 7),
+            row("p", Public, 1),
+            row("a", Asked, 3),
+            row("b", Awaiting, 7),
+            row("d", Awaiting, 9),
+        ];
+        for limit in 1..=5 {
+            let (mut from, mut got) = (Cursor::start(), Vec::new());
+            loop {
+                let part = waiting(&all, &from, limit);
+                assert!(part.entries.len() == limit || part.next.is_none());
+                got.extend(part.entries.iter().map(|row| row.id.clone()));
+                let Some(next) = part.next else { break };
+                from = next;
+            }
+            assert_eq!(got, ["a", "c", "b", "d"], "{limit} at a time");
+        }
+    }
 }

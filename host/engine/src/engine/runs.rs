@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::{Engine, INTERACTIVE};
+use crate::boxed;
 use crate::model::{Cursor, Page, Part, RunInfo, RunSpec, State, Visibility};
 use crate::runlog::{fresh_stages, plain_event};
 use crate::store::{RunRow, now_us};
@@ -11,35 +12,56 @@ use crate::{EngineError, Result, dispatcher, draw, estimate};
 /// How long `cancel` waits for a run under way to end before it answers.
 const CANCEL_PATIENCE: Duration = Duration::from_secs(3);
 
+/// Who asks for a run, and what for.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Asking<'a> {
+    /// Who owns it; the service when nobody does.
+    pub owner: Option<&'a str>,
+    /// Smaller is served first.
+    pub priority: i64,
+    /// For the start page.
+    pub featured: bool,
+    /// The request's name.
+    pub key: Option<&'a str>,
+    /// The suite that it belongs to.
+    pub suite: Option<&'a str>,
+}
+
 impl Engine {
     /// Checks the spec and queues the run.
+    #[boxed]
     pub async fn submit(&self, spec: RunSpec, owner: Option<&str>) -> Result<RunInfo> {
-        self.queue(spec, owner, INTERACTIVE, false, None).await.map(|(run, _)| run)
+        let asking = Asking { owner, priority: INTERACTIVE, ..Asking::default() };
+        self.queue(spec, asking).await.map(|(run, _)| run)
     }
 
     /// The same, once: who asks again under the same key, because the first answer was lost, gets the run that there is.
     /// True when it is a new one.
+    #[boxed]
     pub async fn submit_once(&self, spec: RunSpec, owner: &str, key: &str) -> Result<(RunInfo, bool)> {
-        self.queue(spec, Some(owner), INTERACTIVE, false, Some(key)).await
+        let asking = Asking { owner: Some(owner), priority: INTERACTIVE, key: Some(key), ..Asking::default() };
+        self.queue(spec, asking).await
     }
 
-    pub(super) async fn queue(
-        &self,
-        spec: RunSpec,
-        owner: Option<&str>,
-        priority: i64,
-        featured: bool,
-        key: Option<&str>,
-    ) -> Result<(RunInfo, bool)> {
+    pub(super) async fn queue(&self, spec: RunSpec, asking: Asking<'_>) -> Result<(RunInfo, bool)> {
+        let Asking { owner, priority, featured, key, suite } = asking;
         let checked = self.check(&spec, owner).await?;
+        let asked_before = match (owner, key) {
+            (Some(owner), Some(key)) => self.inner.store.run_of_request(owner, key).await?.is_some(),
+            _ => false,
+        };
+        if !asked_before {
+            self.has_room_for_a_run(owner).await?;
+        }
         let expected = estimate::estimate(&self.inner, &checked).await?;
         let row = RunRow {
             id: uuid::Uuid::now_v7().to_string(),
             owner: owner.map(str::to_owned),
             featured,
             private: checked.contestants.iter().any(|c| self.inner.registry.is_private(c)),
-            visibility: if featured { Visibility::Public } else { Visibility::default() },
+            visibility: if featured || suite.is_some() { Visibility::Public } else { Visibility::default() },
             priority,
+            suite: suite.map(str::to_owned),
             state: State::Queued,
             attempts: 0,
             message: None,
@@ -58,7 +80,9 @@ impl Engine {
         if !self.inner.store.add_run(&row, &fresh_stages(&row.spec.algorithms), key).await? {
             return self.asked_before(&row, key.unwrap_or_default(), owner).await.map(|run| (run, false));
         }
-        dispatcher::announce(&self.inner).await?;
+        if priority <= INTERACTIVE {
+            dispatcher::announce(&self.inner).await?;
+        }
         self.inner.wake.notify_one();
         self.run(&row.id, owner).await.map(|run| (run, true))
     }
@@ -76,6 +100,7 @@ impl Engine {
 
     /// Queues a preview's run for all of its configurations. It stays the same run; its numbers are a preview's until those
     /// of the whole are there.
+    #[boxed]
     pub async fn refine(&self, id: &str, caller: Option<&str>) -> Result<RunInfo> {
         let row = self.inner.run_row(id).await?;
         if caller.is_none() || row.owner.as_deref() != caller {
@@ -100,12 +125,14 @@ impl Engine {
     }
 
     /// One run.
+    #[boxed]
     pub async fn run(&self, id: &str, viewer: Option<&str>) -> Result<RunInfo> {
         let row = self.inner.run_row(id).await?;
         self.info(row, viewer).await
     }
 
     /// The owner's runs, newest first. A part holds fewer where an object of a run is hidden from its owner.
+    #[boxed]
     pub async fn runs(&self, owner: &str, page: &Page) -> Result<Part<RunInfo>> {
         let (from, limit) = page.start()?;
         let rows = self.inner.store.runs_of(owner, &from, limit + 1).await?;
@@ -120,6 +147,7 @@ impl Engine {
     }
 
     /// The newest finished run for the start page, if there is one already.
+    #[boxed]
     pub async fn featured(&self) -> Result<Option<RunInfo>> {
         match self.inner.store.newest_featured().await? {
             Some(row) => Ok(Some(self.info(row, None).await?)),
@@ -128,11 +156,19 @@ impl Engine {
     }
 
     /// Ends a run that is queued or under way. A run that has ended stays as it is.
+    #[boxed]
     pub async fn cancel(&self, id: &str, caller: Option<&str>) -> Result<RunInfo> {
         let row = self.inner.run_row(id).await?;
         if caller.is_none() || row.owner.as_deref() != caller {
             return Err(EngineError::Forbidden("Only who asked for this run may cancel it.".into()));
         }
+        self.end(&row).await?;
+        self.run(id, caller).await
+    }
+
+    /// Ends a run that waits or is under way, whoever owns it.
+    pub(super) async fn end(&self, row: &RunRow) -> Result<()> {
+        let id = row.id.as_str();
         let asked = Instant::now();
         loop {
             let ended = row.after(State::Cancelled);
@@ -149,7 +185,7 @@ impl Engine {
             }
             tokio::time::sleep(Duration::from_millis(20)).await;
         }
-        self.run(id, caller).await
+        Ok(())
     }
 
     async fn info(&self, row: RunRow, viewer: Option<&str>) -> Result<RunInfo> {

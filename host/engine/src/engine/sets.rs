@@ -7,6 +7,7 @@ use ocb_core::mesh::Mesh;
 use ocb_core::oracle::Shape;
 
 use super::{Engine, Inner};
+use crate::boxed;
 use crate::columns::{SetOf, set_parquet};
 use crate::configurations::{Gauge, describe, make, read_file, set_key};
 use crate::model::{RunSpec, SetInfo};
@@ -34,6 +35,7 @@ impl SetJob {
 
 impl Engine {
     /// Checks a request for a set. Of the spec, the objects, the method and the separation count.
+    #[boxed]
     pub async fn set_job(&self, spec: &RunSpec) -> Result<SetJob> {
         let inner = &self.inner;
         let size = spec::set_size(spec, &inner.store, &inner.blobs).await?;
@@ -52,12 +54,14 @@ impl Engine {
     }
 
     /// Keeps a set that was found in so many seconds; later runs and requests use it again.
+    #[boxed]
     pub async fn keep_set(&self, job: &SetJob, set: &ConfigurationSet, seconds: f64) -> Result<SetInfo> {
         let _keeping = self.inner.blobs.keeping().await;
         self.inner.keep_set(&job.key, job.meshes.each_ref().map(AsRef::as_ref), set, seconds).await
     }
 
     /// A kept set with its truth as Parquet.
+    #[boxed]
     pub async fn set_parquet(&self, info: &SetInfo) -> Result<Vec<u8>> {
         self.inner.blobs.get(&info.sha256).await
     }
@@ -65,6 +69,7 @@ impl Engine {
 
 impl Inner {
     /// Keeps a new set under its key, while `Blobs::keeping` is held.
+    #[boxed]
     pub async fn keep_set(
         &self,
         key: &str,

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::Engine;
+use crate::boxed;
 use crate::measure::Stop;
 use crate::model::{Stability, StabilityTable};
 use crate::stability::{self, Selection};
@@ -10,6 +11,7 @@ use crate::{EngineError, Result};
 
 impl Engine {
     /// All families, relations and reported failures, with the newest result of every method that was tried.
+    #[boxed]
     pub async fn stability(&self) -> Result<StabilityTable> {
         Ok(StabilityTable { methods: self.inner.store.stability().await?, ..stability::table() })
     }

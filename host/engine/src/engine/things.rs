@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use super::{Engine, Inner};
+use crate::boxed;
 use crate::model::{State, Things};
 use crate::store::{Belongings, now_us};
 use crate::{EngineError, Result};
@@ -13,42 +14,49 @@ const DAY_US: i64 = 24 * 3600 * 1_000_000;
 
 impl Engine {
     /// Everything that this owner has, which is what `remove_things` takes away.
+    #[boxed]
     pub async fn things(&self, owner: &str) -> Result<Things> {
         let all = self.inner.store.belongings(owner, None).await?;
         self.inner.told(owner, all).await
     }
 
     /// What goes with one of the owner's runs.
+    #[boxed]
     pub async fn things_of_run(&self, id: &str, owner: &str) -> Result<Things> {
         let run = self.inner.own_run(id, owner).await?;
         self.inner.told(owner, run).await
     }
 
     /// What goes with one of the owner's objects: it, and their runs and advice with it.
+    #[boxed]
     pub async fn things_of_object(&self, id: &str, owner: &str) -> Result<Things> {
         let object = self.inner.own_object(id, owner).await?;
         self.inner.told(owner, object).await
     }
 
     /// Takes away everything that this owner has, and tells what it was. Plugins stay: results belong to them.
+    #[boxed]
     pub async fn remove_things(&self, owner: &str) -> Result<Things> {
         let all = self.inner.store.belongings(owner, None).await?;
         self.remove(owner, all).await
     }
 
     /// Takes away a run of this owner.
+    #[boxed]
     pub async fn remove_run(&self, id: &str, owner: &str) -> Result<Things> {
         let run = self.inner.own_run(id, owner).await?;
         self.remove(owner, run).await
     }
 
     /// Takes away an object of this owner, and their runs and advice with it.
+    #[boxed]
     pub async fn remove_object(&self, id: &str, owner: &str) -> Result<Things> {
         let object = self.inner.own_object(id, owner).await?;
         self.remove(owner, object).await
     }
 
     /// A guest's things stay as long again from now on.
+    #[boxed]
     pub async fn keep_longer(&self, owner: &str) -> Result<Things> {
         self.inner.store.keep_longer(owner).await?;
         self.things(owner).await
@@ -72,6 +80,9 @@ impl Engine {
     /// Takes away what guests have left behind, now and every hour.
     pub(super) async fn sweep(self) {
         while !self.inner.closing() {
+            if let Err(e) = self.forget_requests().await {
+                tracing::error!("keys of old requests could not be forgotten: {e}");
+            }
             if let Err(e) = self.sweep_once(now_us()).await {
                 tracing::error!("what guests left behind could not be taken away: {e}");
             }
@@ -83,6 +94,7 @@ impl Engine {
     }
 
     /// Takes away everything of guests whose time is over; gives how many they were.
+    #[boxed]
     pub async fn sweep_once(&self, now_us: i64) -> Result<u32> {
         let mut swept = 0;
         for owner in self.inner.store.owners().await? {

@@ -4,6 +4,7 @@
 //! objects themselves. Whoever lost sight of an object has lost sight of everything made with it.
 
 use super::{Engine, Inner};
+use crate::boxed;
 use crate::model::{ObjectInfo, RunInfo, Visibility};
 use crate::objects::unknown;
 use crate::results::no_run;
@@ -12,6 +13,7 @@ use crate::{EngineError, Result};
 
 impl Engine {
     /// Decides who sees an object; only its owner may.
+    #[boxed]
     pub async fn change_object_visibility(&self, id: &str, to: Visibility, caller: &str) -> Result<ObjectInfo> {
         let inner = &self.inner;
         if !inner.objects.info_for(id, Some(caller)).await?.mine {
@@ -23,6 +25,7 @@ impl Engine {
     }
 
     /// Decides who sees a run; only its owner may, and no more than see its objects.
+    #[boxed]
     pub async fn change_run_visibility(&self, id: &str, to: Visibility, caller: &str) -> Result<RunInfo> {
         let row = self.inner.run_row(id).await?;
         if row.owner.as_deref() != Some(caller) {
@@ -49,12 +52,14 @@ impl Engine {
 
     /// # Errors
     /// `NotFound` when the object is there and not for this viewer. What is not there at all may be looked for.
+    #[boxed]
     pub async fn object_is_for(&self, id: &str, viewer: Option<&str>) -> Result<()> {
         if self.inner.objects.is_for(id, viewer).await? { Ok(()) } else { Err(unknown(id)) }
     }
 
     /// # Errors
     /// As [`Self::object_is_for`], for a run.
+    #[boxed]
     pub async fn run_is_for(&self, id: &str, viewer: Option<&str>) -> Result<()> {
         match self.inner.store.run(id).await? {
             Some(row) if !self.inner.may_see(&row, viewer).await? => Err(no_run(id)),
@@ -64,6 +69,7 @@ impl Engine {
 
     /// # Errors
     /// As [`Self::object_is_for`], for advice.
+    #[boxed]
     pub async fn advice_is_for(&self, id: &str, viewer: Option<&str>) -> Result<()> {
         let Some(row) = self.inner.store.advice(id).await? else { return Ok(()) };
         let spec = &row.info.spec;
@@ -78,6 +84,7 @@ impl Engine {
 
 impl Inner {
     /// Who sees the run besides its owner: what that decided, and no more than see its objects.
+    #[boxed]
     pub async fn visibility_of(&self, row: &RunRow) -> Result<Visibility> {
         let decided = if row.private { Visibility::Private } else { row.visibility };
         let (a, b) = (self.objects.visibility(row.object_a()).await?, self.objects.visibility(row.object_b()).await?);
@@ -85,6 +92,7 @@ impl Inner {
     }
 
     /// Is this run there for the viewer? Its owner, too, sees it only while they see its objects.
+    #[boxed]
     pub async fn may_see(&self, row: &RunRow, viewer: Option<&str>) -> Result<bool> {
         for object in [row.object_a(), row.object_b()] {
             if !self.objects.is_for(object, viewer).await? {

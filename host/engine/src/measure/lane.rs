@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use ocb_core::agreement::Said;
 use ocb_core::configuration::Placed;
+use ocb_core::instance::{AskedAs, Instance};
 use ocb_core::oracle::Pair;
 use ocb_core::query::{Answer, Counters, Query, Semantics};
 use ocb_core::record::Record;
@@ -30,7 +31,7 @@ pub struct Lane {
     /// Wall time of its timed passes.
     pub spent: Duration,
     cells: Vec<Cell>,
-    unjudged: Vec<(u32, Answer)>,
+    unjudged: Vec<(u32, AskedAs, Answer)>,
     passes: Vec<PassFacts>,
     build_ns: Vec<f64>,
     memory_bytes: Option<u64>,
@@ -47,6 +48,8 @@ struct Cell {
     below: u32,
     /// The first answer, or the first with a graver verdict.
     judged: Option<(Answer, Judged)>,
+    /// As what that one was asked for.
+    asked: AskedAs,
     counters: Option<Counters>,
     /// What the first answer came down to, how far right distances may lie from it, and how many answers contradict it.
     first: Option<Said>,
@@ -60,10 +63,10 @@ impl Cell {
         self.flips += u32::from(first.contradicts(said, self.slack));
     }
 
-    fn keep(&mut self, answer: Answer, judged: Judged) {
+    fn keep(&mut self, asked: AskedAs, answer: Answer, judged: Judged) {
         let graver = |(_, known): &(Answer, Judged)| judged.verdict.gravity() > known.verdict.gravity();
         if self.judged.as_ref().is_none_or(graver) {
-            self.judged = Some((answer, judged));
+            (self.asked, self.judged) = (asked, Some((answer, judged)));
         }
     }
 }
@@ -143,15 +146,16 @@ impl Lane {
         self.memory_bytes = self.memory_bytes.max(ending.memory_peak_bytes);
     }
 
-    /// An answer of a timed pass, in the original's numbers.
-    pub fn observe(&mut self, round: u32, seen: Observation) {
+    /// An answer of a timed pass in this process, in the original's numbers.
+    pub fn observe(&mut self, round: u32, process: u32, seen: Observation) {
         if let Some(time) = seen.time {
             let cell = &mut self.cells[seen.configuration as usize];
             cell.times.push((round, time.ns));
             cell.below += u32::from(time.below_resolution);
             self.done += 1;
         }
-        self.answered(seen.configuration, seen.answer);
+        let asked = AskedAs { process: Some(process), instance: seen.instance };
+        self.answered(seen.configuration, asked, seen.answer);
     }
 
     /// A timed pass is over.
@@ -177,16 +181,16 @@ impl Lane {
     pub fn count(&mut self, configuration: u32, answer: Answer, counters: Option<Counters>) {
         self.cells[configuration as usize].counters = counters;
         self.done += 1;
-        self.answered(configuration, answer);
+        self.answered(configuration, AskedAs { process: None, instance: Instance::default() }, answer);
     }
 
     /// The answer that was judged in an earlier pass needs no second look; every other one does.
-    fn answered(&mut self, configuration: u32, answer: Answer) {
+    fn answered(&mut self, configuration: u32, asked: AskedAs, answer: Answer) {
         let cell = &mut self.cells[configuration as usize];
         cell.said(Said::of(&answer));
         let known = cell.judged.as_ref();
         if known.is_none_or(|(known, _)| *known != answer) {
-            self.unjudged.push((configuration, answer));
+            self.unjudged.push((configuration, asked, answer));
         }
     }
 
@@ -195,9 +199,9 @@ impl Lane {
     pub fn judge(&mut self, pair: &Pair, placed: &[Placed], query: Query, semantics: Semantics) {
         let terms = Terms { query, semantics, precision: precision(&self.contestant.info) };
         let judged: Vec<Judged> =
-            self.unjudged.par_iter().map(|(i, answer)| judge(pair, &placed[*i as usize], terms, answer)).collect();
-        for ((i, answer), judged) in self.unjudged.drain(..).zip(judged) {
-            self.cells[i as usize].keep(answer, judged);
+            self.unjudged.par_iter().map(|(i, _, answer)| judge(pair, &placed[*i as usize], terms, answer)).collect();
+        for ((i, asked, answer), judged) in self.unjudged.drain(..).zip(judged) {
+            self.cells[i as usize].keep(asked, answer, judged);
         }
     }
 
@@ -239,6 +243,7 @@ impl Lane {
                     passes,
                     counters,
                     answer,
+                    asked: cell.asked,
                     verdict,
                     contacts,
                     flips: cell.flips,
@@ -281,8 +286,11 @@ mod tests {
         let hit = |hit| Answer::Collision { hit, pair: None };
         let judged = |verdict| Judged { verdict, contacts: None };
         let mut cell = Cell::default();
+        let mut number = 0;
         let mut stands = |answer: Answer, verdict| {
-            cell.keep(answer, judged(verdict));
+            let asked = AskedAs { process: Some(number), instance: Instance::default() };
+            number += 1;
+            cell.keep(asked, answer, judged(verdict));
             cell.judged.clone().map(|(answer, judged)| (answer, judged.verdict))
         };
         assert_eq!(stands(hit(true), Verdict::Correct), Some((hit(true), Verdict::Correct)));
@@ -290,5 +298,7 @@ mod tests {
         assert_eq!(stands(hit(true), Verdict::Correct), Some((Answer::GaveUp, Verdict::GaveUp)));
         assert_eq!(stands(hit(false), Verdict::FalseNegative), Some((hit(false), Verdict::FalseNegative)));
         assert_eq!(stands(hit(true), Verdict::WrongWitness), Some((hit(false), Verdict::FalseNegative)));
+        // Asked for by the fourth process.
+        assert_eq!(cell.asked.process, Some(3));
     }
 }

@@ -42,7 +42,10 @@ pub fn summarise(measured: &Measured, asked: Asked, compared: Option<Comparison>
     let terms = Terms { query, semantics, precision: precision(&measured.contestant.info) };
     let completed = || OutcomeInfo {
         name: "Completed".into(),
-        message: "The plugin answered everything it was asked.".into(),
+        message: match records.is_empty() {
+            true => "The time budget ended before every process had answered one question; give it more.".into(),
+            false => "The plugin answered everything it was asked.".into(),
+        },
         ours: false,
     };
     let counters: Vec<_> = records.iter().filter_map(|r| r.counters).collect();

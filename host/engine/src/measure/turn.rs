@@ -106,7 +106,7 @@ impl Turn<'_> {
         let mut reported = Instant::now();
         let mut each = |seen: Observation| {
             let answer = self.shown.translate(seen.answer, seen.configuration, seen.instance);
-            lane.observe(self.round, Observation { answer, ..seen });
+            lane.observe(self.round, self.process, Observation { answer, ..seen });
             self.go_on(lane, &mut reported)
         };
         // What it died of is in the session's ending.

@@ -4,21 +4,25 @@ use ocb_chart::Chart;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
-use super::Estimated;
+use super::{BoardSuite, Estimated};
 
 /// What to compare; the query string of the board. What is left out is chosen: the value with the most algorithms.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, ToSchema, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub struct BoardRequest {
+    /// Version of the suite whose results are compared, or `none` for the runs of people. The newest suite that was measured
+    /// when left out.
+    pub suite: Option<String>,
     /// The question: `collision_first`, `collision_all` or `proximity`, with `+solid` behind it for solid bodies.
     pub question: Option<String>,
     /// Contract class, e.g. `first_contact-shuffled-1-f64`.
     pub class: Option<String>,
     /// Hardware class.
     pub hardware: Option<String>,
-    /// Pair of objects, e.g. `bunny@3674~bunny@3674`; `all` takes every one.
+    /// Pair of objects, e.g. `bunny@3674~bunny@3674`; `all` takes every one, as is done for a suite when left out.
     pub scene: Option<String>,
-    /// How far apart: a relative distance such as `0.1`, `step:0.0001`, `ladder`, `grid:0`, ...; `all` takes every one.
+    /// How far apart: a relative distance such as `0.1`, `step:0.0001`, `ladder`, `grid:0`, ...; `all` takes every one, as is done
+    /// for a suite when left out.
     pub distance: Option<String>,
     /// What is needed: `any`, `none_seen` (no wrong answer), or the largest eps* that will do, e.g. `1e-6`.
     pub precision: Option<String>,
@@ -52,6 +56,8 @@ pub struct Board {
     pub filters: Vec<BoardFilter>,
     /// Results before any filter.
     pub results: u32,
+    /// The suite whose results these are; absent for the runs of people.
+    pub suite: Option<BoardSuite>,
     /// One per algorithm with its settings: places first, then what has none.
     pub rows: Vec<BoardRow>,
     /// What is to be seen, in one sentence.

@@ -141,7 +141,7 @@ pub struct TokenInfo {
 }
 
 /// A token that is asked for.
-#[derive(Clone, Deserialize, ToSchema)]
+#[derive(Clone, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TokenRequest {
     /// What its owner calls it, 1 to 80 characters.

@@ -193,6 +193,8 @@ impl Store {
             "UPDATE runs SET owner = $1 WHERE owner = $2",
             "UPDATE objects SET owner = $1 WHERE owner = $2",
             "UPDATE advice SET owner = $1 WHERE owner = $2",
+            "UPDATE requests SET owner = $1 WHERE owner = $2 AND (resource, request_key) NOT IN \
+             (SELECT resource, request_key FROM requests WHERE owner = $1)",
         ] {
             sqlx::query(text).bind(to).bind(from).execute(&mut *transaction).await?;
         }

@@ -32,11 +32,11 @@ pub struct AdviceRow {
 type Columns = (String, Option<String>, String, i64);
 
 impl Store {
-    /// Remembers a request.
-    pub async fn add_advice(&self, info: &AdviceInfo, owner: Option<&str>) -> Result<()> {
-        sqlx::query(
+    /// Remembers a request; false when there is one with its id.
+    pub async fn add_advice(&self, info: &AdviceInfo, owner: &str) -> Result<bool> {
+        let added = sqlx::query(
             "INSERT INTO advice (id, owner, ended, attempts, info, papers, created_us) \
-             VALUES ($1, $2, 0, 0, $3, '[[],[]]', $4)",
+             VALUES ($1, $2, 0, 0, $3, '[[],[]]', $4) ON CONFLICT (id) DO NOTHING",
         )
         .bind(&info.id)
         .bind(owner)
@@ -44,7 +44,7 @@ impl Store {
         .bind(now_us())
         .execute(&self.pool)
         .await?;
-        Ok(())
+        Ok(added.rows_affected() == 1)
     }
 
     /// Counts that the work on a request begins.

@@ -74,6 +74,17 @@ impl Store {
         row.map(read).transpose()
     }
 
+    /// Bytes of all meshes of this owner.
+    pub async fn object_bytes(&self, owner: &str) -> Result<u64> {
+        let bytes: i64 = sqlx::query_scalar(
+            "SELECT CAST(COALESCE(SUM(b.bytes), 0) AS BIGINT) FROM objects o JOIN blobs b ON b.sha256 = o.blob WHERE o.owner = $1",
+        )
+        .bind(owner)
+        .fetch_one(&self.pool)
+        .await?;
+        Ok(bytes as u64)
+    }
+
     /// The viewer's objects and the public ones of others from this place on, newest first, at most `limit`.
     pub async fn objects_for(&self, viewer: Option<&str>, from: &Cursor, limit: usize) -> Result<Vec<ObjectRow>> {
         let rows: Vec<Columns> = sqlx::query_as(

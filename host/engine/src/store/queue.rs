@@ -74,6 +74,13 @@ impl Store {
         Ok(())
     }
 
+    /// How many runs of this owner wait.
+    pub async fn waiting_runs(&self, owner: &str) -> Result<u64> {
+        let text = "SELECT COUNT(*) FROM runs WHERE owner = $1 AND state = 'queued'";
+        let count: i64 = sqlx::query_scalar(text).bind(owner).fetch_one(&self.pool).await?;
+        Ok(count as u64)
+    }
+
     /// All waiting runs in the order in which they will be served if nothing else is asked for.
     pub async fn queued(&self) -> Result<Vec<QueuedRun>> {
         let rows: Vec<(String, String, i64, i64, f64)> = sqlx::query_as(

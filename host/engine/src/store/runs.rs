@@ -23,6 +23,8 @@ pub struct RunRow {
     pub visibility: Visibility,
     /// Smaller is served first.
     pub priority: i64,
+    /// The suite that it belongs to, by its hash.
+    pub suite: Option<String>,
     /// State.
     pub state: State,
     /// How often it was started.
@@ -83,11 +85,12 @@ macro_rules! select_runs {
     ($rest:literal) => {
         concat!(
             "SELECT id, owner, featured, private, visibility, priority, state, attempts, message, spec, object_a_name, object_b_name, ",
-            "set_info, set_blob, environment, preview, secret, expected_seconds, created_us, finished_us FROM runs ",
+            "set_info, set_blob, environment, preview, secret, expected_seconds, created_us, finished_us, suite FROM runs ",
             $rest
         )
     };
 }
+pub(super) use select_runs;
 
 impl Store {
     /// Queues a run with its lanes; false when its owner has used this key of a request before.
@@ -95,8 +98,8 @@ impl Store {
         let mut transaction = self.pool.begin().await?;
         let added = sqlx::query(
             "INSERT INTO runs (id, owner, featured, priority, state, attempts, spec, object_a_name, object_b_name, \
-             secret, expected_seconds, created_us, private, request_key, visibility) \
-             VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11, $12, $13, $14) \
+             secret, expected_seconds, created_us, private, request_key, visibility, suite) \
+             VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15) \
              ON CONFLICT (owner, request_key) DO NOTHING",
         )
         .bind(&run.id)
@@ -113,6 +116,7 @@ impl Store {
         .bind(i64::from(run.private))
         .bind(key)
         .bind(run.visibility.name())
+        .bind(run.suite.as_deref())
         .execute(&mut *transaction)
         .await?;
         if added.rows_affected() == 0 {
@@ -190,10 +194,11 @@ impl Store {
         rows.iter().map(read_run).collect()
     }
 
-    /// The newest finished runs that are public, and those of this owner.
+    /// The newest finished runs that are public, and those of this owner; without those of suites.
     pub async fn finished_runs(&self, owner: Option<&str>, limit: i64) -> Result<Vec<RunRow>> {
         let rows = sqlx::query(select_runs!(
-            "WHERE state = 'done' AND (visibility = 'public' OR owner = $1) ORDER BY finished_us DESC, id DESC LIMIT $2"
+            "WHERE state = 'done' AND suite IS NULL AND (visibility = 'public' OR owner = $1) \
+             ORDER BY finished_us DESC, id DESC LIMIT $2"
         ))
         .bind(owner)
         .bind(limit)
@@ -315,7 +320,7 @@ impl Store {
     }
 }
 
-fn read_run(row: &AnyRow) -> Result<RunRow> {
+pub(super) fn read_run(row: &AnyRow) -> Result<RunRow> {
     let set: Option<String> = row.try_get("set_info")?;
     let environment: Option<String> = row.try_get("environment")?;
     let preview: Option<String> = row.try_get("preview")?;
@@ -326,6 +331,7 @@ fn read_run(row: &AnyRow) -> Result<RunRow> {
         private: row.try_get::<i64, _>("private")? != 0,
         visibility: visibility(row.try_get("visibility")?)?,
         priority: row.try_get("priority")?,
+        suite: row.try_get("suite")?,
         state: named_state(row.try_get("state")?)?,
         attempts: row.try_get::<i64, _>("attempts")? as u32,
         message: row.try_get("message")?,

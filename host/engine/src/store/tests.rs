@@ -5,6 +5,7 @@ use ocb_core::query::Query;
 
 mod lists;
 mod people;
+mod suites;
 mod things;
 mod visibility;
 
@@ -85,10 +86,13 @@ on_both!(
     two_workers_never_claim_the_same_run,
     accounts_have_one_name_and_keys_of_their_own,
     the_log_shows_what_was_changed_by_hand,
+    an_invitation_is_accepted_once_and_in_time,
+    a_key_names_one_request,
     a_submission_is_checked_three_times_at_most,
     only_what_is_public_is_in_the_lists_of_others,
     lists_go_on_where_they_were_left,
     what_is_taken_away_takes_the_files_that_nobody_else_uses,
+    a_suites_runs_are_apart_from_those_of_people,
 );
 
 fn object(id: &str) -> ObjectInfo {
@@ -125,6 +129,7 @@ fn run(id: &str, owner: Option<&str>, priority: i64, created_us: i64) -> RunRow 
         private: false,
         visibility: Visibility::Unlisted,
         priority,
+        suite: None,
         state: State::Queued,
         attempts: 0,
         message: None,
@@ -206,6 +211,7 @@ async fn add(store: &Store, run: RunRow) {
 mod contract {
     pub use super::lists::*;
     pub use super::people::*;
+    pub use super::suites::*;
     pub use super::things::*;
     pub use super::visibility::*;
     use super::*;
@@ -230,6 +236,7 @@ mod contract {
         };
         assert_eq!(store.object("1").await.unwrap(), Some(row(&mine, Some("me"))));
         assert_eq!(store.object("9").await.unwrap(), None);
+        assert_eq!((store.object_bytes("me").await.unwrap(), store.object_bytes("none").await.unwrap()), (1, 0));
         assert_eq!(store.objects_for(Some("me"), &Cursor::start(), 9).await.unwrap(), [row(&mine, Some("me"))]);
         assert_eq!(store.object_with_mesh(&mine.sha256, Some("me")).await.unwrap(), Some(row(&mine, Some("me"))));
         assert_eq!(store.object_with_mesh(&mine.sha256, Some("other")).await.unwrap(), None);
@@ -281,7 +288,7 @@ mod contract {
 
     pub async fn advice_ends_once_and_is_found_again(store: Store) {
         let mut info = advice_info("x");
-        store.add_advice(&info, Some("me")).await.unwrap();
+        assert!(store.add_advice(&info, "me").await.unwrap());
         store.begin_advice("x").await.unwrap();
         let [open] = store.open_advice().await.unwrap().try_into().ok().expect("one is open");
         assert_eq!((open.info, open.owner.as_deref(), open.attempts), (info.clone(), Some("me"), 1));
@@ -386,6 +393,7 @@ mod contract {
             add(&store, run(id, Some("a"), 1, 2 + i as i64)).await;
         }
         add(&store, run("b1", Some("b"), 1, 9)).await;
+        assert_eq!((store.waiting_runs("a").await.unwrap(), store.waiting_runs("none").await.unwrap()), (3, 0));
         let foretold: Vec<String> = store.queued().await.unwrap().into_iter().map(|r| r.id).collect();
         let mut served = Vec::new();
         while let Some(id) = store.claim().await.unwrap() {

@@ -20,8 +20,9 @@ test('numbers come with their intervals, shares with their counts', () => {
 })
 
 test('another method is named with its setting, and its size in what it consists of', () => {
-  const spheres = { kind: 'inner_spheres', algorithm: 'inner-spheres:spheres=512', elements: 1024, unit: 'spheres' } as AdvicePoint
+  const spheres = { kind: 'inner_spheres', algorithm: 'inner-spheres:spheres=512', elements: 1024, unit: 'spheres', certified: false } as AdvicePoint
   expect(pointName(advice, spheres)).toBe('Inner spheres, inner-spheres:spheres=512 (uncertified)')
+  expect(pointName({ ...advice, configurations: 400 }, { ...spheres, asked: 37 })).toContain('(uncertified; 37 of 400 asked)')
   expect(sizeText(spheres)).toBe('1,024 spheres')
   expect(settingText(spheres)).toBe('spheres=512')
   expect(settingText({ ...spheres, kind: 'single_precision', algorithm: 'parry-f32' })).toBe('f32')

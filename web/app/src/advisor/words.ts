@@ -26,19 +26,25 @@ export function stagesText(advice: Advice, stages: readonly (readonly number[])[
 
 /** What a way asks, in words. */
 export function pointName(advice: Advice, point: AdvicePoint): string {
+  const asked = point.asked == null ? '' : `${count(point.asked)} of ${count(advice.configurations)} asked`
+  const remarks = [point.certified ? '' : 'uncertified', asked].filter(Boolean).join('; ')
+  return remarks ? `${bareName(advice, point)} (${remarks})` : bareName(advice, point)
+}
+
+function bareName(advice: Advice, point: AdvicePoint): string {
   switch (point.kind) {
     case 'whole': return 'Whole objects, distance'
     case 'same_question': return 'Whole objects, just this question'
     case 'yes_no': return 'Whole objects, yes or no instead of a distance'
     case 'levels': return `Levels ${stagesText(advice, point.stages)}`
     case 'advised': return 'Advised'
-    case 'hulls': return 'Convex hulls (uncertified)'
-    case 'boxes': return 'Boxes (uncertified)'
-    case 'convex_parts': return `Convex parts, ${point.algorithm} (uncertified)`
-    case 'inner_spheres': return `Inner spheres, ${point.algorithm} (uncertified)`
-    case 'voxels': return `Voxels${advice.question.kind === 'distance' ? ', yes or no' : ''}, ${point.algorithm} (uncertified)`
-    case 'double_precision': return `Whole objects in f64, ${point.algorithm} (uncertified)`
-    case 'single_precision': return `Whole objects in f32, ${point.algorithm} (uncertified)`
+    case 'hulls': return 'Convex hulls'
+    case 'boxes': return 'Boxes'
+    case 'convex_parts': return `Convex parts, ${point.algorithm}`
+    case 'inner_spheres': return `Inner spheres, ${point.algorithm}`
+    case 'voxels': return `Voxels${advice.question.kind === 'distance' ? ', yes or no' : ''}, ${point.algorithm}`
+    case 'double_precision': return `Whole objects in f64, ${point.algorithm}`
+    case 'single_precision': return `Whole objects in f32, ${point.algorithm}`
   }
 }
 

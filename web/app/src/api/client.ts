@@ -3,7 +3,7 @@ import { asApiError, fromResponse } from './errors'
 import { nextOf } from './link'
 import type { paths } from './schema'
 import type {
-  Accuracy, AdviceInfo, AdviceSpec, AlgorithmInfo, Board, Chart, ChartKind, Ecdf, Estimate, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, StabilityTable, Visibility, WorstCase,
+  Accuracy, AdviceInfo, AdviceSpec, AlgorithmInfo, Board, Chart, ChartKind, Citation, Ecdf, Estimate, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, StabilityTable, SuiteInfo, Visibility, WorstCase,
 } from './types'
 
 export const http = createClient<paths>({ baseUrl: '/' })
@@ -92,9 +92,11 @@ export const getChart = (id: string, query: { kind: ChartKind; accuracy: Accurac
   answer(http.GET('/api/v1/runs/{id}/chart', { params: { path: { id }, query } }))
 
 /** Filters of the board as the API names them; what is left out is chosen. */
-export type BoardQuery = Partial<Record<'question' | 'class' | 'hardware' | 'scene' | 'distance' | 'precision', string>> & { accuracy?: Accuracy }
+export type BoardQuery = Partial<Record<'suite' | 'question' | 'class' | 'hardware' | 'scene' | 'distance' | 'precision', string>> & { accuracy?: Accuracy }
 
 export const getBoard = (query: BoardQuery): Promise<Board> => answer(http.GET('/api/v1/board', { params: { query } }))
+
+export const getSuite = (): Promise<SuiteInfo> => answer(http.GET('/api/v1/suite'))
 
 export const boardUrl = (file: string, query: BoardQuery): string => `/api/v1/${file}?${new URLSearchParams(Object.entries(query))}`
 
@@ -118,6 +120,9 @@ export const getAdvice = (id: string): Promise<AdviceInfo> => answer(http.GET('/
 
 export const cancelAdvice = (id: string): Promise<AdviceInfo> =>
   answer(http.POST('/api/v1/advice/{id}/cancel', { params: { path: { id } } }))
+
+export const getCitation = (kind: 'run' | 'plugin', id: string): Promise<Citation> =>
+  answer(kind === 'run' ? http.GET('/api/v1/runs/{id}/citation', { params: { path: { id } } }) : http.GET('/api/v1/plugins/{id}/citation', { params: { path: { id } } }))
 
 /** The run of the start page, or null while there is none. */
 export const getFeatured = (): Promise<RunInfo | null> => answer(http.GET('/api/v1/featured'))

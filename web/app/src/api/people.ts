@@ -1,6 +1,6 @@
 import { answer, http, nothing, part, whole } from './client'
 import type {
-  AccountInfo, Credentials, Decision, Identity, NewToken, PluginInfo, Role, Scope, TokenInfo,
+  AccountInfo, Credentials, Decision, Identity, InvitationInfo, NewInvitation, NewToken, PluginInfo, Role, Scope, TokenInfo,
 } from './types'
 
 export const getAccount = (): Promise<Identity> => answer(http.GET('/api/v1/account'))
@@ -38,10 +38,23 @@ export const listAccounts = (): Promise<AccountInfo[]> =>
 export const changeRole = (id: string, role: Role): Promise<AccountInfo> =>
   answer(http.POST('/api/v1/accounts/{id}/role', { params: { path: { id } }, body: { role } }))
 
+export const listInvitations = (): Promise<InvitationInfo[]> =>
+  whole((query) => part(http.GET('/api/v1/invitations', { params: { query } })))
+
+export const invite = (recipient: string, days: number): Promise<NewInvitation> =>
+  answer(http.POST('/api/v1/invitations', { body: { recipient, days } }))
+
+export const revokeInvitation = (id: string): Promise<InvitationInfo> =>
+  answer(http.DELETE('/api/v1/invitations/{id}', { params: { path: { id } } }))
+
+export const acceptInvitation = (secret: string): Promise<AccountInfo> =>
+  answer(http.POST('/api/v1/account/invitation', { body: { secret } }))
+
 export const listPlugins = (): Promise<PluginInfo[]> =>
   whole((query) => part(http.GET('/api/v1/plugins', { params: { query } })))
 
-export const listCuration = (): Promise<PluginInfo[]> => answer(http.GET('/api/v1/curation'))
+export const listCuration = (): Promise<PluginInfo[]> =>
+  whole((query) => part(http.GET('/api/v1/curation', { params: { query } })))
 
 export const getPlugin = (id: string): Promise<PluginInfo> =>
   answer(http.GET('/api/v1/plugins/{id}', { params: { path: { id } } }))

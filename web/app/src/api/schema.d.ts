@@ -35,6 +35,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/account/invitation": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Accepts an invitation for the account that is logged in, which is a developer from then on. */
+        post: operations["accept_invitation"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/account/login": {
         parameters: {
             query?: never;
@@ -131,7 +148,10 @@ export interface paths {
         /** Tokens for programs, without their secrets. */
         get: operations["list_tokens"];
         put?: never;
-        /** Makes a token; its secret is in this answer and nowhere else. */
+        /**
+         * Makes a token; its secret is in this answer and nowhere else. Asked again under the same `Idempotency-Key`, it is the same token
+         *     with another secret.
+         */
         post: operations["make_token"];
         delete?: never;
         options?: never;
@@ -380,6 +400,44 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/invitations": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Invitations, newest first, without their secrets. */
+        get: operations["list_invitations"];
+        put?: never;
+        /**
+         * Invites somebody to be a developer. The link is in this answer and nowhere else; whoever has it may accept, once. Asked again
+         *     under the same `Idempotency-Key`, it is the same invitation with another link.
+         */
+        post: operations["invite"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/invitations/{id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /** Withdraws an invitation that nobody has accepted. */
+        delete: operations["revoke_invitation"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/objects": {
         parameters: {
             query?: never;
@@ -394,7 +452,7 @@ export interface paths {
         get: operations["list_objects"];
         put?: never;
         /**
-         * Uploads an OBJ file. Whoever has its id may look at it, and only its owner sees it in the list, until that decides
+         * Uploads an OBJ file; the same mesh twice is one. Whoever has its id may look at it, and only its owner sees it in the list, until that decides
          *     otherwise.
          */
         post: operations["add_object"];
@@ -523,6 +581,23 @@ export interface paths {
          *     it is not there.
          */
         get: operations["show_plugin"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/plugins/{id}/citation": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The stable link of a plugin, and how it is cited: BibTeX and CFF. */
+        get: operations["cite_plugin"];
         put?: never;
         post?: never;
         delete?: never;
@@ -661,6 +736,23 @@ export interface paths {
         };
         /** The points of a chart as Parquet. */
         get: operations["chart_as_parquet"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{id}/citation": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The stable link of a run that has ended, and how it is cited: BibTeX and CFF. */
+        get: operations["cite_run"];
         put?: never;
         post?: never;
         delete?: never;
@@ -867,6 +959,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{id}/repro.zip": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The run with all that its answers follow from, as one file: `ocb replay` asks every question again. */
+        get: operations["repro_zip"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{id}/selection": {
         parameters: {
             query?: never;
@@ -1006,6 +1115,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/suite": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The suite of this service, and how far each public algorithm has come with it on this machine. */
+        get: operations["show_suite"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/things": {
         parameters: {
             query?: never;
@@ -1068,6 +1194,11 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /** @description What was in the link. */
+        Acceptance: {
+            /** @description The secret. */
+            secret: string;
+        };
         /** @description An account, as its owner and curators see it. */
         AccountInfo: {
             /**
@@ -1210,6 +1341,11 @@ export interface components {
             advised: boolean;
             /** @description What another method is called where it can be measured by itself (`ocb bench`), with its setting. */
             algorithm?: string | null;
+            /**
+             * Format: int32
+             * @description How many of the configurations it was asked about, drawn at random, where all of them would take too long.
+             */
+            asked?: number | null;
             /** @description Can it not be wrong by more than it says? */
             certified: boolean;
             /**
@@ -1219,7 +1355,7 @@ export interface components {
             elements: number;
             falls_back?: components["schemas"]["Share"] | null;
             false_alarms?: components["schemas"]["Share"] | null;
-            /** @description How many times faster than the whole objects asked for their distance. */
+            /** @description How many times faster than the whole objects asked for their distance, about the same configurations. */
             faster: components["schemas"]["Measured"];
             /**
              * Format: double
@@ -1473,6 +1609,7 @@ export interface components {
             results: number;
             /** @description One per algorithm with its settings: places first, then what has none. */
             rows: components["schemas"]["BoardRow"][];
+            suite?: components["schemas"]["BoardSuite"] | null;
         };
         /** @description A filter, and what it left out. */
         BoardFilter: {
@@ -1595,6 +1732,33 @@ export interface components {
             wrong: number;
             wrong_share?: components["schemas"]["Estimated"] | null;
         };
+        /** @description The part of a suite that a board shows. */
+        BoardSuite: {
+            /** @description The hardware class of all these results, in words. */
+            hardware: string;
+            /**
+             * Format: int64
+             * @description When the newest was.
+             */
+            newest_us: number;
+            /**
+             * Format: int64
+             * @description When the oldest of these results was measured.
+             */
+            oldest_us: number;
+            /**
+             * Format: int32
+             * @description Scenarios that the filters leave; who was not measured on all of them has no place.
+             */
+            scenarios: number;
+            /** @description SHA-256 (hex) of its file. */
+            sha256: string;
+            /**
+             * Format: int32
+             * @description Its version.
+             */
+            version: number;
+        };
         /**
          * @description How a cell of the table looks: the gravest of what is in it.
          * @enum {string}
@@ -1639,6 +1803,18 @@ export interface components {
          * @enum {string}
          */
         CheckVerdict: "pass" | "note" | "fail";
+        /** @description The stable link of a run or a plugin, and how it is cited. */
+        Citation: {
+            /** @description An entry for BibTeX. */
+            bibtex: string;
+            /** @description A CITATION.cff, version 1.2.0. */
+            cff: string;
+            /**
+             * @description Where it is found as long as it is kept.
+             * @example https://bench.example/r/0193f1a0-0000-7000-8000-000000000000
+             */
+            link: string;
+        };
         /**
          * @description What may be asked of an answer at one precision: `CLEAR` and `COLLIDING` are scored, `GRAZING` is reported only.
          * @enum {string}
@@ -2017,6 +2193,45 @@ export interface components {
         Identity: {
             account?: components["schemas"]["AccountInfo"] | null;
         };
+        /** @description An invitation, as curators see it. */
+        InvitationInfo: {
+            /** @description Name of the account that accepted it. */
+            accepted_by?: string | null;
+            /**
+             * Format: int64
+             * @description When it was made.
+             */
+            created_us: number;
+            /**
+             * Format: int64
+             * @description Until when it can be accepted.
+             */
+            expires_us: number;
+            /** @description Its id. */
+            id: string;
+            /** @description Name of the account that made it; absent when whoever has the data folder did. */
+            invited_by?: string | null;
+            /** @description For whom it is, in the words of who made it. */
+            recipient: string;
+            /** @description Where it stands. */
+            state: components["schemas"]["InvitationState"];
+        };
+        /** @description An invitation that is asked for. */
+        InvitationRequest: {
+            /**
+             * Format: int32
+             * @description Days until it expires, 1 to 90.
+             * @default 14
+             */
+            days: number;
+            /** @description For whom it is: 1 to 200 characters, for curators and the log. */
+            recipient: string;
+        };
+        /**
+         * @description Where an invitation stands.
+         * @enum {string}
+         */
+        InvitationState: "open" | "accepted" | "revoked" | "expired";
         /** @description One level of one object. */
         LevelFacts: {
             /**
@@ -2149,6 +2364,15 @@ export interface components {
             kind: "file";
             /** @description Content hash (SHA-256, hex) of the file. */
             sha256: string;
+        };
+        /** @description An invitation just made: the only time that its secret is shown. */
+        NewInvitation: {
+            /** @description The invitation. */
+            invitation: components["schemas"]["InvitationInfo"];
+            /** @description The page that accepts it. The secret stands behind `#`, so that no server and no log hears of it. */
+            link: string;
+            /** @description What is shown to accept it. */
+            secret: string;
         };
         /** @description A change of the password. */
         NewPassword: {
@@ -2788,6 +3012,32 @@ export interface components {
          * @enum {string}
          */
         Semantics: "surface" | "solid";
+        /**
+         * @description How far apart, or how deep in each other, the surfaces shall be.
+         *
+         *     One rule for all: a wanted *step* `x` of the scene's size S ([`Pair::scene_size`](crate::oracle::Pair::scene_size))
+         *     is met by a certified value in `(x S, 2 x S]`.
+         */
+        Separation: {
+            /**
+             * Format: double
+             * @description Surface distance divided by L; at least 0.
+             */
+            distance: number;
+            /** @enum {string} */
+            kind: "relative";
+        } | {
+            /** @enum {string} */
+            kind: "step";
+            /**
+             * Format: double
+             * @description `x`; its size is at least [`Separation::SMALLEST_STEP`].
+             */
+            of_size: number;
+        } | {
+            /** @enum {string} */
+            kind: "ladder";
+        };
         /** @description Points that belong together. */
         Series: {
             /** @description How it is drawn. */
@@ -3054,6 +3304,68 @@ export interface components {
             at: number;
             /** @description What was seen. */
             tally: components["schemas"]["Tally"];
+        };
+        /** @description The suite of this service: every scene at every separation, asked every question. */
+        SuiteInfo: {
+            /**
+             * Format: int32
+             * @description Configurations of each scenario.
+             */
+            configurations: number;
+            /** @description The hardware class of this machine, for which the progress is told. */
+            hardware_class: string;
+            /**
+             * Format: int32
+             * @description Version of the oracle that judges.
+             */
+            oracle: number;
+            /**
+             * Format: int32
+             * @description Fresh processes for each algorithm.
+             */
+            passes: number;
+            /** @description How far each public algorithm has come, by id. */
+            progress: components["schemas"]["SuiteProgress"][];
+            /** @description What is asked. */
+            queries: components["schemas"]["Query"][];
+            /**
+             * Format: int32
+             * @description Scenarios: scenes times separations times queries.
+             */
+            scenarios: number;
+            /** @description Objects A and B of each scene. */
+            scenes: string[][];
+            /** @description How far apart, or how deep in each other. */
+            separations: components["schemas"]["Separation"][];
+            /** @description SHA-256 (hex) of its file. */
+            sha256: string;
+            /**
+             * Format: int32
+             * @description Its version: another one for every change.
+             */
+            version: number;
+        };
+        /** @description How far an algorithm has come with the suite. */
+        SuiteProgress: {
+            /** @description Algorithm id. */
+            algorithm: string;
+            /**
+             * Format: int32
+             * @description Scenarios with a result of its file here.
+             */
+            measured: number;
+            /** @description Display name. */
+            name: string;
+            /**
+             * Format: int32
+             * @description Scenarios whose question it answers.
+             */
+            of: number;
+            /**
+             * Format: int32
+             * @description Scenarios that are in the queue.
+             */
+            waiting: number;
         };
         /** @description Counts of answers. */
         Tally: {
@@ -3424,6 +3736,24 @@ export interface operations {
                     "application/json": components["schemas"]["Identity"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     make_account: {
@@ -3450,6 +3780,24 @@ export interface operations {
             };
             /** @description The body or the address cannot be read */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -3551,6 +3899,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The body came too slowly */
             408: {
                 headers: {
@@ -3598,6 +3955,120 @@ export interface operations {
             };
         };
     };
+    accept_invitation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Acceptance"];
+            };
+        };
+        responses: {
+            /** @description The account as it is now */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AccountInfo"];
+                };
+            };
+            /** @description The body or the address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such invitation, or not any more: which of it is not said */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body came too slowly */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Is a developer already */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body does not say that it is JSON */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body does not fit */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many tries */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     log_in: {
         parameters: {
             query?: never;
@@ -3622,6 +4093,15 @@ export interface operations {
             };
             /** @description The body or the address cannot be read */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -3701,6 +4181,24 @@ export interface operations {
                 };
                 content?: never;
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     log_out_everywhere: {
@@ -3721,6 +4219,15 @@ export interface operations {
             };
             /** @description Nobody is logged in */
             401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -3855,6 +4362,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The body came too slowly */
             408: {
                 headers: {
@@ -3918,6 +4434,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     list_tokens: {
@@ -3946,12 +4471,27 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     make_token: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /**
+                 * @description 1 to 200 visible characters, another one for every request; the same request under the same key makes nothing new. Kept
+                 *     as long as a run, and for 30 days otherwise.
+                 */
+                "Idempotency-Key"?: string | null;
+            };
             path?: never;
             cookie?: never;
         };
@@ -3980,6 +4520,15 @@ export interface operations {
             };
             /** @description Nobody is logged in */
             401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4064,6 +4613,15 @@ export interface operations {
             };
             /** @description Nobody is logged in */
             401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4247,7 +4805,13 @@ export interface operations {
     ask_advice: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /**
+                 * @description 1 to 200 visible characters, another one for every request; the same request under the same key makes nothing new. Kept
+                 *     as long as a run, and for 30 days otherwise.
+                 */
+                "Idempotency-Key"?: string | null;
+            };
             path?: never;
             cookie?: never;
         };
@@ -4257,6 +4821,15 @@ export interface operations {
             };
         };
         responses: {
+            /** @description Was asked for before under this key */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AdviceInfo"];
+                };
+            };
             /** @description Queued; `Location` names it */
             201: {
                 headers: {
@@ -4268,6 +4841,24 @@ export interface operations {
             };
             /** @description No JSON */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4360,6 +4951,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such advice */
             404: {
                 headers: {
@@ -4394,6 +4994,15 @@ export interface operations {
             };
             /** @description The address cannot be read */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4456,6 +5065,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such advice, or it reduces nothing there */
             404: {
                 headers: {
@@ -4502,6 +5120,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such advice, or it reduces nothing there */
             404: {
                 headers: {
@@ -4530,20 +5157,37 @@ export interface operations {
                     "application/json": components["schemas"]["AlgorithmInfo"][];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     show_board: {
         parameters: {
             query?: {
+                /**
+                 * @description Version of the suite whose results are compared, or `none` for the runs of people. The newest suite that was measured
+                 *     when left out.
+                 */
+                suite?: string;
                 /** @description The question: `collision_first`, `collision_all` or `proximity`, with `+solid` behind it for solid bodies. */
                 question?: string;
                 /** @description Contract class, e.g. `first_contact-shuffled-1-f64`. */
                 class?: string;
                 /** @description Hardware class. */
                 hardware?: string;
-                /** @description Pair of objects, e.g. `bunny@3674~bunny@3674`; `all` takes every one. */
+                /** @description Pair of objects, e.g. `bunny@3674~bunny@3674`; `all` takes every one, as is done for a suite when left out. */
                 scene?: string;
-                /** @description How far apart: a relative distance such as `0.1`, `step:0.0001`, `ladder`, `grid:0`, ...; `all` takes every one. */
+                /**
+                 * @description How far apart: a relative distance such as `0.1`, `step:0.0001`, `ladder`, `grid:0`, ...; `all` takes every one, as is done
+                 *     for a suite when left out.
+                 */
                 distance?: string;
                 /** @description What is needed: `any`, `none_seen` (no wrong answer), or the largest eps* that will do, e.g. `1e-6`. */
                 precision?: string;
@@ -4573,6 +5217,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The precision is none */
             422: {
                 headers: {
@@ -4587,15 +5240,23 @@ export interface operations {
     show_board_csv: {
         parameters: {
             query?: {
+                /**
+                 * @description Version of the suite whose results are compared, or `none` for the runs of people. The newest suite that was measured
+                 *     when left out.
+                 */
+                suite?: string;
                 /** @description The question: `collision_first`, `collision_all` or `proximity`, with `+solid` behind it for solid bodies. */
                 question?: string;
                 /** @description Contract class, e.g. `first_contact-shuffled-1-f64`. */
                 class?: string;
                 /** @description Hardware class. */
                 hardware?: string;
-                /** @description Pair of objects, e.g. `bunny@3674~bunny@3674`; `all` takes every one. */
+                /** @description Pair of objects, e.g. `bunny@3674~bunny@3674`; `all` takes every one, as is done for a suite when left out. */
                 scene?: string;
-                /** @description How far apart: a relative distance such as `0.1`, `step:0.0001`, `ladder`, `grid:0`, ...; `all` takes every one. */
+                /**
+                 * @description How far apart: a relative distance such as `0.1`, `step:0.0001`, `ladder`, `grid:0`, ...; `all` takes every one, as is done
+                 *     for a suite when left out.
+                 */
                 distance?: string;
                 /** @description What is needed: `any`, `none_seen` (no wrong answer), or the largest eps* that will do, e.g. `1e-6`. */
                 precision?: string;
@@ -4626,6 +5287,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The precision is none */
             422: {
                 headers: {
@@ -4639,19 +5309,36 @@ export interface operations {
     };
     list_curation: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description Entries at most, from 1 to 200. */
+                limit?: number;
+                /** @description Where the list goes on, as the `Link` header of the part before says; absent for the first part. */
+                cursor?: string;
+            };
             header?: never;
             path?: never;
             cookie?: never;
         };
         requestBody?: never;
         responses: {
+            /** @description A part of the list */
             200: {
                 headers: {
+                    /** @description Where the list goes on: `<...>; rel="next"`; absent at its end */
+                    Link?: string;
                     [name: string]: unknown;
                 };
                 content: {
                     "application/json": components["schemas"]["PluginInfo"][];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description Nobody is logged in */
@@ -4665,6 +5352,15 @@ export interface operations {
             };
             /** @description No curator */
             403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No part of the list */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4715,6 +5411,24 @@ export interface operations {
             };
             /** @description No JSON */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4786,6 +5500,253 @@ export interface operations {
                     "application/json": components["schemas"]["RunInfo"] | null;
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_invitations: {
+        parameters: {
+            query?: {
+                /** @description Entries at most, from 1 to 200. */
+                limit?: number;
+                /** @description Where the list goes on, as the `Link` header of the part before says; absent for the first part. */
+                cursor?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description A part of the list */
+            200: {
+                headers: {
+                    /** @description Where the list goes on: `<...>; rel="next"`; absent at its end */
+                    Link?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["InvitationInfo"][];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No curator */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No part of the list */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    invite: {
+        parameters: {
+            query?: never;
+            header?: {
+                /**
+                 * @description 1 to 200 visible characters, another one for every request; the same request under the same key makes nothing new. Kept
+                 *     as long as a run, and for 30 days otherwise.
+                 */
+                "Idempotency-Key"?: string | null;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "days": 14,
+                 *       "recipient": "Ada, of the GJK paper"
+                 *     }
+                 */
+                "application/json": components["schemas"]["InvitationRequest"];
+            };
+        };
+        responses: {
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["NewInvitation"];
+                };
+            };
+            /** @description The body or the address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No curator */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body came too slowly */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many are open */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body does not say that it is JSON */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description For nobody, or for too long */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    revoke_invitation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Invitation id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The invitation as it is now */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["InvitationInfo"];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No curator */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such invitation */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Accepted or withdrawn before */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     list_objects: {
@@ -4822,6 +5783,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No part of the list */
             422: {
                 headers: {
@@ -4836,7 +5806,13 @@ export interface operations {
     add_object: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /**
+                 * @description 1 to 200 visible characters, another one for every request; the same request under the same key makes nothing new. Kept
+                 *     as long as a run, and for 30 days otherwise.
+                 */
+                "Idempotency-Key"?: string | null;
+            };
             path?: never;
             cookie?: never;
         };
@@ -4863,6 +5839,24 @@ export interface operations {
             };
             /** @description No well-formed upload */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4928,6 +5922,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such object */
             404: {
                 headers: {
@@ -4962,6 +5965,15 @@ export interface operations {
             };
             /** @description The address cannot be read */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5035,6 +6047,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such object */
             404: {
                 headers: {
@@ -5069,6 +6090,15 @@ export interface operations {
             };
             /** @description The address cannot be read */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5123,6 +6153,15 @@ export interface operations {
             };
             /** @description The body or the address cannot be read */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5204,6 +6243,15 @@ export interface operations {
                     "application/json": unknown;
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     list_plugins: {
@@ -5240,6 +6288,24 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No part of the list */
             422: {
                 headers: {
@@ -5254,7 +6320,13 @@ export interface operations {
     submit_plugin: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /**
+                 * @description 1 to 200 visible characters, another one for every request; the same request under the same key makes nothing new. Kept
+                 *     as long as a run, and for 30 days otherwise.
+                 */
+                "Idempotency-Key"?: string | null;
+            };
             path?: never;
             cookie?: never;
         };
@@ -5388,6 +6460,82 @@ export interface operations {
             };
             /** @description The address cannot be read */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such plugin */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    cite_plugin: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Plugin id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Citation"];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5551,6 +6699,24 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such plugin */
             404: {
                 headers: {
@@ -5596,6 +6762,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No part of the list */
             422: {
                 headers: {
@@ -5611,7 +6786,10 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description 1 to 200 visible characters, another one for every run; kept as long as the run */
+                /**
+                 * @description 1 to 200 visible characters, another one for every request; the same request under the same key makes nothing new. Kept
+                 *     as long as a run, and for 30 days otherwise.
+                 */
                 "Idempotency-Key"?: string | null;
             };
             path?: never;
@@ -5661,6 +6839,24 @@ export interface operations {
             };
             /** @description No JSON */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5744,6 +6940,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such run */
             404: {
                 headers: {
@@ -5778,6 +6983,15 @@ export interface operations {
             };
             /** @description The address cannot be read */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5844,6 +7058,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Somebody else's run */
             403: {
                 headers: {
@@ -5898,6 +7121,15 @@ export interface operations {
             };
             /** @description Unknown kind */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5967,6 +7199,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such run, or nothing to chart */
             404: {
                 headers: {
@@ -6029,6 +7270,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such run, or nothing to chart */
             404: {
                 headers: {
@@ -6040,6 +7290,64 @@ export interface operations {
             };
             /** @description The selection cannot be read or applied */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    cite_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Citation"];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such run, or nothing measured */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description It is under way */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -6082,6 +7390,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such run, or no records of this algorithm */
             404: {
                 headers: {
@@ -6116,6 +7433,15 @@ export interface operations {
             };
             /** @description The address cannot be read */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -6165,6 +7491,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such run or configuration */
             404: {
                 headers: {
@@ -6203,6 +7538,15 @@ export interface operations {
             };
             /** @description The address cannot be read */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -6270,6 +7614,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such run */
             404: {
                 headers: {
@@ -6320,6 +7673,15 @@ export interface operations {
             };
             /** @description Unknown measure, statistic, ... */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -6398,6 +7760,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such run, or no such values in it */
             404: {
                 headers: {
@@ -6469,6 +7840,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such run, or no such values in it */
             404: {
                 headers: {
@@ -6517,6 +7897,15 @@ export interface operations {
             };
             /** @description The address cannot be read */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -6579,6 +7968,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such run, or no records of this algorithm */
             404: {
                 headers: {
@@ -6629,6 +8027,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description Somebody else's run */
             403: {
                 headers: {
@@ -6667,6 +8074,65 @@ export interface operations {
             };
         };
     };
+    repro_zip: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description recipe.json lists the files: configurations, answers, objects, and plugins under free licences */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/zip": number[];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such run, or no configurations */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description It is under way, or was measured by too old a version */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     show_selection: {
         parameters: {
             query: {
@@ -6694,6 +8160,15 @@ export interface operations {
             };
             /** @description The address cannot be read */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -6744,6 +8219,15 @@ export interface operations {
             };
             /** @description The address cannot be read */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -6819,6 +8303,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such run, values or vertex */
             404: {
                 headers: {
@@ -6866,6 +8359,15 @@ export interface operations {
             };
             /** @description The body or the address cannot be read */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -6968,6 +8470,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such run, or no configurations yet */
             404: {
                 headers: {
@@ -7017,6 +8528,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description No such run, or no records of this algorithm */
             404: {
                 headers: {
@@ -7054,6 +8574,15 @@ export interface operations {
                     "application/json": components["schemas"]["StabilityTable"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     show_status: {
@@ -7071,6 +8600,43 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Status"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_suite: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SuiteInfo"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
         };
@@ -7092,6 +8658,15 @@ export interface operations {
                     "application/json": components["schemas"]["Things"];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     remove_things: {
@@ -7110,6 +8685,24 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Things"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description A run is just ending */
@@ -7141,6 +8734,15 @@ export interface operations {
                     "application/x-tar": number[];
                 };
             };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     keep_longer: {
@@ -7158,6 +8760,24 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Things"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
         };

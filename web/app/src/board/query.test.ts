@@ -11,6 +11,8 @@ describe('the address of the board', () => {
     const query = { question: 'proximity', class: 'c', scene: 'a~b', distance: '0.1', precision: '1e-6' }
     expect(withChoice(query, 'scene', 'b~b')).toEqual({ question: 'proximity', class: 'c', scene: 'b~b', precision: '1e-6' })
     expect(withChoice(query, 'question', 'collision_first')).toEqual({ question: 'collision_first', precision: '1e-6' })
+    expect(withChoice({ suite: '1', ...query }, 'question', 'proximity')).toEqual({ suite: '1', question: 'proximity', precision: '1e-6' })
+    expect(withChoice({ suite: '1', ...query }, 'suite', 'none')).toEqual({ suite: 'none', precision: '1e-6' })
     expect(withChoice(query, 'precision', null)).toEqual({ question: 'proximity', class: 'c', scene: 'a~b', distance: '0.1' })
   })
 

@@ -4,7 +4,7 @@ import type { Accuracy, BoardFilter } from '../api/types'
 import { ACCURACY } from '../ui/words'
 
 /** The filters in the order in which the service applies them. */
-export const FILTERS = ['question', 'class', 'hardware', 'scene', 'distance', 'precision'] as const
+export const FILTERS = ['suite', 'question', 'class', 'hardware', 'scene', 'distance', 'precision'] as const
 export type FilterName = (typeof FILTERS)[number]
 
 /** What the address asks for; what it does not say, the service chooses. */

@@ -1,4 +1,4 @@
-import type { Action, PluginInfo, PluginState, Role } from '../api/types'
+import type { Action, InvitationState, PluginInfo, PluginState, Role } from '../api/types'
 
 /** A state in words. */
 export const PLUGIN_STATE: Record<PluginState, string> = {
@@ -22,6 +22,14 @@ export const ROLE: Record<Role, string> = {
   developer: 'developer',
   curator: 'curator',
   administrator: 'administrator',
+}
+
+/** Where an invitation stands, in words. */
+export const INVITATION: Record<InvitationState, string> = {
+  open: 'open',
+  accepted: 'accepted',
+  revoked: 'withdrawn',
+  expired: 'expired',
 }
 
 const RANK: Role[] = ['user', 'developer', 'curator', 'administrator']

@@ -24,6 +24,7 @@ export const ACCURACY: Record<Accuracy, string> = {
 
 /** The filters of the board. */
 export const FILTER: Record<string, string> = {
+  suite: 'Benchmark',
   question: 'Question',
   class: 'Contract class',
   hardware: 'Hardware class',

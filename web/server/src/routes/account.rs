@@ -14,6 +14,7 @@ use crate::extract::{Json, Path};
 use crate::guest::{Browser, Member, SESSION, cookie, is_secure};
 use crate::limits::{Address, LOG_IN, MAKE_ACCOUNT};
 use crate::problem::{Problem, Result};
+use crate::request_key::{IdempotencyKey, RequestKey};
 
 /// Who is logged in; a guest has no account.
 #[utoipa::path(get, path = "/account", tag = "account", responses((status = 200, body = Identity)))]
@@ -174,8 +175,9 @@ pub(crate) async fn list_tokens(State(app): State<App>, Member(account): Member)
     Ok(Answer(app.engine.tokens(&account).await?))
 }
 
-/// Makes a token; its secret is in this answer and nowhere else.
-#[utoipa::path(post, path = "/account/tokens", tag = "account", request_body = TokenRequest,
+/// Makes a token; its secret is in this answer and nowhere else. Asked again under the same `Idempotency-Key`, it is the same token
+/// with another secret.
+#[utoipa::path(post, path = "/account/tokens", tag = "account", request_body = TokenRequest, params(IdempotencyKey),
     responses(
         (status = 201, body = NewToken),
         (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
@@ -185,9 +187,10 @@ pub(crate) async fn list_tokens(State(app): State<App>, Member(account): Member)
 pub(crate) async fn make_token(
     State(app): State<App>,
     Member(account): Member,
+    key: RequestKey,
     Json(asked): Json<TokenRequest>,
 ) -> Result<Response> {
-    Ok((StatusCode::CREATED, Answer(app.engine.add_token(&account, asked).await?)).into_response())
+    Ok((StatusCode::CREATED, Answer(app.engine.add_token(&account, asked, key.as_deref()).await?)).into_response())
 }
 
 /// Ends a token.

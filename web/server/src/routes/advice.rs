@@ -8,15 +8,17 @@ use ocb_engine::model::{AdviceInfo, AdviceSpec, Side};
 use serde::Deserialize;
 use utoipa::IntoParams;
 
-use super::records::download;
 use crate::App;
+use crate::download::download;
 use crate::extract::{Json, Path, Query};
 use crate::guest::Guest;
 use crate::problem::{Problem, Result};
+use crate::request_key::{IdempotencyKey, RequestKey};
 
 /// Asks for advice; it is worked on when its turn comes.
-#[utoipa::path(post, path = "/advice", tag = "advice", request_body = AdviceSpec,
+#[utoipa::path(post, path = "/advice", tag = "advice", request_body = AdviceSpec, params(IdempotencyKey),
     responses(
+        (status = 200, description = "Was asked for before under this key", body = AdviceInfo),
         (status = 201, description = "Queued; `Location` names it", body = AdviceInfo),
         (status = 400, description = "No JSON", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
@@ -26,11 +28,13 @@ use crate::problem::{Problem, Result};
 pub(crate) async fn ask_advice(
     State(app): State<App>,
     Guest(guest): Guest,
+    key: RequestKey,
     Json(spec): Json<AdviceSpec>,
 ) -> Result<Response> {
-    let info = app.engine.ask_advice(spec, Some(&guest)).await?;
+    let (info, new) = app.engine.ask_advice(spec, &guest, key.as_deref()).await?;
     let location = format!("/api/v1/advice/{}", info.id);
-    Ok((StatusCode::CREATED, [(header::LOCATION, location)], Answer(info)).into_response())
+    let status = if new { StatusCode::CREATED } else { StatusCode::OK };
+    Ok((status, [(header::LOCATION, location)], Answer(info)).into_response())
 }
 
 /// How far it is, and the advice when it is done.

@@ -8,10 +8,11 @@ use ocb_engine::model::{Board, BoardRequest, ChartRequest};
 use ocb_engine::{board_csv, chart_csv, chart_parquet};
 
 use crate::App;
+use crate::download::download;
 use crate::extract::{Path, Query};
 use crate::guest::Guest;
 use crate::problem::{Problem, Result};
-use crate::routes::records::{PARQUET, download};
+use crate::routes::records::PARQUET;
 
 const CSV: &str = "text/csv; charset=utf-8";
 

@@ -9,9 +9,9 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use crate::App;
+use crate::download::download;
 use crate::extract::{Path, Query};
 use crate::problem::{Problem, Result};
-use crate::routes::records::download;
 
 /// How values become colours in a file.
 #[derive(Deserialize, IntoParams)]

@@ -6,6 +6,7 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use ocb_core::export::glb;
 use ocb_engine::model::{NewVisibility, ObjectInfo, Page};
+use ocb_engine::{Made, sha256_hex};
 use utoipa::ToSchema;
 
 use crate::App;
@@ -13,6 +14,7 @@ use crate::extract::{Json as Body, Path, Query};
 use crate::guest::Guest;
 use crate::list;
 use crate::problem::{Problem, Result};
+use crate::request_key::{IdempotencyKey, RequestKey};
 use crate::upload::Upload;
 
 /// Stock objects, in front of the first part and beyond its limit, then the visitor's own and those that others have
@@ -39,10 +41,10 @@ struct UploadForm {
     file: Vec<u8>,
 }
 
-/// Uploads an OBJ file. Whoever has its id may look at it, and only its owner sees it in the list, until that decides
+/// Uploads an OBJ file; the same mesh twice is one. Whoever has its id may look at it, and only its owner sees it in the list, until that decides
 /// otherwise.
 #[utoipa::path(post, path = "/objects", tag = "objects",
-    request_body(content = inline(UploadForm), content_type = "multipart/form-data"),
+    request_body(content = inline(UploadForm), content_type = "multipart/form-data"), params(IdempotencyKey),
     responses(
         (status = 201, description = "The object", body = ObjectInfo),
         (status = 400, description = "No well-formed upload", body = Problem, content_type = "application/problem+json"),
@@ -52,10 +54,12 @@ struct UploadForm {
 pub(crate) async fn add_object(
     State(app): State<App>,
     Guest(guest): Guest,
+    key: RequestKey,
     request: Request,
 ) -> Result<(StatusCode, Json<ObjectInfo>)> {
     let _turn = app.uploads.take(request.headers()).await?;
     let Upload { name, bytes } = Upload::from_request(request, &app).await?;
+    app.engine.id_of_request(&guest, Made::Object, key.as_deref(), &(&name, sha256_hex(&bytes))).await?;
     let object = app.engine.add_object(&name, bytes, Some(&guest)).await?;
     Ok((StatusCode::CREATED, Json(object)))
 }

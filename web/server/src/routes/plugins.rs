@@ -11,8 +11,8 @@ use axum::http::{StatusCode, header};
 use axum::response::sse::Event;
 use axum::response::{IntoResponse, Response};
 use futures::stream;
-use ocb_engine::Engine;
 use ocb_engine::model::{AccountInfo, Decision, Page, PluginInfo};
+use ocb_engine::{Engine, Made, sha256_hex};
 use utoipa::ToSchema;
 
 use crate::App;
@@ -22,6 +22,7 @@ use crate::guest::{Curator, Member};
 use crate::limits::SUBMIT;
 use crate::list;
 use crate::problem::{Problem, Result};
+use crate::request_key::{IdempotencyKey, RequestKey};
 use crate::upload::Submission;
 
 /// How often a report under way is looked at.
@@ -59,7 +60,7 @@ struct SubmissionForm {
 
 /// Sends a plugin, which is then checked. The same bytes twice are one.
 #[utoipa::path(post, path = "/plugins", tag = "plugins",
-    request_body(content = inline(SubmissionForm), content_type = "multipart/form-data"),
+    request_body(content = inline(SubmissionForm), content_type = "multipart/form-data"), params(IdempotencyKey),
     responses(
         (status = 201, description = "Stored; its check waits in the queue", body = PluginInfo),
         (status = 200, description = "Was there already", body = PluginInfo),
@@ -74,6 +75,7 @@ struct SubmissionForm {
 pub(crate) async fn submit_plugin(
     State(app): State<App>,
     Member(account): Member,
+    key: RequestKey,
     request: axum::extract::Request,
 ) -> Result<Response> {
     app.limits.count(SUBMIT, &account.name)?;
@@ -81,6 +83,8 @@ pub(crate) async fn submit_plugin(
     app.engine.may_submit(&account)?;
     let _turn = app.uploads.take(request.headers()).await?;
     let Submission { name, bytes, manifest, signature } = Submission::read(request, &app).await?;
+    let asked = (sha256_hex(&bytes), &manifest, &signature);
+    app.engine.id_of_request(&account.owner(), Made::Plugin, key.as_deref(), &asked).await?;
     let _alone = app.submitting.lock().await;
     let (plugin, new) = app.engine.submit_plugin(&account, &name, bytes, manifest, signature.as_deref()).await?;
     let status = if new { StatusCode::CREATED } else { StatusCode::OK };
@@ -174,15 +178,17 @@ pub(crate) async fn decide(
 }
 
 /// Everything that waits for a curator, oldest first.
-#[utoipa::path(get, path = "/curation", tag = "curation",
+#[utoipa::path(get, path = "/curation", tag = "curation", params(Page),
     responses(
-        (status = 200, body = Vec<PluginInfo>),
+        (status = 200, description = "A part of the list", body = Vec<PluginInfo>, headers(("Link" = String, description = "Where the list goes on: `<...>; rel=\"next\"`; absent at its end"))),
+        (status = 422, description = "No part of the list", body = Problem, content_type = "application/problem+json"),
         (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
         (status = 403, description = "No curator", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn list_curation(
     State(app): State<App>,
     Curator(curator): Curator,
-) -> Result<Answer<Vec<PluginInfo>>> {
-    Ok(Answer(app.engine.curation(&curator).await?))
+    Query(page): Query<Page>,
+) -> Result<Response> {
+    Ok(list::answer("/api/v1/curation", &page, app.engine.curation(&curator, &page).await?))
 }

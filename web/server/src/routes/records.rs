@@ -2,13 +2,13 @@
 
 use axum::Json;
 use axum::extract::State;
-use axum::http::header;
-use axum::response::{IntoResponse, Response};
+use axum::response::Response;
 use ocb_engine::model::Ecdf;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
 use crate::App;
+use crate::download::{download, download_file};
 use crate::extract::{Path, Query};
 use crate::problem::{Problem, Result};
 
@@ -100,12 +100,18 @@ pub(crate) async fn configurations_parquet(State(app): State<App>, Path(id): Pat
     Ok(download(PARQUET, &format!("{id}-configurations.parquet"), bytes))
 }
 
-pub(crate) const PARQUET: &str = "application/vnd.apache.parquet";
-
-/// A file to save. Ids and algorithm names come from the request: only plain characters reach the header.
-pub(crate) fn download(media_type: &str, name: &str, bytes: Vec<u8>) -> Response {
-    let plain = |c: char| if c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_') { c } else { '_' };
-    let name: String = name.chars().map(plain).collect();
-    let disposition = format!("attachment; filename=\"{name}\"");
-    ([(header::CONTENT_TYPE, media_type.to_owned()), (header::CONTENT_DISPOSITION, disposition)], bytes).into_response()
+/// The run with all that its answers follow from, as one file: `ocb replay` asks every question again.
+#[utoipa::path(get, path = "/runs/{id}/repro.zip", tag = "results",
+    params(("id" = String, Path, description = "Run id")),
+    responses(
+        (status = 200, description = "recipe.json lists the files: configurations, answers, objects, and plugins under free licences", body = [u8], content_type = "application/zip"),
+        (status = 404, description = "No such run, or no configurations", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "It is under way, or was measured by too old a version", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn repro_zip(State(app): State<App>, Path(id): Path<String>) -> Result<Response> {
+    // One at a time: each is written to the disk before it is sent.
+    let _turn = app.packing.lock().await;
+    download_file("application/zip", &format!("{id}-repro.zip"), app.engine.repro(&id).await?)
 }
+
+pub(crate) const PARQUET: &str = "application/vnd.apache.parquet";

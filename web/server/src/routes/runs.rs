@@ -2,7 +2,7 @@
 
 use axum::Json as Answer;
 use axum::extract::State;
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use ocb_engine::model::{Estimate, NewVisibility, Page, RunInfo, RunSpec};
 
@@ -11,6 +11,7 @@ use crate::extract::{Json, Path, Query};
 use crate::guest::Guest;
 use crate::list;
 use crate::problem::{Problem, Result};
+use crate::request_key::{IdempotencyKey, RequestKey};
 
 /// A spec for the document: a knot against itself, a tenth of its size apart.
 fn example() -> serde_json::Value {
@@ -39,13 +40,9 @@ pub(crate) async fn estimate_run(
     Ok(Answer(app.engine.estimate(&spec, Some(&guest)).await?))
 }
 
-/// Header with what a program calls its request.
-const KEY: &str = "idempotency-key";
-
 /// Asks for a run. With an `Idempotency-Key` the same request, sent again because its answer was lost, gives the same run.
 #[utoipa::path(post, path = "/runs", tag = "runs", request_body(content = RunSpec, example = json!(example())),
-    params(("Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 200,
-        description = "1 to 200 visible characters, another one for every run; kept as long as the run")),
+    params(IdempotencyKey),
     responses(
         (status = 200, description = "Was asked for before under this key", body = RunInfo),
         (status = 201, description = "Queued; `Location` names it", body = RunInfo),
@@ -56,23 +53,16 @@ const KEY: &str = "idempotency-key";
 pub(crate) async fn start_run(
     State(app): State<App>,
     Guest(guest): Guest,
-    headers: HeaderMap,
+    key: RequestKey,
     Json(spec): Json<RunSpec>,
 ) -> Result<Response> {
-    let (run, new) = match request_key(&headers)? {
+    let (run, new) = match key.as_deref() {
         Some(key) => app.engine.submit_once(spec, &guest, key).await?,
         None => (app.engine.submit(spec, Some(&guest)).await?, true),
     };
     let location = format!("/api/v1/runs/{}", run.id);
     let status = if new { StatusCode::CREATED } else { StatusCode::OK };
     Ok((status, [(header::LOCATION, location)], Answer(run)).into_response())
-}
-
-fn request_key(headers: &HeaderMap) -> Result<Option<&str>> {
-    let Some(value) = headers.get(KEY) else { return Ok(None) };
-    let key = value.to_str().ok().filter(|key| (1..=200).contains(&key.len()));
-    let bad = || Problem::bad_request("An Idempotency-Key has 1 to 200 visible characters of ASCII.");
-    key.map(Some).ok_or_else(bad)
 }
 
 /// The visitor's runs, newest first. A part holds fewer than asked for where the object of a run was hidden from them.

@@ -8,9 +8,10 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use crate::App;
+use crate::download::download;
 use crate::extract::{Path, Query};
 use crate::problem::{Problem, Result};
-use crate::routes::records::{OfAlgorithm, download};
+use crate::routes::records::OfAlgorithm;
 
 /// Which configurations.
 #[derive(Deserialize, IntoParams)]

@@ -1,22 +1,15 @@
 //! What a visitor has made: how long it stays, and taking it away.
 
 use axum::Json;
-use axum::body::Body;
 use axum::extract::State;
-use axum::http::header;
-use axum::response::{IntoResponse, Response};
-use futures::stream;
+use axum::response::Response;
 use ocb_engine::model::Things;
-use tokio::fs::File;
-use tokio::io::AsyncReadExt;
 
 use crate::App;
+use crate::download::download_file;
 use crate::extract::Path;
 use crate::guest::Guest;
 use crate::problem::{Problem, Result};
-
-/// Bytes that are read and sent at once.
-const CHUNK: usize = 64 << 10;
 
 /// Everything that the visitor has made, which is what `DELETE` takes away, and until when it stays.
 #[utoipa::path(get, path = "/things", tag = "things", responses((status = 200, body = Things)))]
@@ -49,19 +42,7 @@ pub(crate) async fn take_along(State(app): State<App>, Guest(guest): Guest) -> R
     // One at a time: each is written to the disk before it is sent.
     let _turn = app.packing.lock().await;
     let file = app.engine.archive(&guest).await?;
-    let length = file.metadata().map_err(Problem::fault)?.len();
-    let chunks = stream::try_unfold(File::from_std(file), async |mut file| {
-        let mut chunk = vec![0; CHUNK];
-        let read = file.read(&mut chunk).await?;
-        chunk.truncate(read);
-        Ok::<_, std::io::Error>((read > 0).then_some((chunk, file)))
-    });
-    let headers = [
-        (header::CONTENT_TYPE, "application/x-tar".to_owned()),
-        (header::CONTENT_DISPOSITION, "attachment; filename=\"opencollbench.tar\"".to_owned()),
-        (header::CONTENT_LENGTH, length.to_string()),
-    ];
-    Ok((headers, Body::from_stream(chunks)).into_response())
+    download_file("application/x-tar", "opencollbench.tar", file)
 }
 
 /// What goes with a run.

@@ -58,6 +58,11 @@ async fn a_list_goes_on_where_it_was_left() {
         assert_eq!(guest.upload("own.obj", object).await.status(), 201);
     })
     .await;
+    walked(&guest, "/api/v1/invitations", async |number| {
+        let asked = serde_json::json!({ "recipient": format!("somebody {number}") });
+        assert_eq!(guest.post("/api/v1/invitations").json(&asked).send().await.expect("an answer").status(), 201);
+    })
+    .await;
     walked(&guest, "/api/v1/accounts", async |number| {
         service
             .engine

@@ -4,14 +4,19 @@
 //! does so.
 
 mod advice;
+mod citations;
 mod errors;
+mod invitations;
 mod lists;
 mod objects;
 mod pages;
 mod people;
 mod privacy;
 mod publishing;
+mod repro;
+mod requests;
 mod runs;
 mod stream;
+mod suite;
 mod support;
 mod things;

@@ -166,6 +166,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "get /openapi.json",
             "get /plugins",
             "get /plugins/{id}",
+            "get /plugins/{id}/citation",
             "get /plugins/{id}/events",
             "get /runs",
             "post /runs",
@@ -185,6 +186,8 @@ const DOORS: &[(&str, &[&str])] = &[
             "get /runs/{id}/heatmap",
             "get /runs/{id}/heatmap.glb",
             "get /runs/{id}/heatmap.ply",
+            "get /runs/{id}/citation",
+            "get /runs/{id}/repro.zip",
             "get /runs/{id}/records.csv",
             "get /runs/{id}/records.parquet",
             "get /runs/{id}/selection",
@@ -194,6 +197,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "get /runs/{id}/worst",
             "get /stability",
             "get /status",
+            "get /suite",
             "get /things",
             "get /things.tar",
             "delete /things",
@@ -204,6 +208,7 @@ const DOORS: &[(&str, &[&str])] = &[
         "logged in",
         &[
             "post /account/developer",
+            "post /account/invitation",
             "post /account/logout-everywhere",
             "post /account/password",
             "post /account/signing-key",
@@ -215,7 +220,17 @@ const DOORS: &[(&str, &[&str])] = &[
         ],
     ),
     ("developer", &["post /plugins"]),
-    ("curator", &["get /accounts", "post /accounts/{id}/role", "get /curation"]),
+    (
+        "curator",
+        &[
+            "get /accounts",
+            "post /accounts/{id}/role",
+            "get /curation",
+            "get /invitations",
+            "post /invitations",
+            "delete /invitations/{id}",
+        ],
+    ),
 ];
 
 /// Every route of the document asked by every role: a route that nobody has put into the table fails, and so does one that

@@ -19,7 +19,7 @@ const NOTHING: &str = "0193f1a0-0000-7000-8000-000000000000";
 const VALUES: &[(&str, &str)] =
     &[("algorithm", "box-tree"), ("kind", "ecdf"), ("where", "wrong"), ("vertex", "0"), ("configuration", "0")];
 /// Routes below an id that belong to the account that asks, or to curators: `people.rs` asks those.
-const OF_ACCOUNTS: &[&str] = &["account", "accounts"];
+const OF_ACCOUNTS: &[&str] = &["account", "accounts", "invitations"];
 
 /// Who made what.
 pub struct Made {

@@ -12,14 +12,14 @@ use crate::support::{Guest, Service, built, problem, small_spec};
 /// One of our plugins that this service has not installed: a stranger's, as far as it knows.
 const PLUGIN: &str = "libocb_sphere_tree.so";
 
-fn manifest(version: &str) -> Value {
+pub fn manifest(version: &str) -> Value {
     json!({
         "name": "Sphere tree", "version": version, "authors": "Somebody", "license": "MIT OR Apache-2.0",
         "queries": ["collision_first", "collision_all", "proximity"],
     })
 }
 
-async fn submit(guest: &Guest, manifest: &Value, bytes: Vec<u8>) -> Response {
+pub async fn submit(guest: &Guest, manifest: &Value, bytes: Vec<u8>) -> Response {
     let file = Part::bytes(bytes).file_name("tree.so");
     let form = Form::new().text("manifest", manifest.to_string()).part("file", file);
     guest.post("/api/v1/plugins").multipart(form).send().await.expect("an answer")
@@ -205,6 +205,18 @@ async fn a_signature_is_that_of_this_file_by_the_registered_key() {
     assert_eq!(forgotten.expect("an answer").status(), StatusCode::NO_CONTENT);
     assert_eq!(author.json("/api/v1/account").await["account"]["signing_key"], Value::Null);
     service.stop().await;
+}
+
+/// A plugin that an author has sent and offered, and a curator approved; its id.
+pub async fn published(author: &Guest, curator: &Guest) -> String {
+    let bytes = std::fs::read(built().join(PLUGIN)).expect("the plugin is built");
+    let sent = well(submit(author, &manifest("1.0"), bytes).await).await;
+    let id = sent["id"].as_str().expect("an id").to_owned();
+    let stream = author.get(&format!("/api/v1/plugins/{id}/events")).send().await.expect("an answer");
+    stream.text().await.expect("the stream ends");
+    well(decide(author, &id, "offer", "").await).await;
+    well(decide(curator, &id, "approve", "").await).await;
+    id
 }
 
 /// Sends what is an ELF file and no plugin, another one for each number.

@@ -1,6 +1,6 @@
 //! One service per test, on a free port, in a folder of its own.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use ocb_engine::{Engine, EngineConfig, Profile};
@@ -16,29 +16,42 @@ pub struct Service {
     pub engine: Engine,
     stop: oneshot::Sender<()>,
     served: JoinHandle<()>,
-    plugins: Vec<PathBuf>,
+    how: How,
     data: TempDir,
+}
+
+/// What stays the same when it is started again.
+#[derive(Clone, Default)]
+pub struct How {
+    pub plugins: Vec<PathBuf>,
+    pub suite: Option<PathBuf>,
 }
 
 impl Service {
     /// With every plugin of ours.
     pub async fn start() -> Self {
-        Self::open(vec![built()]).await
+        Self::open(How { plugins: vec![built()], ..How::default() }).await
     }
 
     /// With these plugins of ours alone. What is sent to it is run with whatever jail this machine has.
     pub async fn start_with(plugins: &[&str]) -> Self {
-        Self::open(plugins.iter().map(|name| built().join(name)).collect()).await
+        Self::open(How { plugins: ours(plugins), ..How::default() }).await
     }
 
-    async fn open(plugins: Vec<PathBuf>) -> Self {
-        Self::open_in(tempfile::tempdir().expect("a temporary folder"), plugins).await
+    /// The same, with the suite in this file.
+    pub async fn start_on(plugins: &[&str], suite: &Path) -> Self {
+        Self::open(How { plugins: ours(plugins), suite: Some(suite.to_owned()) }).await
     }
 
-    async fn open_in(data: TempDir, plugins: Vec<PathBuf>) -> Self {
+    async fn open(how: How) -> Self {
+        Self::open_in(tempfile::tempdir().expect("a temporary folder"), how).await
+    }
+
+    async fn open_in(data: TempDir, how: How) -> Self {
         let mut config = EngineConfig::beside_executable(data.path());
         config.runner = built().join("ocb-runner");
-        config.plugins.clone_from(&plugins);
+        config.plugins.clone_from(&how.plugins);
+        config.suite.clone_from(&how.suite);
         config.profile = Profile::Dev;
         let engine = Engine::open(config).await.expect("the engine opens");
         let listener = ocb_server::bind(([127, 0, 0, 1], 0).into()).await.expect("a free port");
@@ -47,7 +60,7 @@ impl Service {
         let served = tokio::spawn(ocb_server::serve(engine.clone(), listener, async {
             let _ = stopped.await;
         }));
-        Self { url, engine, stop, served, plugins, data }
+        Self { url, engine, stop, served, how, data }
     }
 
     /// A browser with its own cookies.
@@ -69,16 +82,20 @@ impl Service {
 
     /// Ends the service and starts another one on the same data.
     pub async fn restart(self) -> Self {
-        let (data, plugins) = self.end().await;
-        Self::open_in(data, plugins).await
+        let (data, how) = self.end().await;
+        Self::open_in(data, how).await
     }
 
-    async fn end(self) -> (TempDir, Vec<PathBuf>) {
+    async fn end(self) -> (TempDir, How) {
         self.stop.send(()).expect("the service runs");
         self.served.await.expect("no panic");
         self.engine.shutdown().await;
-        (self.data, self.plugins)
+        (self.data, self.how)
     }
+}
+
+fn ours(plugins: &[&str]) -> Vec<PathBuf> {
+    plugins.iter().map(|name| built().join(name)).collect()
 }
 
 /// The folder of the built runner and plugins: above that of this test program.

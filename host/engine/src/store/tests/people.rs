@@ -2,7 +2,9 @@
 
 use super::super::*;
 use super::{add, fresh_stages, object, run};
-use crate::model::{AccountInfo, CheckLine, CheckVerdict, Cursor, PluginState, Role, Scope, TokenInfo};
+use crate::model::{
+    AccountInfo, CheckLine, CheckVerdict, Cursor, InvitationInfo, InvitationState, PluginState, Role, Scope, TokenInfo,
+};
 
 fn account(id: &str, name: &str) -> AccountInfo {
     AccountInfo { id: id.into(), name: name.into(), role: Role::User, wish: None, signing_key: None, created_us: 1 }
@@ -63,6 +65,57 @@ pub async fn accounts_have_one_name_and_keys_of_their_own(store: Store) {
     assert_eq!(store.objects_for(Some("account:1"), &Cursor::start(), 9).await.unwrap().len(), 1);
     assert_eq!(store.runs_of("account:1", &Cursor::start(), 9).await.unwrap().len(), 3);
     assert!(store.runs_of("guest", &Cursor::start(), 9).await.unwrap().is_empty());
+}
+
+pub async fn an_invitation_is_accepted_once_and_in_time(store: Store) {
+    for (id, role) in [("1", Role::Curator), ("2", Role::User), ("3", Role::User), ("4", Role::User)] {
+        store.add_account(&AccountInfo { role, ..account(id, &format!("name{id}")) }, "hash").await.unwrap();
+    }
+    let later = now_us() + 1_000_000_000;
+    let made = |id: &str, created_us: i64, expires_us: i64, by: Option<&str>| InvitationInfo {
+        id: id.into(),
+        recipient: "Ada".into(),
+        invited_by: by.map(|id| format!("name{id}")),
+        state: if expires_us == later { InvitationState::Open } else { InvitationState::Expired },
+        accepted_by: None,
+        created_us,
+        expires_us,
+    };
+    // By a curator, too late, by the operator, and by somebody who is no curator.
+    for (id, expires_us, by) in
+        [("a", later, Some("1")), ("b", 5, Some("1")), ("c", later, None), ("d", later, Some("4")), ("e", later, None)]
+    {
+        let invitation = made(id, 1, expires_us, by);
+        assert!(store.add_invitation(&format!("hash {id}"), by, &invitation, NOTE).await.unwrap());
+        assert_eq!(store.invitation(id).await.unwrap(), Some(invitation));
+    }
+    assert_eq!(store.open_invitations().await.unwrap(), 4);
+    let ids: Vec<String> = store.invitations(&Cursor::start(), 2).await.unwrap().into_iter().map(|i| i.id).collect();
+    assert_eq!(ids, ["e", "d"]);
+    let accept = |hash: &'static str, account: &'static str| store.accept_invitation(hash, account, NOTE);
+    for none in ["hash b", "hash d", "hash z"] {
+        assert_eq!(accept(none, "2").await.unwrap(), None, "{none}");
+    }
+    // Who is more already does not use it up.
+    assert_eq!(accept("hash a", "1").await.unwrap(), None);
+    assert_eq!(accept("hash a", "2").await.unwrap().as_deref(), Some("a"));
+    assert_eq!(store.account("2").await.unwrap().unwrap().role, Role::Developer);
+    assert_eq!(accept("hash a", "3").await.unwrap(), None);
+    assert_eq!(store.account("3").await.unwrap().unwrap().role, Role::User);
+    let used = store.invitation("a").await.unwrap().unwrap();
+    assert_eq!((used.state, used.accepted_by.as_deref()), (InvitationState::Accepted, Some("name2")));
+    assert_eq!(store.notes_on("invitation:a").await.unwrap().len(), 1);
+    assert!(store.revoke_invitation("c", NOTE).await.unwrap());
+    assert!(!store.revoke_invitation("c", NOTE).await.unwrap() && !store.revoke_invitation("a", NOTE).await.unwrap());
+    assert_eq!(accept("hash c", "3").await.unwrap(), None);
+    assert_eq!(store.invitation("c").await.unwrap().unwrap().state, InvitationState::Revoked);
+    // Made again it has another secret, as long as it is open.
+    let again = made("e", 1, later, None);
+    assert!(store.add_invitation("another hash", None, &again, NOTE).await.unwrap());
+    assert!(!store.add_invitation("no hash", Some("1"), &made("a", 1, later, Some("1")), NOTE).await.unwrap());
+    assert_eq!(accept("hash e", "3").await.unwrap(), None);
+    assert_eq!(accept("another hash", "3").await.unwrap().as_deref(), Some("e"));
+    assert_eq!(store.notes_on("x").await.unwrap().len(), 6 + 2 + 1, "what did not happen is not noted");
 }
 
 pub async fn the_log_shows_what_was_changed_by_hand(store: Store) {
@@ -133,4 +186,27 @@ pub async fn a_submission_is_checked_three_times_at_most(store: Store) {
     );
     store.describe_submission("p", &[], "class").await.unwrap();
     assert_eq!(store.submissions().await.unwrap()[0].hardware_class.as_deref(), Some("class"));
+}
+
+pub async fn a_key_names_one_request(store: Store) {
+    let request = |owner: &'static str, resource: &'static str, digest: &'static str| Request {
+        owner,
+        resource,
+        key: "k",
+        digest,
+    };
+    let of = async |owner, resource, digest, id: &'static str| {
+        store.request(request(owner, resource, digest), id).await.unwrap()
+    };
+    let found = |id: &str, digest: &str| (id.to_owned(), digest.to_owned());
+    assert_eq!(of("guest", "token", "d", "1").await, found("1", "d"));
+    assert_eq!(of("guest", "token", "e", "2").await, found("1", "d"), "the first stands");
+    assert_eq!(of("guest", "advice", "e", "3").await, found("3", "e"));
+    assert_eq!(of("account:1", "advice", "f", "4").await, found("4", "f"));
+    // Keys go along when a guest becomes an account; where both have one, the account's stays.
+    store.move_things("guest", "account:1").await.unwrap();
+    assert_eq!(of("account:1", "token", "d", "5").await, found("1", "d"));
+    assert_eq!(of("account:1", "advice", "f", "6").await, found("4", "f"));
+    store.forget_requests(now_us() + 1).await.unwrap();
+    assert_eq!(of("account:1", "token", "g", "7").await, found("7", "g"));
 }

@@ -23,7 +23,7 @@ pub async fn what_is_taken_away_takes_the_files_that_nobody_else_uses(store: Sto
     store.keep_result("r", 0, &stored, 1, Query::Proximity).await.unwrap();
     let mut info = advice_info("v");
     info.spec.object_a = "o".to_owned();
-    store.add_advice(&info, Some("me")).await.unwrap();
+    assert!(store.add_advice(&info, "me").await.unwrap());
     let paper = StoredPaper { mesh: "paper".into(), certificate: "proof".into(), file: "f.obj".into() };
     store.end_advice(&info, &[vec![paper], vec![]]).await.unwrap();
 

@@ -1,0 +1,96 @@
+//! What one has made, here and on a service: shown, taken along, deleted.
+
+use std::io::{BufRead, BufReader};
+use std::process::Child;
+
+use crate::support::{Desk, Ended};
+
+/// A service on a data folder of its own; ends when dropped.
+struct Serving {
+    child: Child,
+    url: String,
+}
+
+impl Serving {
+    fn start(desk: &Desk) -> Self {
+        let mut child = desk.command(&["serve", "--address", "127.0.0.1:0", "--json"]).spawn().expect("it starts");
+        let lines = BufReader::new(child.stdout.take().expect("stdout")).lines().map_while(Result::ok);
+        let url = lines.into_iter().find_map(|line| {
+            let (_, rest) = line.split_once("http://")?;
+            rest.split('"').next().map(|address| format!("http://{address}"))
+        });
+        Self { child, url: url.expect("an address") }
+    }
+}
+
+impl Drop for Serving {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+#[test]
+fn what_the_command_line_made_is_shown_taken_along_and_deleted() {
+    let desk = Desk::new();
+    let bench = ["bench", "stock:torus-knot@600", "--algorithm", "box-tree", "--count", "20", "--passes", "1"];
+    let run = desk.json(&bench)["id"].as_str().expect("an id").to_owned();
+    let shown = desk.run(&["things", "show"]).stdout;
+    assert!(shown.contains(&run) && shown.contains("1 run, 0 objects"), "{shown}");
+    let tar = desk.path("all.tar").to_str().expect("text").to_owned();
+    let taken = desk.json(&["things", "take-along", "-o", &tar]);
+    assert_eq!(taken["bytes"].as_u64(), std::fs::metadata(&tar).ok().map(|file| file.len()));
+    let bytes = std::fs::read(&tar).expect("a file");
+    let name = format!("opencollbench/runs/{run}/run.json");
+    assert!(bytes.windows(name.len()).any(|part| part == name.as_bytes()), "{name} is in the archive");
+
+    // Without a terminal and without --yes nothing goes, and it is told what would.
+    let Ended { code, stdout, stderr } = desk.run(&["things", "delete", "run", "latest"]);
+    assert_eq!((code, stdout.as_str()), (2, ""), "{stderr}");
+    assert!(stderr.contains(&run) && stderr.contains("Nothing was deleted; add --yes"), "{stderr}");
+    assert_eq!(desk.json(&["things", "show"])["runs"][0]["id"], run);
+    let gone = desk.json(&["things", "delete", "run", "latest", "--yes"]);
+    assert_eq!(gone["runs"][0]["id"], run);
+    assert_eq!(desk.json(&["things", "show"])["runs"], serde_json::json!([]));
+    assert!(desk.refused(&["things", "delete", "run", &run, "--yes"]).contains(&run));
+    assert!(desk.refused(&["things", "delete", "run"]).contains("ID"));
+    assert!(desk.run(&["things", "delete", "all", "--yes"]).stdout.starts_with("Deleted: 0 runs, 0 objects"));
+}
+
+fn things<'a>(args: &[&'a str], account: &[&'a str]) -> Vec<&'a str> {
+    [&["things"], args, account].concat()
+}
+
+#[test]
+fn what_an_account_has_on_a_service_is_its_own() {
+    let (desk, there) = (Desk::new(), Desk::new());
+    let made = there.command(&["admin", "create", "ada"]).env("OCB_PASSWORD", "a long enough password").output();
+    assert!(made.expect("it starts").status.success());
+    let service = Serving::start(&there);
+    let client = reqwest::blocking::Client::builder().cookie_store(true).build().expect("a client");
+    let post = |path: &str, body: serde_json::Value| {
+        let sent = client.post(format!("{}/api/v1{path}", service.url)).json(&body).send().expect("an answer");
+        assert!(sent.status().is_success(), "{path}: {}", sent.status());
+        sent.json::<serde_json::Value>().expect("JSON")
+    };
+    post("/account/login", serde_json::json!({ "name": "ada", "password": "a long enough password" }));
+    let token = post("/account/tokens", serde_json::json!({ "name": "t", "scopes": ["runs"] }))["secret"].clone();
+    let run = post(
+        "/runs",
+        serde_json::json!({
+            "object_a": "stock:torus-knot@600", "query": "proximity", "algorithms": ["box-tree"], "passes": 1,
+            "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 20 } },
+        }),
+    );
+    let run = run["id"].as_str().expect("an id");
+    let account = ["--server", &service.url, "--token", token.as_str().expect("a secret")];
+    assert_eq!(desk.json(&things(&["show"], &account))["runs"][0]["id"], run);
+    let tar = desk.path("all.tar").to_str().expect("text").to_owned();
+    assert!(desk.json(&things(&["take-along", "-o", &tar], &account))["bytes"].as_u64() > Some(1024));
+    assert_eq!(desk.json(&things(&["delete", "run", run, "--yes"], &account))["runs"][0]["id"], run);
+    assert!(desk.refused(&things(&["delete", "run", run, "--yes"], &account)).contains("There is no run"));
+    assert!(desk.refused(&["things", "show", "--server", &service.url]).contains("--token"));
+    let link = desk.refused(&["cite", "run", run, "--server", &service.url]);
+    assert!(link.contains("There is no run"), "{link}");
+    assert!(!desk.path("data").exists(), "nothing is made here");
+}

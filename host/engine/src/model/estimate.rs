@@ -1,0 +1,34 @@
+//! What a run would cost.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// What a run would cost.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Estimate {
+    /// Number of configurations.
+    pub configurations: u64,
+    /// The set is stored already.
+    pub configurations_stored: bool,
+    /// Expected seconds to find and certify the configurations.
+    pub configuration_seconds: f64,
+    /// Expected seconds per algorithm.
+    pub measuring_seconds: Vec<AlgorithmSeconds>,
+    /// All together, without waiting.
+    pub total_seconds: f64,
+    /// Runs ahead in the queue.
+    pub runs_ahead: u32,
+    /// Expected seconds until those are done.
+    pub wait_seconds: f64,
+}
+
+/// Seconds of one algorithm.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct AlgorithmSeconds {
+    /// Algorithm id.
+    pub algorithm: String,
+    /// Seconds.
+    pub seconds: f64,
+    /// Expected to be cut by the budget.
+    pub budget_limited: bool,
+}

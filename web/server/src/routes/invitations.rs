@@ -1,0 +1,91 @@
+//! Invitations to be a developer: curators make and withdraw them, whoever has the link accepts.
+
+use axum::Json as Answer;
+use axum::extract::State;
+use axum::http::{HeaderMap, StatusCode};
+use axum::response::{IntoResponse, Response};
+use ocb_engine::model::{Acceptance, AccountInfo, InvitationInfo, InvitationRequest, NewInvitation, Page};
+
+use crate::App;
+use crate::extract::{Json, Path, Query};
+use crate::guest::{Curator, Member};
+use crate::limits::{ACCEPT, Address};
+use crate::list;
+use crate::origin::own_origin;
+use crate::problem::{Problem, Result};
+use crate::request_key::{IdempotencyKey, RequestKey};
+
+/// Invites somebody to be a developer. The link is in this answer and nowhere else; whoever has it may accept, once. Asked again
+/// under the same `Idempotency-Key`, it is the same invitation with another link.
+#[utoipa::path(post, path = "/invitations", tag = "curation",
+    params(IdempotencyKey), request_body(content = InvitationRequest, example = json!({ "recipient": "Ada, of the GJK paper", "days": 14 })),
+    responses(
+        (status = 201, body = NewInvitation),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "No curator", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Too many are open", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "For nobody, or for too long", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn invite(
+    State(app): State<App>,
+    Curator(curator): Curator,
+    headers: HeaderMap,
+    key: RequestKey,
+    Json(asked): Json<InvitationRequest>,
+) -> Result<Response> {
+    let made = app.engine.invite(Some(&curator), asked, &own_origin(&headers)?, key.as_deref()).await?;
+    Ok((StatusCode::CREATED, Answer(made)).into_response())
+}
+
+/// Invitations, newest first, without their secrets.
+#[utoipa::path(get, path = "/invitations", tag = "curation", params(Page),
+    responses(
+        (status = 200, description = "A part of the list", body = Vec<InvitationInfo>, headers(("Link" = String, description = "Where the list goes on: `<...>; rel=\"next\"`; absent at its end"))),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "No curator", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No part of the list", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn list_invitations(
+    State(app): State<App>,
+    Curator(_): Curator,
+    Query(page): Query<Page>,
+) -> Result<Response> {
+    Ok(list::answer("/api/v1/invitations", &page, app.engine.invitations(&page).await?))
+}
+
+/// Withdraws an invitation that nobody has accepted.
+#[utoipa::path(delete, path = "/invitations/{id}", tag = "curation",
+    params(("id" = String, Path, description = "Invitation id")),
+    responses(
+        (status = 200, description = "The invitation as it is now", body = InvitationInfo),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "No curator", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such invitation", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Accepted or withdrawn before", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn revoke_invitation(
+    State(app): State<App>,
+    Curator(curator): Curator,
+    Path(id): Path<String>,
+) -> Result<Answer<InvitationInfo>> {
+    Ok(Answer(app.engine.revoke_invitation(Some(&curator), &id).await?))
+}
+
+/// Accepts an invitation for the account that is logged in, which is a developer from then on.
+#[utoipa::path(post, path = "/account/invitation", tag = "account", request_body = Acceptance,
+    responses(
+        (status = 200, description = "The account as it is now", body = AccountInfo),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such invitation, or not any more: which of it is not said", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Is a developer already", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many tries", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn accept_invitation(
+    State(app): State<App>,
+    Address(address): Address,
+    Member(account): Member,
+    Json(asked): Json<Acceptance>,
+) -> Result<Answer<AccountInfo>> {
+    app.limits.count(ACCEPT, &address)?;
+    Ok(Answer(app.engine.accept_invitation(&account, &asked.secret).await?))
+}
