@@ -1,65 +1,12 @@
 // Starts the built service on a data folder of its own, walks all journeys against it, and stops it by its process id.
 //
 // OCB_E2E_URL walks against a running service instead (with OCB_E2E_CURATOR, the password of its account "curator"); further arguments choose journeys (file names).
-import { spawn, spawnSync } from 'node:child_process'
-import { randomUUID } from 'node:crypto'
-import { mkdtempSync, readdirSync, rmSync } from 'node:fs'
-import { createServer } from 'node:net'
-import { tmpdir } from 'node:os'
-import { dirname, join, resolve } from 'node:path'
-import { fileURLToPath } from 'node:url'
+import { spawn } from 'node:child_process'
+import { readdirSync } from 'node:fs'
+import { join } from 'node:path'
+import { root, startService } from './service.mjs'
 
-const here = dirname(fileURLToPath(import.meta.url))
-const root = resolve(here, '../..')
-const target = resolve(root, process.env.CARGO_TARGET_DIR ?? 'target')
-
-function freePort() {
-  return new Promise((done) => {
-    const server = createServer().listen(0, '127.0.0.1', () => {
-      const { port } = server.address()
-      server.close(() => done(port))
-    })
-  })
-}
-
-async function ready(url, alive) {
-  for (let i = 0; i < 300 && alive(); i++) {
-    const answer = await fetch(`${url}/api/v1/status`).catch(() => null)
-    if (answer?.ok) return
-    await new Promise((next) => setTimeout(next, 100))
-  }
-  throw new Error(`the service did not answer on ${url}`)
-}
-
-async function startService() {
-  const url = `http://127.0.0.1:${await freePort()}`
-  const data = mkdtempSync(join(tmpdir(), 'ocb-e2e-'))
-  const password = randomUUID()
-  const made = spawnSync(join(target, 'release/ocb'), ['admin', 'create', 'curator', '--role', 'curator', '--data', data], {
-    env: { ...process.env, OCB_PASSWORD: password }, stdio: ['ignore', 'ignore', 'inherit'],
-  })
-  if (made.status !== 0) throw new Error('no curator could be made')
-  const options = ['serve', '--data', data, '--listen', url.slice('http://'.length), '--stock-dir', join(root, 'target/stock')]
-  const service = spawn(join(target, 'release/ocb'), options, { cwd: root, stdio: ['ignore', 'inherit', 'inherit'] })
-  const ended = new Promise((done) => service.once('exit', (code, signal) => done(signal ?? code)))
-  let running = true
-  ended.then(() => { running = false })
-  const stop = async () => {
-    const early = !running
-    service.kill('SIGTERM')
-    const how = await ended
-    rmSync(data, { recursive: true, force: true })
-    if (early) throw new Error(`the service ended by itself during the journeys (${how})`)
-  }
-  try {
-    await ready(url, () => running)
-  } catch (error) {
-    await stop().catch(() => {})
-    throw error
-  }
-  return { url, password, stop }
-}
-
+const here = join(root, 'tests/e2e')
 const chosen = process.argv.slice(2)
 const journeys = readdirSync(join(here, 'journeys'))
   .filter((f) => f.endsWith('.test.mjs') && (chosen.length === 0 || chosen.some((c) => f.startsWith(c))))

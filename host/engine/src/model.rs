@@ -366,6 +366,13 @@ pub struct AlgorithmResult {
     pub memory_bytes: Option<u64>,
 }
 
+impl AlgorithmResult {
+    /// Its time was over before its first answer: nothing is known of it.
+    pub fn had_no_time(&self) -> bool {
+        self.n == 0 && self.budget_limited && self.outcome.name == "Completed"
+    }
+}
+
 /// How many of some answers agree with exact arithmetic.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct Agreement {

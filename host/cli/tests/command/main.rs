@@ -10,6 +10,7 @@ mod look;
 mod replay;
 mod serve;
 mod settings;
+mod suite;
 mod support;
 mod things;
 mod truth;

@@ -161,6 +161,10 @@ impl Inner {
                 }
             } else if self.is_of_now(row) {
                 for stored in self.store.results(&row.id).await? {
+                    // Whose time was over before its first answer is asked again.
+                    if stored.result.had_no_time() {
+                        continue;
+                    }
                     let algorithm = &stored.result.algorithm;
                     all.add(&row.spec, algorithm, Some(stored.plugin_sha256.clone()), Known::Measured)?;
                 }

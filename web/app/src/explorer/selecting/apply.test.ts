@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import { axis, cell, density, litVertices, sortedChosen } from './apply'
+import { ascending, axis, cell, counted, litVertices, places, sortedChosen } from './apply'
 
 describe('a chart of configurations', () => {
   it('has a logarithmic axis where all values are positive and differ', () => {
@@ -17,9 +17,9 @@ describe('a chart of configurations', () => {
   it('counts what lies in each cell, and what of it is selected', () => {
     const unit = { lo: 0, hi: 2, log: false, cells: 2 }
     const chosen = Uint8Array.from([1, 0, 1, 1])
-    const { all, lit } = density([0.5, 0.5, 1.5, Number.NaN], [0.5, 0.5, 1.5, 0], unit, unit, chosen)
-    expect([...all]).toEqual([2, 0, 0, 1])
-    expect([...lit]).toEqual([1, 0, 0, 1])
+    const at = places([0.5, 0.5, 1.5, Number.NaN], [0.5, 0.5, 1.5, 0], unit, unit)
+    expect([...counted(at, 4, null)]).toEqual([2, 0, 0, 1])
+    expect([...counted(at, 4, chosen)]).toEqual([1, 0, 0, 1])
   })
 })
 
@@ -30,6 +30,9 @@ describe('a region of the object', () => {
   })
 
   it('has times', () => {
-    expect([...sortedChosen([3, Number.NaN, 1, 2], Uint8Array.from([1, 1, 1, 0]))]).toEqual([1, 3])
+    const values = [3, Number.NaN, 1, 2]
+    const order = ascending(values)
+    expect([...order]).toEqual([2, 3, 0])
+    expect([...sortedChosen(values, order, Uint8Array.from([1, 1, 1, 0]))]).toEqual([1, 3])
   })
 })

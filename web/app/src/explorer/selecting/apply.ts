@@ -56,21 +56,25 @@ export function cell({ lo, hi, log, cells }: Axis, value: number): number {
   return share >= 0 && share <= 1 ? Math.min(cells - 1, Math.floor(share * cells)) : -1
 }
 
-/** How many configurations, and how many selected ones, lie in each cell of a chart (rows from below). */
-export function density(
-  xs: ArrayLike<number>, ys: ArrayLike<number>, x: Axis, y: Axis, chosen: Uint8Array | null,
-): { all: Uint32Array<ArrayBuffer>; lit: Uint32Array<ArrayBuffer> } {
-  const all = new Uint32Array(x.cells * y.cells)
-  const lit = new Uint32Array(x.cells * y.cells)
-  for (let i = 0; i < xs.length; i++) {
+/** In which cell of a chart each configuration lies (rows from below); -1 for those that lie in none. */
+export function places(xs: ArrayLike<number>, ys: ArrayLike<number>, x: Axis, y: Axis): Int32Array {
+  const at = new Int32Array(xs.length)
+  for (let i = 0; i < at.length; i++) {
     const column = cell(x, xs[i] ?? Number.NaN)
     const row = cell(y, ys[i] ?? Number.NaN)
-    if (column < 0 || row < 0) continue
-    const at = row * x.cells + column
-    all[at] = (all[at] ?? 0) + 1
-    if (chosen?.[i]) lit[at] = (lit[at] ?? 0) + 1
+    at[i] = column < 0 || row < 0 ? -1 : row * x.cells + column
   }
-  return { all, lit }
+  return at
+}
+
+/** How many configurations lie in each of so many cells: those that are chosen, or all of them. */
+export function counted(at: Int32Array, cells: number, chosen: Uint8Array | null): Uint32Array<ArrayBuffer> {
+  const counts = new Uint32Array(cells)
+  for (let i = 0; i < at.length; i++) {
+    const place = at[i] ?? -1
+    if (place >= 0 && (!chosen || chosen[i])) counts[place] = (counts[place] ?? 0) + 1
+  }
+  return counts
 }
 
 /** An axis that holds all values: logarithmic over the positive ones when they span more than a tenth of a decade. */
@@ -104,13 +108,16 @@ export function litVertices(
   return lit
 }
 
-/** The times of the selected configurations, ascending. */
-export function sortedChosen(values: ArrayLike<number>, chosen: Uint8Array): Float64Array {
-  const out = new Float64Array(values.length)
+/** The configurations that have a value, by ascending values. */
+export function ascending(values: ArrayLike<number>): Uint32Array {
+  const having = Uint32Array.from({ length: values.length }, (_, i) => i).filter((i) => !Number.isNaN(values[i]))
+  return having.toSorted((i, k) => (values[i] ?? 0) - (values[k] ?? 0))
+}
+
+/** The values of the selected configurations, ascending, from that order of all. */
+export function sortedChosen(values: ArrayLike<number>, order: Uint32Array, chosen: Uint8Array): Float64Array {
+  const out = new Float64Array(order.length)
   let n = 0
-  for (let i = 0; i < values.length; i++) {
-    const value = values[i] ?? Number.NaN
-    if (chosen[i] && !Number.isNaN(value)) out[n++] = value
-  }
-  return out.subarray(0, n).toSorted()
+  for (const i of order) if (chosen[i]) out[n++] = values[i] ?? 0
+  return out.subarray(0, n)
 }

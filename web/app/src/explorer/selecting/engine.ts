@@ -1,5 +1,5 @@
 import { tableFromIPC } from '@uwdata/flechette'
-import { apply, axis, density, litVertices, sortedChosen, type Axis, type Columns } from './apply'
+import { apply, ascending, axis, counted, litVertices, places, sortedChosen, type Axis, type Columns } from './apply'
 import { algorithms, parse, type Column } from './language'
 
 /** An object's surface as far as selections need it. */
@@ -53,11 +53,15 @@ const ACROSS: readonly Column[] = ['bv', 'primitives', 'error', 'distance']
 const POINTS = 256
 
 type Numbers = Record<string, ArrayLike<number>>
+interface ChartOfAll { key: string; x: Axis; y: Axis; at: Int32Array }
 
 /** The configurations of one run, in columns; fetched when first asked for. Runs in a worker. */
 export class Selecting {
   private readonly fetched = new Map<string, Promise<Numbers>>()
   private readonly loaded = new Map<string, Numbers>()
+  /** What stays the same from question to question: who is where in the chart, who is how fast among all. */
+  private chartOfAll: ChartOfAll | null = null
+  private readonly orders = new Map<string, Uint32Array>()
 
   constructor(
     private readonly run: string,
@@ -84,16 +88,28 @@ export class Selecting {
       lit: chosen && triangles ? litVertices(chosen, triangles, surface.corners, surface.positions.length / 3) : null,
       chart: this.chart(question, across, columns, chosen),
       columns: across,
-      rows: chosen ? rows.map((algorithm) => times(algorithm, columns.column('time', algorithm), chosen)) : [],
+      rows: chosen ? rows.map((algorithm) => this.times(algorithm, columns.column('time', algorithm), chosen)) : [],
     }
   }
 
-  private chart({ y, cells, lookedAt }: Question, across: Column[], columns: Columns, chosen: Uint8Array | null) {
-    const column = across.find((one) => one === y) ?? across[0]
+  private chart({ y: wanted, cells, lookedAt }: Question, across: Column[], columns: Columns, chosen: Uint8Array | null) {
+    const column = across.find((one) => one === wanted) ?? across[0]
     if (!column || !this.known(lookedAt).time) return null
-    const [xs, ys] = [columns.column('time', null), columns.column(column, null)]
-    const axes = { x: axis(xs, cells[0]), y: axis(ys, cells[1]) }
-    return { ...axes, column, ...density(xs, ys, axes.x, axes.y, chosen) }
+    const key = JSON.stringify([lookedAt, column, cells])
+    if (this.chartOfAll?.key !== key) {
+      const [xs, ys] = [columns.column('time', null), columns.column(column, null)]
+      const axes = { x: axis(xs, cells[0]), y: axis(ys, cells[1]) }
+      this.chartOfAll = { key, ...axes, at: places(xs, ys, axes.x, axes.y) }
+    }
+    const { x, y, at } = this.chartOfAll
+    const count = (which: Uint8Array | null) => counted(at, x.cells * y.cells, which)
+    return { x, y, column, all: count(null), lit: chosen ? count(chosen) : new Uint32Array(x.cells * y.cells) }
+  }
+
+  private times(algorithm: string, values: ArrayLike<number>, chosen: Uint8Array): SelectedTimes {
+    const order = this.orders.get(algorithm) ?? ascending(values)
+    this.orders.set(algorithm, order)
+    return times(algorithm, sortedChosen(values, order, chosen))
   }
 
   private view(lookedAt: string): Columns {
@@ -108,8 +124,14 @@ export class Selecting {
         if (3 * vertex >= positions.length) throw new Error(`Object ${body.toUpperCase()} has no vertex ${vertex}.`)
         const [x, y, z] = ['x', 'y', 'z'].map((axisName) => this.known('')[`${body}_${axisName}`] ?? [])
         const [cx = 0, cy = 0, cz = 0] = positions.subarray(3 * vertex, 3 * vertex + 3)
-        return Float64Array.from({ length: x?.length ?? 0 }, (_, i) =>
-          Math.sqrt(((x?.[i] ?? 0) - cx) ** 2 + ((y?.[i] ?? 0) - cy) ** 2 + ((z?.[i] ?? 0) - cz) ** 2) / longest)
+        const distances = new Float64Array(x?.length ?? 0)
+        for (let i = 0; i < distances.length; i++) {
+          const dx = (x?.[i] ?? 0) - cx
+          const dy = (y?.[i] ?? 0) - cy
+          const dz = (z?.[i] ?? 0) - cz
+          distances[i] = Math.sqrt(dx * dx + dy * dy + dz * dz) / longest
+        }
+        return distances
       },
     }
   }
@@ -152,8 +174,7 @@ async function fetchColumns(url: string): Promise<Numbers> {
 
 const sum = (mask: Uint8Array): number => mask.reduce((n, is) => n + is, 0)
 
-function times(algorithm: string, values: ArrayLike<number>, chosen: Uint8Array): SelectedTimes {
-  const sorted = sortedChosen(values, chosen)
+function times(algorithm: string, sorted: Float64Array): SelectedTimes {
   const n = sorted.length
   const at = (q: number) => (n > 0 ? (sorted[Math.round(q * (n - 1))] ?? null) : null)
   const points = Math.min(n, POINTS)
