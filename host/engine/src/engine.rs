@@ -7,6 +7,7 @@ mod citations;
 mod featured;
 mod follow;
 mod invitations;
+mod notices;
 mod people;
 mod plugins;
 mod quotas;

@@ -11,6 +11,7 @@ mod environment;
 mod estimate;
 mod heatmap;
 mod invitation;
+mod notice;
 mod object;
 mod page;
 mod people;
@@ -43,6 +44,7 @@ pub use environment::Environment;
 pub use estimate::{AlgorithmSeconds, Estimate};
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
 pub use invitation::{Acceptance, InvitationInfo, InvitationRequest, InvitationState, NewInvitation};
+pub use notice::NoticeInfo;
 pub use object::ObjectInfo;
 pub use page::{Cursor, Page, Part};
 pub use people::{

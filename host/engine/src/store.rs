@@ -8,6 +8,7 @@ mod advice;
 mod audit;
 mod blobs;
 mod invitations;
+mod notices;
 mod objects;
 mod plugins;
 mod queue;
@@ -107,6 +108,7 @@ fn migrations() -> Migrator {
         one(12, "suite", include_str!("../migrations/0012_suite.sql")),
         one(13, "invitations", include_str!("../migrations/0013_invitations.sql")),
         one(14, "requests", include_str!("../migrations/0014_requests.sql")),
+        one(15, "notices", include_str!("../migrations/0015_notices.sql")),
     ])
 }
 

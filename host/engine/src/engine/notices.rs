@@ -1,0 +1,89 @@
+//! Notices: what the service tells an account, on its page of runs and, if it wants, by mail.
+
+use super::{Engine, Inner};
+use crate::boxed;
+use crate::model::{AccountInfo, Cursor, NoticeInfo, Page, Part};
+use crate::store::now_us;
+use crate::{EngineError, Result};
+
+/// Notices of one account that are kept, and letters of their parts.
+const MOST: usize = 500;
+const SUBJECT: usize = 160;
+const TEXT: usize = 4000;
+
+impl Inner {
+    /// Tells an account something: `account` is its id, `link` a path within the service such as `/r/<id>`. What is too long is
+    /// cut; of an account that is gone, nothing is kept.
+    ///
+    /// # Errors
+    /// Only a fault of the database; whoever tells of something that is done already logs it and goes on.
+    #[boxed]
+    pub async fn notify(&self, account: &str, subject: &str, text: &str, link: &str) -> Result<()> {
+        let notice = NoticeInfo {
+            id: uuid::Uuid::now_v7().to_string(),
+            subject: one_line(subject, SUBJECT),
+            text: text.trim().chars().filter(|c| *c == '\n' || !c.is_control()).take(TEXT).collect(),
+            link: own_path(link),
+            created_us: now_us(),
+            read_us: None,
+        };
+        self.store.add_notice(account, &notice, MOST, false).await?;
+        Ok(())
+    }
+}
+
+impl Engine {
+    /// What the account was told, newest first.
+    #[boxed]
+    pub async fn notices(&self, account: &AccountInfo, page: &Page) -> Result<Part<NoticeInfo>> {
+        let (from, limit) = page.start()?;
+        let all = self.inner.store.notices(&account.id, &from, limit + 1).await?;
+        Ok(Part::of(all, limit, |one: &NoticeInfo| Cursor::behind(one.created_us, &one.id)))
+    }
+
+    /// Marks a notice as read.
+    #[boxed]
+    pub async fn read_notice(&self, account: &AccountInfo, id: &str) -> Result<NoticeInfo> {
+        self.inner.store.read_notice(&account.id, id).await?.ok_or_else(|| missing(id))
+    }
+
+    /// Takes a notice away.
+    #[boxed]
+    pub async fn remove_notice(&self, account: &AccountInfo, id: &str) -> Result<()> {
+        let there = self.inner.store.remove_notice(&account.id, id).await?;
+        if there { Ok(()) } else { Err(missing(id)) }
+    }
+}
+
+/// Somebody else's notice is not there either.
+fn missing(id: &str) -> EngineError {
+    EngineError::NotFound(format!("There is no notice {id:?}."))
+}
+
+/// One line of at most so many letters: a subject stands in the head of a mail.
+fn one_line(text: &str, most: usize) -> String {
+    let plain: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    plain.split_whitespace().collect::<Vec<_>>().join(" ").chars().take(most).collect()
+}
+
+/// A path within the service: anything else leads to the page of runs.
+fn own_path(link: &str) -> String {
+    let plain = |c: char| c.is_ascii_graphic() && !"\\\"<>".contains(c);
+    let own = link.starts_with('/') && !link.starts_with("//") && link.chars().all(plain);
+    if own { link.to_owned() } else { "/runs".to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_subject_is_one_line_and_a_link_stays_within_the_service() {
+        assert_eq!(one_line(" a\r\nBcc: b@c\u{85}d\te ", 80), "a Bcc: b@c d e");
+        assert_eq!(one_line("äöü", 2), "äö");
+        assert_eq!(own_path("/p/1?x=2#y"), "/p/1?x=2#y");
+        for odd in ["", "https://a.example", "//a.example", "/a b", "/a\r\nb", "/\\a.example", "javascript:x"] {
+            assert_eq!(own_path(odd), "/runs", "{odd:?}");
+        }
+    }
+}
