@@ -36,7 +36,7 @@ pub async fn carry_out(inner: &Arc<Inner>, row: &SubmissionRow, stop: &Stop) -> 
         Ok(None) => inner.store.put_back_check(&row.id).await,
         // Ours: it waits and is tried again, and after the third time it fails.
         Err(e) => {
-            inner.store.recover_checks(MAX_ATTEMPTS).await?;
+            recover(inner).await?;
             Err(e)
         }
     }
@@ -98,7 +98,19 @@ async fn settle(inner: &Inner, row: &SubmissionRow, report: PluginReport) -> Res
     };
     for from in [PluginState::Uploaded, PluginState::Vetted] {
         let note = Note { actor: THE_SERVICE, action: word, subject: &row.id, detail: &reason };
-        store.move_submission(&row.id, from, state, &reason, Some(note)).await?;
+        if store.move_submission(&row.id, from, state, &reason, Some(note)).await? {
+            inner.tell_check(row, state, &reason).await;
+        }
     }
     inner.renew_plugins().await
+}
+
+/// Checks that did not come to their end wait again; those begun too often fail, and their authors are told.
+pub async fn recover(inner: &Inner) -> Result<()> {
+    for id in inner.store.recover_checks(MAX_ATTEMPTS).await? {
+        if let Some(row) = inner.store.submission(&id).await? {
+            inner.tell_check(&row, row.state, &row.reason).await;
+        }
+    }
+    Ok(())
 }

@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 pub use ocb_sandbox::Profile;
 
+use crate::mail::MailServer;
+
 /// How to open an [`crate::Engine`].
 #[derive(Clone, Debug)]
 pub struct EngineConfig {
@@ -29,6 +31,8 @@ pub struct EngineConfig {
     pub featured: bool,
     /// Days that what guests make stays after they last made something or asked to have it kept.
     pub guest_days: u32,
+    /// Who takes our mails; nothing is mailed when absent.
+    pub mail: Option<MailServer>,
 }
 
 impl EngineConfig {
@@ -50,6 +54,7 @@ impl EngineConfig {
             dispatch: true,
             featured: false,
             guest_days: 30,
+            mail: None,
         }
     }
 }

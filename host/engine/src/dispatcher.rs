@@ -25,7 +25,7 @@ pub async fn recover(inner: &Inner) -> Result<()> {
     for run in &failed {
         inner.bell.tell(&inner.store, run, plain_event(State::Failed, 0)).await?;
     }
-    inner.store.recover_checks(checks::MAX_ATTEMPTS).await?;
+    checks::recover(inner).await?;
     if !queued.is_empty() {
         tracing::info!("{} interrupted run(s) are back in the queue", queued.len());
     }

@@ -3,12 +3,15 @@
 mod advice;
 mod archive;
 mod charts;
+mod choices;
 mod citations;
 mod featured;
 mod follow;
 mod invitations;
+mod mails;
 mod notices;
 mod people;
+mod plugin_notices;
 mod plugins;
 mod quotas;
 mod repro;
@@ -99,6 +102,8 @@ pub struct Inner {
     closing: AtomicBool,
     /// Rung when the engine shuts down, for what would sleep on.
     closed: Notify,
+    /// Rung when there is a mail to bring, or the engine shuts down.
+    posting: Notify,
     /// What closing waits for.
     tasks: Mutex<Vec<JoinHandle<()>>>,
     /// Held as long as this process uses the folder.
@@ -150,6 +155,7 @@ impl Engine {
             advices: Advices::default(),
             closing: AtomicBool::new(false),
             closed: Notify::new(),
+            posting: Notify::new(),
             tasks: Mutex::default(),
             lock,
             config,
@@ -166,6 +172,7 @@ impl Engine {
             engine.catch_up_with_the_suite().await?;
             engine.inner.spawn(dispatcher::work(engine.inner.clone()));
             engine.inner.spawn(engine.clone().sweep());
+            engine.inner.spawn(engine.inner.clone().post());
         }
         Ok(engine)
     }
@@ -179,6 +186,7 @@ impl Engine {
         self.inner.advices.stop_all();
         self.inner.wake.notify_one();
         self.inner.closed.notify_one();
+        self.inner.posting.notify_one();
         let tasks = std::mem::take(&mut *self.inner.tasks.lock().unwrap_or_else(PoisonError::into_inner));
         for task in tasks {
             let _ = task.await;

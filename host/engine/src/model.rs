@@ -5,6 +5,7 @@
 mod advice;
 mod board;
 mod chart;
+mod choices;
 mod citation;
 mod contract;
 mod environment;
@@ -38,6 +39,7 @@ use utoipa::ToSchema;
 pub use advice::{AdviceInfo, AdviceSpec, Asked};
 pub use board::{Accuracy, Board, BoardFilter, BoardOption, BoardRequest, BoardRow, StabilityPassed};
 pub use chart::{ChartKind, ChartRequest};
+pub use choices::{Choices, NewAddress, NewChoices, OpenedLink};
 pub use citation::Citation;
 pub use contract::{ContractClass, Delivered, Order};
 pub use environment::Environment;

@@ -7,7 +7,9 @@ mod accounts;
 mod advice;
 mod audit;
 mod blobs;
+mod choices;
 mod invitations;
+mod mails;
 mod notices;
 mod objects;
 mod plugins;
@@ -37,6 +39,8 @@ use crate::{EngineError, Result};
 
 pub use advice::{AdviceRow, StoredPaper};
 pub use audit::Note;
+pub use choices::ChoicesRow;
+pub use mails::{Confirmation, WaitingMail};
 pub use requests::Request;
 pub use results::StoredResult;
 pub use runs::RunRow;

@@ -41,7 +41,7 @@ impl Engine {
                 self.pack_advice(&mut packer, id).await?;
             }
         }
-        self.pack_plugins(&mut packer, owner).await?;
+        self.pack_account(&mut packer, owner).await?;
         packer.finish()
     }
 
@@ -71,12 +71,14 @@ impl Engine {
         Ok(())
     }
 
-    /// Plugins with their manifests and reports; guests have none.
-    async fn pack_plugins(&self, packer: &mut Packer, owner: &str) -> Result<()> {
+    /// The account with its choices, what it was told, and its plugins with their manifests and reports; guests have none.
+    async fn pack_account(&self, packer: &mut Packer, owner: &str) -> Result<()> {
         let Some(account) = owner.strip_prefix("account:") else { return Ok(()) };
         let account = self.inner.store.account(account).await?;
         let Some(account) = account else { return Ok(()) };
         packer.json("account.json", &account)?;
+        packer.json("choices.json", &self.choices(&account).await?)?;
+        packer.json("notices.json", &self.all_notices(&account).await?)?;
         for row in self.inner.store.submissions().await?.iter().filter(|row| row.account == account.id) {
             let folder = format!("plugins/{}", row.id);
             packer.json(&format!("{folder}/plugin.json"), &self.plugin(&row.id, Some(&account)).await?)?;

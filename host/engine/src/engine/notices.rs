@@ -2,6 +2,7 @@
 
 use super::{Engine, Inner};
 use crate::boxed;
+use crate::mail::one_line;
 use crate::model::{AccountInfo, Cursor, NoticeInfo, Page, Part};
 use crate::store::now_us;
 use crate::{EngineError, Result};
@@ -21,13 +22,16 @@ impl Inner {
     pub async fn notify(&self, account: &str, subject: &str, text: &str, link: &str) -> Result<()> {
         let notice = NoticeInfo {
             id: uuid::Uuid::now_v7().to_string(),
-            subject: one_line(subject, SUBJECT),
+            subject: one_line(subject).chars().take(SUBJECT).collect(),
             text: text.trim().chars().filter(|c| *c == '\n' || !c.is_control()).take(TEXT).collect(),
             link: own_path(link),
             created_us: now_us(),
             read_us: None,
         };
-        self.store.add_notice(account, &notice, MOST, false).await?;
+        let mailing = self.config.mail.is_some();
+        if self.store.add_notice(account, &notice, MOST, mailing).await? && mailing {
+            self.posting.notify_one();
+        }
         Ok(())
     }
 }
@@ -39,6 +43,11 @@ impl Engine {
         let (from, limit) = page.start()?;
         let all = self.inner.store.notices(&account.id, &from, limit + 1).await?;
         Ok(Part::of(all, limit, |one: &NoticeInfo| Cursor::behind(one.created_us, &one.id)))
+    }
+
+    /// All of it.
+    pub(super) async fn all_notices(&self, account: &AccountInfo) -> Result<Vec<NoticeInfo>> {
+        self.inner.store.notices(&account.id, &Cursor::start(), MOST).await
     }
 
     /// Marks a notice as read.
@@ -60,12 +69,6 @@ fn missing(id: &str) -> EngineError {
     EngineError::NotFound(format!("There is no notice {id:?}."))
 }
 
-/// One line of at most so many letters: a subject stands in the head of a mail.
-fn one_line(text: &str, most: usize) -> String {
-    let plain: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-    plain.split_whitespace().collect::<Vec<_>>().join(" ").chars().take(most).collect()
-}
-
 /// A path within the service: anything else leads to the page of runs.
 fn own_path(link: &str) -> String {
     let plain = |c: char| c.is_ascii_graphic() && !"\\\"<>".contains(c);
@@ -79,8 +82,7 @@ mod tests {
 
     #[test]
     fn a_subject_is_one_line_and_a_link_stays_within_the_service() {
-        assert_eq!(one_line(" a\r\nBcc: b@c\u{85}d\te ", 80), "a Bcc: b@c d e");
-        assert_eq!(one_line("äöü", 2), "äö");
+        assert_eq!(one_line(" a\r\nBcc: b@c\u{85}d\te "), "a Bcc: b@c d e");
         assert_eq!(own_path("/p/1?x=2#y"), "/p/1?x=2#y");
         for odd in ["", "https://a.example", "//a.example", "/a b", "/a\r\nb", "/\\a.example", "javascript:x"] {
             assert_eq!(own_path(odd), "/runs", "{odd:?}");

@@ -240,6 +240,7 @@ impl Engine {
         if step.to == PluginState::Public {
             self.measure_brought(row.algorithms.iter()).await?;
         }
+        self.inner.tell_decision(&row, action, &reason).await;
         self.plugin(id, Some(by)).await
     }
 

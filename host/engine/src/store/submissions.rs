@@ -171,8 +171,8 @@ impl Store {
         self.submission(&id).await
     }
 
-    /// Checks that an ended process left behind wait again; those begun `most` times fail, which is noted.
-    pub async fn recover_checks(&self, most: i64) -> Result<()> {
+    /// Checks that an ended process left behind wait again; those begun `most` times fail, which is noted, and are given.
+    pub async fn recover_checks(&self, most: i64) -> Result<Vec<String>> {
         let reason = format!("The service ended {most} times in the middle of this check, so it is not tried again.");
         let mut transaction = self.pool.begin().await?;
         sqlx::query("UPDATE submissions SET state = 'uploaded' WHERE state = 'vetted'")
@@ -192,7 +192,7 @@ impl Store {
             append(&mut transaction, note).await?;
         }
         transaction.commit().await?;
-        Ok(())
+        Ok(failed)
     }
 
     /// A check that was stopped with the service counts as no attempt.

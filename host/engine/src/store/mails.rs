@@ -1,0 +1,109 @@
+//! Mails that wait to be taken by the mail server, and links that confirm an address.
+
+use sqlx::Row;
+use sqlx::any::AnyRow;
+
+use super::{Store, now_us};
+use crate::Result;
+
+/// A mail that waits.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WaitingMail {
+    /// Its id.
+    pub id: String,
+    /// Id and name of the account that it is for.
+    pub account: [String; 2],
+    /// Where it goes.
+    pub address: String,
+    /// Subject, text and link of the notice in it; without one it asks whether the address is right.
+    pub notice: Option<[String; 3]>,
+    /// The account wants it still, at this address.
+    pub wanted: bool,
+    /// Since when it waits.
+    pub created_us: i64,
+    /// How often it was tried.
+    pub tries: u32,
+}
+
+/// A link that confirms an address.
+#[derive(Clone, Copy, Debug)]
+pub struct Confirmation<'a> {
+    /// Over its secret.
+    pub sha256: &'a str,
+    /// For this account alone.
+    pub account: &'a str,
+    /// And this address of it.
+    pub address: &'a str,
+    /// Until when.
+    pub expires_us: i64,
+}
+
+fn waiting(row: &AnyRow) -> Result<WaitingMail> {
+    let subject: Option<String> = row.try_get("subject")?;
+    let notice = match subject {
+        Some(subject) => Some([subject, row.try_get("text")?, row.try_get("link")?]),
+        None => None,
+    };
+    let (address, now): (String, Option<String>) = (row.try_get("address")?, row.try_get("address_now")?);
+    let confirmed = row.try_get::<Option<i64>, _>("confirmed_us")?.is_some();
+    let asked_for =
+        if notice.is_some() { confirmed && row.try_get::<i64, _>("mail_notices")? != 0 } else { !confirmed };
+    Ok(WaitingMail {
+        id: row.try_get("id")?,
+        account: [row.try_get("account")?, row.try_get("name")?],
+        wanted: asked_for && now.as_deref() == Some(&address),
+        address,
+        notice,
+        created_us: row.try_get("created_us")?,
+        tries: row.try_get::<i64, _>("tries")? as u32,
+    })
+}
+
+impl Store {
+    /// The mail that is due longest by this moment.
+    pub async fn due_mail(&self, now_us: i64) -> Result<Option<WaitingMail>> {
+        let row = sqlx::query(
+            "SELECT m.id, m.account, m.address, m.created_us, m.tries, a.name, a.address AS address_now, a.confirmed_us, \
+             a.mail_notices, n.subject, n.text, n.link FROM mails m JOIN accounts a ON a.id = m.account \
+             LEFT JOIN notices n ON n.id = m.notice WHERE m.due_us <= $1 ORDER BY m.due_us, m.id LIMIT 1",
+        )
+        .bind(now_us)
+        .fetch_optional(&self.pool)
+        .await?;
+        row.as_ref().map(waiting).transpose()
+    }
+
+    /// When the next mail is due.
+    pub async fn next_mail_us(&self) -> Result<Option<i64>> {
+        Ok(sqlx::query_scalar("SELECT MIN(due_us) FROM mails").fetch_one(&self.pool).await?)
+    }
+
+    /// A try was in vain: the mail waits until then.
+    pub async fn postpone_mail(&self, id: &str, due_us: i64) -> Result<()> {
+        sqlx::query("UPDATE mails SET tries = tries + 1, due_us = $1 WHERE id = $2")
+            .bind(due_us)
+            .bind(id)
+            .execute(&self.pool)
+            .await?;
+        Ok(())
+    }
+
+    /// The mail waits no more: the server has it, or it was given up.
+    pub async fn forget_mail(&self, id: &str) -> Result<()> {
+        sqlx::query("DELETE FROM mails WHERE id = $1").bind(id).execute(&self.pool).await?;
+        Ok(())
+    }
+
+    /// Adds a link that confirms an address, and forgets those whose time is over.
+    pub async fn add_confirmation(&self, new: Confirmation<'_>) -> Result<()> {
+        sqlx::query("DELETE FROM confirmations WHERE expires_us <= $1").bind(now_us()).execute(&self.pool).await?;
+        sqlx::query("INSERT INTO confirmations (sha256, account, address, expires_us) VALUES ($1, $2, $3, $4)")
+            .bind(new.sha256)
+            .bind(new.account)
+            .bind(new.address)
+            .bind(new.expires_us)
+            .execute(&self.pool)
+            .await?;
+        Ok(())
+    }
+}
