@@ -101,3 +101,10 @@ if [ "$purpose" = test ] && [ ! -x .tools/schemathesis/bin/st ]; then
   python3 -m venv .tools/schemathesis
   .tools/schemathesis/bin/pip install --quiet --disable-pip-version-check -r tests/setup/schemathesis.txt
 fi
+
+if [ "$purpose" = test ] && ! .tools/smtp/bin/python -c 'import aiosmtpd' 2>/dev/null; then
+  say "installing the mail server for tests (aiosmtpd) from PyPI into .tools/smtp"
+  rm -rf .tools/smtp
+  python3 -m venv .tools/smtp
+  .tools/smtp/bin/pip install --quiet --disable-pip-version-check -r tests/setup/smtp.txt
+fi

@@ -1,6 +1,7 @@
 //! What can be said on the command line.
 
 mod looking;
+mod mail;
 mod plugins;
 mod runs;
 mod services;
@@ -13,6 +14,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub use looking::{HeatmapArgs, SelectArgs, WorstArgs};
+pub use mail::MailArgs;
 pub use plugins::{AdminCommand, PluginCommand, SubmitArgs};
 pub use runs::{ReplayArgs, RunCommand};
 pub use services::{CiteArgs, CiteAs, Cited, LookArgs, ServiceArgs, Shown, VisibilityArgs};
@@ -188,6 +190,8 @@ pub struct ServeArgs {
     /// Days that what guests make stays, after they last made something or asked to have it kept.
     #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=36_500), env = "OCB_GUEST_DAYS", value_name = "DAYS", hide_env_values = true)]
     pub guest_days: u32,
+    #[command(flatten)]
+    pub mail: MailArgs,
 }
 
 /// `ocb bench`

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use ocb_engine::{Engine, EngineConfig, Profile};
+use ocb_engine::{Engine, EngineConfig, MailServer, Profile};
 
-use crate::args::Store;
+use crate::args::{MailArgs, ServeArgs, Store};
 use crate::failure::{Failure, Result};
 
 /// Owner of what the command line makes.
@@ -26,10 +26,15 @@ pub async fn open(store: &Store, purpose: Purpose) -> Result<Engine> {
     Ok(Engine::open(config(store, data(store)?, purpose)).await?)
 }
 
-/// Opens the engine to serve; what guests make stays so many days.
-pub async fn open_to_serve(store: &Store, guest_days: u32) -> Result<Engine> {
+/// Opens the engine to serve at this URL; what guests make stays so many days.
+pub async fn open_to_serve(store: &Store, args: &ServeArgs, url: &str) -> Result<Engine> {
+    let MailArgs { smtp_url, mail_from, public_url } = &args.mail;
+    let mail = match (smtp_url, mail_from) {
+        (Some(server), Some(from)) => Some(MailServer::new(server, from, public_url.as_deref().unwrap_or(url))?),
+        _ => None,
+    };
     let config = config(store, data(store)?, Purpose::Serve);
-    Ok(Engine::open(EngineConfig { guest_days, ..config }).await?)
+    Ok(Engine::open(EngineConfig { guest_days: args.guest_days, mail, ..config }).await?)
 }
 
 /// The data folder.

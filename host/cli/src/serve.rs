@@ -22,8 +22,8 @@ pub async fn serve(store: &Store, args: &ServeArgs, json: bool) -> Result<ExitCo
     })?;
     let address = listener.local_addr().map_err(|e| Failure::Fault(format!("no address: {e}.")))?;
     let stop = stop_signal()?;
-    let engine = open::open_to_serve(store, args.guest_days).await?;
     let url = format!("http://{address}");
+    let engine = open::open_to_serve(store, args, &url).await?;
     if json {
         // On one line, which arrives whole; whoever started us may then stop reading without ending the service.
         match output::print(&json!({ "url": url }).to_string()) {

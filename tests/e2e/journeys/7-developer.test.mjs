@@ -108,6 +108,32 @@ test('a developer publishes a plugin, a curator decides, a user benchmarks it', 
   await curator.accessible('a public plugin')
   await curator.picture('plugin-public')
 
+  // Its author was told, above the runs; what is read goes out of the way, and what is removed is gone.
+  await developer.go('/runs')
+  const told = (which) => developer.at(which).filter({ hasText: 'Your plugin All pairs 1.0 was reinstated' })
+  await told('notice').getByText('The author wrote by e-mail.').waitFor()
+  await developer.accessible('my runs with notices')
+  await developer.picture('notices')
+  await told('notice').getByTestId('read-notice').click()
+  await told('notice').waitFor({ state: 'detached' })
+  await developer.at('earlier-notices').locator('summary').click()
+  await told('read').getByTestId('remove-notice').click()
+  await told('read').waitFor({ state: 'detached' })
+  assert.equal((await developer.api('/notices')).filter((one) => one.subject.endsWith('was reinstated')).length, 0)
+  await developer.at('notice').filter({ hasText: 'Your plugin All pairs 0.9 failed its check' }).getByRole('link').click()
+  await state(developer, 'failed')
+
+  // Mails are off until they are wanted, and this service sends none, which it says.
+  await developer.go('/account')
+  await developer.at('where-mails-go').getByText('sends no mails').waitFor()
+  await developer.at('mail-notices').check()
+  await developer.at('address').fill('ada@example.org')
+  await developer.at('give-address').click()
+  await developer.at('forget-address').waitFor()
+  const choices = { agrees_to_reruns: false, mail_notices: true, address: 'ada@example.org', confirmed: false, mailing: false }
+  assert.deepEqual(await developer.api('/account/choices'), choices)
+  await developer.accessible('the choices of an account')
+
   // Everybody may measure it now.
   await user.go('/plugins')
   await user.at('plugin-All pairs').waitFor()

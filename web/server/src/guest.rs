@@ -93,11 +93,11 @@ async fn account(
     }
 }
 
-/// What a token must be for; accounts and decisions need a person.
+/// What a token must be for; accounts, what they are told, and decisions need a person.
 pub(crate) fn scope_of(path: &str) -> Option<Scope> {
     let resource = path.strip_prefix("/api/v1/").and_then(|rest| rest.split('/').next()).unwrap_or_default();
     match resource {
-        "account" | "accounts" | "curation" | "invitations" => None,
+        "account" | "accounts" | "curation" | "invitations" | "notices" => None,
         "plugins" => Some(Scope::Plugins),
         _ => Some(Scope::Runs),
     }
@@ -168,7 +168,9 @@ mod tests {
     fn a_token_is_for_one_thing() {
         assert_eq!(scope_of("/api/v1/plugins/x/events"), Some(Scope::Plugins));
         assert_eq!(scope_of("/api/v1/runs"), Some(Scope::Runs));
-        assert_eq!((scope_of("/api/v1/invitations"), scope_of("/api/v1/curation")), (None, None));
+        for person in ["/api/v1/invitations", "/api/v1/curation", "/api/v1/notices/x/read"] {
+            assert_eq!(scope_of(person), None, "{person}");
+        }
     }
 
     #[test]

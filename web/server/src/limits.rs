@@ -31,6 +31,13 @@ pub(crate) const MAKE_ACCOUNT: Limit = limit("make an account", 20, 3600);
 /// Secrets of invitations, per address.
 pub(crate) const ACCEPT: Limit = limit("accept an invitation", 20, 60);
 
+/// Addresses that mails are to go to, per address of the visitor and per account; and mails asking about one, per that address.
+pub(crate) const GIVE_ADDRESS: Limit = limit("give an address", 10, 3600);
+pub(crate) const MAIL_TO: Limit = limit("have a mail sent", 5, 3600);
+
+/// Secrets of links that confirm an address, per address of the visitor and per account.
+pub(crate) const CONFIRM: Limit = limit("confirm an address", 20, 60);
+
 /// Plugins, per account.
 pub(crate) const SUBMIT: Limit = limit("submit a plugin", 30, 3600);
 

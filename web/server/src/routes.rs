@@ -4,9 +4,11 @@ mod account;
 mod advice;
 mod algorithms;
 mod charts;
+mod choices;
 mod citations;
 mod heatmaps;
 mod invitations;
+mod notices;
 mod objects;
 mod people;
 mod plugins;
@@ -108,6 +110,12 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(account::register_key, account::forget_key))
         .routes(routes!(account::list_tokens, account::make_token))
         .routes(routes!(account::end_token))
+        .routes(routes!(choices::show_choices, choices::choose))
+        .routes(routes!(choices::give_address, choices::forget_address))
+        .routes(routes!(choices::confirm_address))
+        .routes(routes!(notices::list_notices))
+        .routes(routes!(notices::read_notice))
+        .routes(routes!(notices::remove_notice))
         .routes(submissions.layer(DefaultBodyLimit::disable()).layer(middleware::from_fn(upload::refuse_gently)))
         .routes(routes!(plugins::show_plugin))
         .routes(routes!(plugins::follow_plugin))

@@ -77,7 +77,7 @@ impl Inner {
 
     async fn put_off(&self, server: &MailServer, mail: &WaitingMail, refused: &Refused) -> Result<()> {
         // The log names the account; its address is nobody's business.
-        let (account, reason) = (&mail.account[0], &refused.reason);
+        let (account, reason) = (&mail.account[0], refused.reason.replace(&mail.address, "the address"));
         let waited = Duration::from_micros((now_us() - mail.created_us).max(0) as u64);
         if refused.for_good || waited >= server.pace.give_up {
             tracing::error!("a mail to account {account} is given up: {reason}");

@@ -45,6 +45,6 @@ fn decided(action: Action) -> Option<(&'static str, &'static str)> {
         Action::Exclude => {
             Some(("was excluded", "A curator decided so: its results have no place among the others any more."))
         }
-        Action::Reinstate => Some(("is public again", "A curator decided so: everybody may benchmark it from now on.")),
+        Action::Reinstate => Some(("was reinstated", "A curator decided so: everybody may benchmark it from now on.")),
     }
 }

@@ -4,6 +4,7 @@ use ocb_core::configuration::Class;
 use ocb_core::query::Query;
 
 mod lists;
+mod mails;
 mod people;
 mod suites;
 mod things;
@@ -88,6 +89,9 @@ on_both!(
     the_log_shows_what_was_changed_by_hand,
     an_invitation_is_accepted_once_and_in_time,
     a_key_names_one_request,
+    notices_belong_to_their_account_and_go_with_it,
+    mails_wait_for_those_who_want_them,
+    an_address_counts_once_its_link_was_opened,
     a_submission_is_checked_three_times_at_most,
     only_what_is_public_is_in_the_lists_of_others,
     lists_go_on_where_they_were_left,
@@ -210,6 +214,7 @@ async fn add(store: &Store, run: RunRow) {
 
 mod contract {
     pub use super::lists::*;
+    pub use super::mails::*;
     pub use super::people::*;
     pub use super::suites::*;
     pub use super::things::*;

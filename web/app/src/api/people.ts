@@ -1,6 +1,7 @@
-import { answer, http, nothing, part, whole } from './client'
+import { answer, http, nothing, part, whole, type Part } from './client'
 import type {
-  AccountInfo, Credentials, Decision, Identity, InvitationInfo, NewInvitation, NewToken, PluginInfo, Role, Scope, TokenInfo,
+  AccountInfo, Choices, Credentials, Decision, Identity, InvitationInfo, NewChoices, NewInvitation, NewToken, NoticeInfo, PluginInfo, Role, Scope,
+  TokenInfo,
 } from './types'
 
 export const getAccount = (): Promise<Identity> => answer(http.GET('/api/v1/account'))
@@ -31,6 +32,27 @@ export const registerKey = (publicKey: string): Promise<AccountInfo> =>
   answer(http.POST('/api/v1/account/signing-key', { body: { public_key: publicKey } }))
 
 export const forgetKey = (): Promise<void> => nothing(http.DELETE('/api/v1/account/signing-key'))
+
+export const getChoices = (): Promise<Choices> => answer(http.GET('/api/v1/account/choices'))
+
+/** Changes choices; what is left out stays as it is. */
+export const choose = (body: NewChoices): Promise<Choices> => answer(http.PUT('/api/v1/account/choices', { body }))
+
+export const giveAddress = (address: string): Promise<Choices> => answer(http.PUT('/api/v1/account/address', { body: { address } }))
+
+export const forgetAddress = (): Promise<Choices> => answer(http.DELETE('/api/v1/account/address'))
+
+export const confirmAddress = (secret: string): Promise<Choices> =>
+  answer(http.POST('/api/v1/account/address/confirmation', { body: { secret } }))
+
+export const listNoticesFrom = (cursor: string | null): Promise<Part<NoticeInfo>> =>
+  part(http.GET('/api/v1/notices', { params: { query: { limit: 20, ...(cursor !== null && { cursor }) } } }))
+
+export const readNotice = (id: string): Promise<NoticeInfo> =>
+  answer(http.POST('/api/v1/notices/{id}/read', { params: { path: { id } } }))
+
+export const removeNotice = (id: string): Promise<void> =>
+  nothing(http.DELETE('/api/v1/notices/{id}', { params: { path: { id } } }))
 
 export const listAccounts = (): Promise<AccountInfo[]> =>
   whole((query) => part(http.GET('/api/v1/accounts', { params: { query } })))

@@ -1,5 +1,7 @@
 //! Long lists come part by part, and what is added meanwhile shifts nothing.
 
+use std::time::Duration;
+
 use ocb_engine::model::Role;
 use serde_json::Value;
 
@@ -17,6 +19,10 @@ async fn part(guest: &Guest, path: &str) -> (Vec<String>, Option<String>) {
     let entries: Value = answer.json().await.expect("JSON");
     let own = entries.as_array().expect("a list").iter().filter(|entry| entry["stock"] != true);
     (own.map(|entry| entry["id"].as_str().expect("an id").to_owned()).collect(), next)
+}
+
+async fn newest(guest: &Guest) -> Value {
+    guest.json("/api/v1/notices?limit=1").await
 }
 
 /// Walks through a list by twos and adds one after each part: every entry of the beginning comes once, nothing else does.
@@ -50,6 +56,15 @@ async fn a_list_goes_on_where_it_was_left() {
     walked(&author, "/api/v1/plugins", async |number| {
         let sent: Value = garbage(&author, number).await.json().await.expect("JSON");
         failed(&author, &sent).await;
+    })
+    .await;
+    walked(&author, "/api/v1/notices", async |number| {
+        let before = newest(&author).await;
+        let sent: Value = garbage(&author, 100 + number).await.json().await.expect("JSON");
+        failed(&author, &sent).await;
+        while newest(&author).await == before {
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
     })
     .await;
     walked(&guest, "/api/v1/runs", async |_| drop(guest.start(&small_spec()).await)).await;

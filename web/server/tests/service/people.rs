@@ -207,6 +207,11 @@ const DOORS: &[(&str, &[&str])] = &[
     (
         "logged in",
         &[
+            "put /account/address",
+            "delete /account/address",
+            "post /account/address/confirmation",
+            "get /account/choices",
+            "put /account/choices",
             "post /account/developer",
             "post /account/invitation",
             "post /account/logout-everywhere",
@@ -216,6 +221,9 @@ const DOORS: &[(&str, &[&str])] = &[
             "get /account/tokens",
             "post /account/tokens",
             "delete /account/tokens/{id}",
+            "get /notices",
+            "delete /notices/{id}",
+            "post /notices/{id}/read",
             "post /plugins/{id}/decisions",
         ],
     ),

@@ -30,7 +30,7 @@ pub struct Made {
 }
 
 impl Made {
-    /// An object of their own, a run and advice with it, and a plugin that did not get far.
+    /// An object of their own, a run and advice with it, a plugin that did not get far, and the notice that says so.
     pub async fn by(owner: Guest) -> Self {
         let object = uploaded(&owner).await;
         let run = owner.start(&spec(&object)).await;
@@ -43,7 +43,18 @@ impl Made {
         let advice = place.rsplit('/').next().expect("an id").to_owned();
         let plugin: Value = crate::publishing::garbage(&owner, 0).await.json().await.expect("JSON");
         let plugin = plugin["id"].as_str().expect("an id").to_owned();
-        let ids = vec![("runs", run), ("objects", object.clone()), ("advice", advice), ("plugins", plugin)];
+        // Its author is told that the check has ended.
+        while owner.json("/api/v1/notices").await == json!([]) {
+            tokio::time::sleep(Duration::from_millis(100)).await;
+        }
+        let notice = owner.json("/api/v1/notices").await[0]["id"].as_str().expect("an id").to_owned();
+        let ids = vec![
+            ("runs", run),
+            ("objects", object.clone()),
+            ("advice", advice),
+            ("plugins", plugin),
+            ("notices", notice),
+        ];
         Self { owner, object, ids }
     }
 
@@ -186,7 +197,7 @@ async fn what_is_private_is_not_there_for_others() {
 
     // The run alone: nothing of it is there, nor beside another run.
     assert_eq!(made.let_see("runs", "private").await.status(), StatusCode::OK);
-    let mut asked = hidden(&made, &guest, &["runs"]).await + hidden(&made, &account, &["runs", "plugins"]).await;
+    let mut asked = hidden(&made, &guest, &["runs"]).await + hidden(&made, &account, &["runs", "plugins", "notices"]).await;
     problem(guest.get(&beside).send().await.expect("an answer"), 404).await;
     seen(&made, &guest, &["objects", "advice"]).await;
 

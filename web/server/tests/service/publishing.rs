@@ -25,12 +25,12 @@ pub async fn submit(guest: &Guest, manifest: &Value, bytes: Vec<u8>) -> Response
     guest.post("/api/v1/plugins").multipart(form).send().await.expect("an answer")
 }
 
-async fn decide(guest: &Guest, id: &str, action: &str, reason: &str) -> Response {
+pub async fn decide(guest: &Guest, id: &str, action: &str, reason: &str) -> Response {
     let path = format!("/api/v1/plugins/{id}/decisions");
     guest.post(&path).json(&json!({ "action": action, "reason": reason })).send().await.expect("an answer")
 }
 
-async fn well(response: Response) -> Value {
+pub async fn well(response: Response) -> Value {
     let status = response.status();
     let body: Value = response.json().await.expect("JSON");
     assert!(status.is_success(), "{status}: {body:#}");
@@ -209,13 +209,19 @@ async fn a_signature_is_that_of_this_file_by_the_registered_key() {
 
 /// A plugin that an author has sent and offered, and a curator approved; its id.
 pub async fn published(author: &Guest, curator: &Guest) -> String {
+    let id = offered_for_curation(author).await;
+    well(decide(curator, &id, "approve", "").await).await;
+    id
+}
+
+/// A plugin that an author has sent and offered; its id.
+pub async fn offered_for_curation(author: &Guest) -> String {
     let bytes = std::fs::read(built().join(PLUGIN)).expect("the plugin is built");
     let sent = well(submit(author, &manifest("1.0"), bytes).await).await;
     let id = sent["id"].as_str().expect("an id").to_owned();
     let stream = author.get(&format!("/api/v1/plugins/{id}/events")).send().await.expect("an answer");
     stream.text().await.expect("the stream ends");
     well(decide(author, &id, "offer", "").await).await;
-    well(decide(curator, &id, "approve", "").await).await;
     id
 }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use ocb_engine::{Engine, EngineConfig, Profile};
+use ocb_engine::{Engine, EngineConfig, MailServer, Profile};
 use reqwest::{Client, Method, RequestBuilder, Response, StatusCode};
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -25,6 +25,7 @@ pub struct Service {
 pub struct How {
     pub plugins: Vec<PathBuf>,
     pub suite: Option<PathBuf>,
+    pub mail: Option<MailServer>,
 }
 
 impl Service {
@@ -40,7 +41,12 @@ impl Service {
 
     /// The same, with the suite in this file.
     pub async fn start_on(plugins: &[&str], suite: &Path) -> Self {
-        Self::open(How { plugins: ours(plugins), suite: Some(suite.to_owned()) }).await
+        Self::open(How { plugins: ours(plugins), suite: Some(suite.to_owned()), ..How::default() }).await
+    }
+
+    /// The smallest one, whose mails this server takes.
+    pub async fn start_mailing(mail: MailServer) -> Self {
+        Self::open(How { plugins: ours(&["libocb_box_tree.so"]), mail: Some(mail), ..How::default() }).await
     }
 
     async fn open(how: How) -> Self {
@@ -53,6 +59,7 @@ impl Service {
         config.plugins.clone_from(&how.plugins);
         config.suite.clone_from(&how.suite);
         config.profile = Profile::Dev;
+        config.mail.clone_from(&how.mail);
         let engine = Engine::open(config).await.expect("the engine opens");
         let listener = ocb_server::bind(([127, 0, 0, 1], 0).into()).await.expect("a free port");
         let url = format!("http://{}", listener.local_addr().expect("an address"));
@@ -84,6 +91,12 @@ impl Service {
     pub async fn restart(self) -> Self {
         let (data, how) = self.end().await;
         Self::open_in(data, how).await
+    }
+
+    /// The same with another mail server.
+    pub async fn restart_mailing(self, mail: MailServer) -> Self {
+        let (data, how) = self.end().await;
+        Self::open_in(data, How { mail: Some(mail), ..how }).await
     }
 
     async fn end(self) -> (TempDir, How) {

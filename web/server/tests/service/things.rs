@@ -145,6 +145,8 @@ async fn everything_is_taken_along_in_one_archive() {
     assert_eq!(json(&format!("plugins/{plugin}/plugin.json"))["id"], plugin);
     assert!(file(&format!("plugins/{plugin}/tree.so")).starts_with(b"\x7fELF"));
     assert_eq!(json("account.json")["name"], "owner");
+    assert_eq!(json("notices.json"), made.owner.json("/api/v1/notices").await);
+    assert_eq!(json("choices.json"), made.owner.json("/api/v1/account/choices").await);
     // A stranger's holds nothing of it.
     let (empty, _) = service.guest().bytes("/api/v1/things.tar").await;
     assert_eq!(tar::Archive::new(&empty[..]).entries().expect("an archive").count(), 1, "only the list of nothing");

@@ -6,7 +6,7 @@ use crate::model::{
     AccountInfo, CheckLine, CheckVerdict, Cursor, InvitationInfo, InvitationState, PluginState, Role, Scope, TokenInfo,
 };
 
-fn account(id: &str, name: &str) -> AccountInfo {
+pub(super) fn account(id: &str, name: &str) -> AccountInfo {
     AccountInfo { id: id.into(), name: name.into(), role: Role::User, wish: None, signing_key: None, created_us: 1 }
 }
 
