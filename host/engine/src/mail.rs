@@ -138,12 +138,12 @@ impl fmt::Debug for MailServer {
 /// Letters of an address.
 const ADDRESS: usize = 254;
 
-/// An address that mails may be sent to: ASCII, one, without a name beside it.
+/// An address that mails may be sent to: ASCII, one, without a name beside it, and not a mailbox of the server's own machine.
 pub fn address(text: &str) -> Result<Address> {
     let text = text.trim();
-    let plain = text.len() <= ADDRESS && text.chars().all(|c| c.is_ascii_graphic() && !"\"<>(),;:\\".contains(c));
+    let plain = text.len() <= ADDRESS && text.chars().all(|c| c.is_ascii_graphic() && !"\"<>()[],;:\\".contains(c));
     let parsed = if plain { text.parse::<Address>().ok() } else { None };
-    parsed.ok_or_else(|| {
+    parsed.filter(|address| address.domain().contains('.')).ok_or_else(|| {
         EngineError::Invalid("An address looks like name@example.org, in plain letters, digits and signs.".into())
     })
 }
@@ -207,9 +207,20 @@ mod tests {
     fn addresses_and_pages_are_what_they_say() {
         assert_eq!(address(" Ada.L+x@example.org ").unwrap().to_string(), "Ada.L+x@example.org");
         let long = format!("a@{}.org", "b".repeat(260));
-        for odd in
-            ["", "ada", "a@b@c", "a@b\r\nBcc: c@d", "Ada <a@b.org>", "a@b.org,c@d.org", "ä@b.org", "@b", "a@", &long]
-        {
+        for odd in [
+            "",
+            "ada",
+            "a@b@c",
+            "a@b\r\nBcc: c@d",
+            "Ada <a@b.org>",
+            "a@b.org,c@d.org",
+            "ä@b.org",
+            "@b.org",
+            "a@",
+            "root@localhost",
+            "a@[127.0.0.1]",
+            &long,
+        ] {
             assert!(address(odd).is_err(), "{odd:?}");
         }
         assert_eq!(pages("https://ocb.example.org/").unwrap(), "https://ocb.example.org");

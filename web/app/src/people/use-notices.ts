@@ -1,17 +1,20 @@
 import { useInfiniteQuery, useQueryClient } from '@tanstack/vue-query'
 import { computed, type ComputedRef } from 'vue'
 import { listNoticesFrom, readNotice, removeNotice } from '../api/people'
+import type { AccountInfo } from '../api/types'
 
 /** What the account was told, looked at every half minute as long as somebody is logged in. */
-export function useNotices(loggedIn: ComputedRef<boolean>) {
+export function useNotices(account: ComputedRef<AccountInfo | null>) {
   const client = useQueryClient()
+  // By account: who logs in here next sees nothing of it.
+  const id = computed(() => account.value?.id ?? null)
   const { data, hasNextPage, fetchNextPage } = useInfiniteQuery({
-    queryKey: ['notices'],
+    queryKey: ['notices', id],
     queryFn: ({ pageParam }) => listNoticesFrom(pageParam),
     initialPageParam: null as string | null,
     getNextPageParam: ({ next }) => next,
     refetchInterval: 30_000,
-    enabled: loggedIn,
+    enabled: computed(() => id.value !== null),
   })
   const then = (work: (id: string) => Promise<unknown>) => async (id: string) => {
     try {
@@ -22,7 +25,7 @@ export function useNotices(loggedIn: ComputedRef<boolean>) {
     }
   }
   return {
-    notices: computed(() => (loggedIn.value ? (data.value?.pages.flatMap(({ entries }) => entries) ?? []) : [])),
+    notices: computed(() => (id.value === null ? [] : (data.value?.pages.flatMap(({ entries }) => entries) ?? []))),
     more: hasNextPage,
     older: () => fetchNextPage(),
     read: then(readNotice),

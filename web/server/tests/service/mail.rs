@@ -111,7 +111,8 @@ async fn what_people_write_is_no_line_of_a_head() {
     let plugin = offered_for_curation(&author).await;
     let plain = post.exactly(2).await[1]["fields"].clone();
     // Nobody says an address in two lines, or two in one.
-    for odd in ["ada@example.org\r\nBcc: eve@example.org", "ada@example.org, eve@example.org", "Ada <ada@example.org>"] {
+    for odd in ["ada@example.org\r\nBcc: eve@example.org", "ada@example.org, eve@example.org", "Ada <ada@example.org>"]
+    {
         assert!(problem(give(&author, odd).await, 422).await.contains("looks like"), "{odd}");
     }
     let evil = "No.\r\nBcc: eve@example.org\r\n\r\nInstead\r\n.\r\nMAIL FROM:<eve@example.org>\r\n";
@@ -153,7 +154,8 @@ async fn a_server_that_hangs_keeps_nobody_waiting_and_what_waits_outlives_the_se
     let service = Service::start_mailing(server).await;
     let guest = member(&service, "ada", Role::User).await;
     given(&guest, "ada@example.org").await;
-    let (held, _) = tokio::time::timeout(Duration::from_secs(30), deaf.accept()).await.expect("it is tried").expect("a connection");
+    let (held, _) =
+        tokio::time::timeout(Duration::from_secs(30), deaf.accept()).await.expect("it is tried").expect("a connection");
     let begun = Instant::now();
     given(&guest, "ada@elsewhere.example").await;
     guest.json("/api/v1/account/choices").await;
@@ -292,7 +294,11 @@ async fn without_a_mail_server_nothing_fails_and_the_answers_say_so() {
         "agrees_to_reruns": true, "mail_notices": true, "address": null, "confirmed": false, "mailing": false,
     });
     assert_eq!(now, expected);
-    assert_eq!(choose(&author, json!({ "mail_notices": false })).await["agrees_to_reruns"], true, "what is not said stays");
+    assert_eq!(
+        choose(&author, json!({ "mail_notices": false })).await["agrees_to_reruns"],
+        true,
+        "what is not said stays"
+    );
     assert_eq!(given(&author, "ada@example.org").await["confirmed"], false);
     told(&author, 1).await;
     // What was said before there was a server goes nowhere when there is one.

@@ -197,7 +197,8 @@ async fn what_is_private_is_not_there_for_others() {
 
     // The run alone: nothing of it is there, nor beside another run.
     assert_eq!(made.let_see("runs", "private").await.status(), StatusCode::OK);
-    let mut asked = hidden(&made, &guest, &["runs"]).await + hidden(&made, &account, &["runs", "plugins", "notices"]).await;
+    let mut asked =
+        hidden(&made, &guest, &["runs"]).await + hidden(&made, &account, &["runs", "plugins", "notices"]).await;
     problem(guest.get(&beside).send().await.expect("an answer"), 404).await;
     seen(&made, &guest, &["objects", "advice"]).await;
 

@@ -115,9 +115,8 @@ pub async fn an_address_counts_once_its_link_was_opened(store: Store) {
         store.add_confirmation(Confirmation { sha256, account: "1", address, expires_us }).await.unwrap();
     };
     let now = now_us();
-    let opened = async |sha256: &str, account: &str, at: i64| {
-        store.confirm_address(sha256, account, at, NOTE).await.unwrap()
-    };
+    let opened =
+        async |sha256: &str, account: &str, at: i64| store.confirm_address(sha256, account, at, NOTE).await.unwrap();
     link("a", "ada@example.org", now + 1_000_000_000).await;
     link("b", "ada@example.org", now + 1_000_000_000).await;
     assert!(!opened("a", "2", now).await, "somebody else's");
