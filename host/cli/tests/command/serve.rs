@@ -45,3 +45,25 @@ fn an_address_in_use_is_refused() {
     desk.refused(&["serve", "--address", "everywhere"]);
     assert!(!desk.path("data").exists());
 }
+
+#[test]
+fn what_is_wrong_with_a_mail_server_is_told_without_its_password() {
+    let desk = Desk::new();
+    let serve = |more: &[&str]| desk.refused(&[&["serve", "--address", "127.0.0.1:0"], more].concat());
+    for (url, expected) in [
+        ("https://ada:secret@mail.example.org", "neither smtps:// nor smtp://"),
+        ("smtps://ada:secret@mail.example.org:port", "invalid port"),
+        ("smtps://ada:secret@mail.example.org/inbox", "more than a host and a port"),
+    ] {
+        let told = serve(&["--smtp-url", url, "--mail-from", "ocb@example.org"]);
+        assert!(told.contains(expected) && !told.contains("secret"), "{url}: {told}");
+    }
+    let server = ["--smtp-url", "smtps://ada:secret@mail.example.org"];
+    let told = serve(&server);
+    assert!(told.contains("--mail-from") && !told.contains("secret"), "{told}");
+    let told = serve(&[&server[..], &["--mail-from", "nobody"]].concat());
+    assert!(told.contains("name@example.org") && !told.contains("secret"), "{told}");
+    let told = serve(&[&server[..], &["--mail-from", "ocb@example.org", "--public-url", "here"]].concat());
+    assert!(told.contains("https://host") && !told.contains("secret"), "{told}");
+    assert!(!desk.path("data").exists(), "nothing was opened");
+}

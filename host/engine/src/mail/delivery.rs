@@ -60,3 +60,67 @@ fn refused(e: &lettre::transport::smtp::Error) -> Refused {
     let for_good = e.status().is_some_and(|code: Code| receiver.contains(&code.to_string().as_str()));
     Refused { reason: one_line(&e.to_string()).chars().take(300).collect(), for_good }
 }
+
+#[cfg(test)]
+mod tests {
+    use tokio::io::{AsyncReadExt, AsyncWriteExt};
+    use tokio::net::TcpListener;
+
+    use super::super::Letter;
+    use super::*;
+
+    /// Brings a mail to a server that says these lines, one after each thing that it hears, and gives how that ended and what the
+    /// server has heard.
+    async fn brought(security: Security, lines: &[&str]) -> (Result<(), Refused>, Vec<u8>) {
+        let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
+        let lock = if security == Security::Plain { "" } else { "ada:secret@" };
+        let url = format!("smtps://{lock}{}", listener.local_addr().unwrap());
+        let mut server = MailServer::new(&url, "ocb@example.org", "https://ocb.example.org").unwrap();
+        server.security = security;
+        server.pace.delivery = Duration::from_secs(20);
+        let letter = Letter { to: "ada@example.org".into(), subject: "s".into(), text: "t".into() };
+        let mail = letter.written(&server, "1").unwrap();
+        let hearing = async {
+            let (mut stream, _) = listener.accept().await.unwrap();
+            let (mut heard, mut part) = (Vec::new(), [0; 4096]);
+            for line in lines {
+                stream.write_all(line.as_bytes()).await.unwrap();
+                match stream.read(&mut part).await {
+                    Ok(bytes) if bytes > 0 => heard.extend(&part[..bytes]),
+                    _ => break,
+                }
+            }
+            heard
+        };
+        tokio::join!(deliver(&server, &mail), hearing)
+    }
+
+    #[tokio::test]
+    async fn nothing_is_said_to_a_server_that_will_not_encrypt() {
+        let lines = ["220 here\r\n", "250-here\r\n250 AUTH PLAIN\r\n", "221 farewell\r\n"];
+        let (ended, heard) = brought(Security::StartTls, &lines).await;
+        let heard = String::from_utf8(heard).unwrap();
+        assert!(ended.unwrap_err().reason.contains("STARTTLS"), "{heard}");
+        assert!(heard.starts_with("EHLO") && !heard.contains("AUTH") && !heard.contains("MAIL"), "{heard}");
+        // A server that only says that it would.
+        let lines = ["220 here\r\n", "250-here\r\n250 STARTTLS\r\n", "220 go on\r\n", "250 no\r\n"];
+        let (ended, heard) = brought(Security::StartTls, &lines).await;
+        let heard = String::from_utf8_lossy(&heard).into_owned();
+        assert!(ended.is_err() && heard.contains("STARTTLS") && !heard.contains("AUTH"), "{heard}");
+        // One that was to be encrypted from the first byte hears the beginning of TLS, whatever it says.
+        let (ended, heard) = brought(Security::Wrapped, &["", "220 here\r\n"]).await;
+        assert!(ended.is_err() && heard.first() == Some(&0x16), "{heard:?}");
+    }
+
+    #[tokio::test]
+    async fn only_an_unknown_receiver_is_given_up_at_once() {
+        let greeting = ["220 here\r\n", "250 here\r\n", "250 OK\r\n"];
+        for (answer, for_good) in
+            [("550 who\r\n", true), ("553 who\r\n", true), ("552 full\r\n", false), ("450 later\r\n", false)]
+        {
+            let lines = [&greeting[..], &[answer, "221 farewell\r\n"]].concat();
+            let (ended, _) = brought(Security::Plain, &lines).await;
+            assert_eq!(ended.unwrap_err().for_good, for_good, "{answer}");
+        }
+    }
+}
