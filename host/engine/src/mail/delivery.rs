@@ -92,7 +92,8 @@ mod tests {
             }
             heard
         };
-        tokio::join!(deliver(&server, &mail), hearing)
+        let both = async { tokio::join!(deliver(&server, &mail), hearing) };
+        tokio::time::timeout(Duration::from_secs(60), both).await.expect("the server is spoken to")
     }
 
     #[tokio::test]
