@@ -55,7 +55,7 @@ pub struct Pace {
 
 impl Default for Pace {
     fn default() -> Self {
-        let hours = |n| Duration::from_secs(n * 3600);
+        let hours = |n: u64| Duration::from_secs(n * 3600);
         let seconds = Duration::from_secs;
         Self { delivery: seconds(30), first_wait: seconds(30), give_up: hours(24), link: hours(24) }
     }

@@ -39,7 +39,6 @@ use crate::{EngineError, Result};
 
 pub use advice::{AdviceRow, StoredPaper};
 pub use audit::Note;
-pub use choices::ChoicesRow;
 pub use mails::{Confirmation, WaitingMail};
 pub use requests::Request;
 pub use results::StoredResult;

@@ -1,5 +1,6 @@
 //! Notices, choices, addresses and waiting mails, on both databases.
 
+use super::super::choices::ChoicesRow;
 use super::super::*;
 use super::people::account;
 use crate::model::{Cursor, NewChoices, NoticeInfo};
