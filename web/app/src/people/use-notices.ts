@@ -1,5 +1,6 @@
 import { useInfiniteQuery, useQueryClient } from '@tanstack/vue-query'
-import { computed, type ComputedRef } from 'vue'
+import { computed, ref, type ComputedRef } from 'vue'
+import { asApiError } from '../api/errors'
 import { listNoticesFrom, readNotice, removeNotice } from '../api/people'
 import type { AccountInfo } from '../api/types'
 
@@ -7,25 +8,29 @@ import type { AccountInfo } from '../api/types'
 export function useNotices(account: ComputedRef<AccountInfo | null>) {
   const client = useQueryClient()
   // By account: who logs in here next sees nothing of it.
-  const id = computed(() => account.value?.id ?? null)
+  const whose = computed(() => account.value?.id ?? null)
   const { data, hasNextPage, fetchNextPage } = useInfiniteQuery({
-    queryKey: ['notices', id],
+    queryKey: ['notices', whose],
     queryFn: ({ pageParam }) => listNoticesFrom(pageParam),
     initialPageParam: null as string | null,
     getNextPageParam: ({ next }) => next,
     refetchInterval: 30_000,
-    enabled: computed(() => id.value !== null),
+    enabled: computed(() => whose.value !== null),
   })
+  const problem = ref('')
   const then = (work: (id: string) => Promise<unknown>) => async (id: string) => {
+    problem.value = ''
     try {
       await work(id)
-    } finally {
-      // Also when it was gone already: then the list is old.
-      await client.invalidateQueries({ queryKey: ['notices'] })
+    } catch (thrown) {
+      problem.value = asApiError(thrown).message
     }
+    // Also when it was gone already: then the list is old.
+    await client.invalidateQueries({ queryKey: ['notices'] })
   }
   return {
-    notices: computed(() => (id.value === null ? [] : (data.value?.pages.flatMap(({ entries }) => entries) ?? []))),
+    notices: computed(() => (whose.value === null ? [] : (data.value?.pages.flatMap(({ entries }) => entries) ?? []))),
+    problem,
     more: hasNextPage,
     older: () => fetchNextPage(),
     read: then(readNotice),
