@@ -37,7 +37,7 @@ impl Letter {
         let text = format!(
             "Somebody gave this address to the account {account} at {origin}. If that was you, open this link within {hours} h, \
              logged in there:\n\n{origin}/account#confirm={secret}\n\n\
-             If it was not, do nothing: no other mail comes to an address whose link was not opened.\n"
+             If it was not, do nothing: no notice is mailed to an address whose link was not opened.\n"
         );
         Self { to: to.to_owned(), subject: "Is this your address?".to_owned(), text }
     }
