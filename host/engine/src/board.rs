@@ -69,6 +69,11 @@ pub fn suite(suite: &Suite) -> Named {
     Named { value: document.version.to_string(), words: format!("suite {} ({})", document.version, &sha256[..12]) }
 }
 
+/// Question, pair of objects and distance of a run, in words.
+pub(crate) fn scenario_words(spec: &RunSpec, names: [&str; 2]) -> [String; 3] {
+    [keys::question(spec).words, keys::scene(spec, names).words, keys::distance(spec).words]
+}
+
 /// Where and when one run was measured.
 pub struct Circumstances<'a> {
     /// Id of the run.

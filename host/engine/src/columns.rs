@@ -5,6 +5,7 @@
 
 mod answers;
 mod board;
+mod campaigns;
 mod charts;
 mod csv;
 mod ipc;
@@ -28,6 +29,7 @@ use crate::{EngineError, Result};
 
 pub use answers::{AnswerRow, Flat, read_answers};
 pub use board::board_parquet;
+pub use campaigns::campaign_parquet;
 pub use charts::chart_parquet;
 pub use csv::csv;
 pub use ipc::{Numbers, stream};

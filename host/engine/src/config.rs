@@ -25,6 +25,9 @@ pub struct EngineConfig {
     pub stock_dir: Option<PathBuf>,
     /// The file of the suite to measure public plugins on; the newest that ships when absent.
     pub suite: Option<PathBuf>,
+    /// What distinguishes this machine though the kernel does not tell, such as a clock that was fixed: part of its hardware
+    /// class.
+    pub machine_note: Option<String>,
     /// Work on the queue. Off for commands that only read.
     pub dispatch: bool,
     /// Queue a quick run for the start page when there is none yet.
@@ -51,6 +54,7 @@ impl EngineConfig {
             profile: Profile::Production,
             stock_dir: None,
             suite: None,
+            machine_note: None,
             dispatch: true,
             featured: false,
             guest_days: 30,

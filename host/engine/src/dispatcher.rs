@@ -110,6 +110,9 @@ async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
     let state = inner.run_row(id).await?.after(state);
     inner.store.end_run(id, State::Running, state, message.as_deref()).await?;
     inner.bell.tell(&inner.store, id, plain_event(state, 0)).await?;
+    if let Err(e) = inner.run_of_campaign_ended(id).await {
+        tracing::error!("run {id}: its campaign could not take note of its end: {e}");
+    }
     announce(inner).await
 }
 

@@ -2,6 +2,7 @@
 
 mod advice;
 mod archive;
+mod campaigns;
 mod charts;
 mod choices;
 mod citations;
@@ -25,6 +26,7 @@ mod suite;
 mod things;
 mod visibility;
 
+pub use campaigns::campaign_csv;
 pub use charts::{board_csv, chart_csv, chart_parquet};
 pub use people::SESSION;
 pub use plugins::{MAX_PLUGIN_BYTES, conflict};
@@ -142,7 +144,7 @@ impl Engine {
         let suite = Suite::open(config.suite.as_deref())?;
         let inner = Arc::new(Inner {
             objects: Objects::new(store.clone(), blobs.clone(), config.stock_dir.clone()),
-            machine: Machine::observe()?,
+            machine: Machine::observe()?.noted(config.machine_note.as_deref()),
             bell: Bell::new(),
             suite,
             planning: tokio::sync::Mutex::default(),
@@ -170,6 +172,7 @@ impl Engine {
             engine.recover_advice().await?;
             engine.feature_a_run().await?;
             engine.catch_up_with_the_suite().await?;
+            engine.take_up_campaigns().await;
             engine.inner.spawn(dispatcher::work(engine.inner.clone()));
             engine.inner.spawn(engine.clone().sweep());
             engine.inner.spawn(engine.inner.clone().post());

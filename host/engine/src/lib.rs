@@ -40,7 +40,7 @@ pub mod truth;
 pub(crate) use async_recursion::async_recursion as boxed;
 pub use blobs::sha256_hex;
 pub use config::{EngineConfig, Profile};
-pub use engine::{Engine, MAX_PLUGIN_BYTES, Made, SESSION, SetJob, board_csv, chart_csv, chart_parquet};
+pub use engine::{Engine, MAX_PLUGIN_BYTES, Made, SESSION, SetJob, board_csv, campaign_csv, chart_csv, chart_parquet};
 pub use error::{EngineError, Result};
 pub use mail::{MailServer, Pace};
 pub use measure::Stop;

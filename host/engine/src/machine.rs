@@ -57,6 +57,14 @@ impl Machine {
         })
     }
 
+    /// Of another hardware class when its operator says what distinguishes it.
+    pub fn noted(mut self, note: Option<&str>) -> Self {
+        if let Some(note) = note.map(str::trim).filter(|note| !note.is_empty()) {
+            self.hardware_class = sha256_hex(format!("{}|{note}", self.hardware_class).as_bytes())[..16].to_owned();
+        }
+        self
+    }
+
     /// The CPU on which runners are measured: the last one, because the first usually serves the interrupts.
     pub fn measuring_cpu(&self) -> usize {
         self.allowed.last().copied().unwrap_or(0)
@@ -207,6 +215,15 @@ mod tests {
 
     /// Masks belong to the whole process, so only one test at a time may set them.
     static MASKS: Mutex<()> = Mutex::new(());
+
+    #[test]
+    fn what_the_operator_says_makes_another_class() {
+        let machine = Machine::observe().unwrap();
+        let class = |note| machine.clone().noted(note).hardware_class;
+        assert_eq!((class(None), class(Some(" "))), (machine.hardware_class.clone(), machine.hardware_class.clone()));
+        assert_eq!(class(Some("turbo off")), class(Some(" turbo off")));
+        assert!(class(Some("turbo off")) != class(None) && class(Some("turbo off")) != class(Some("turbo on")));
+    }
 
     #[test]
     fn a_second_process_is_told_to_use_another_folder() {

@@ -4,6 +4,7 @@
 
 mod advice;
 mod board;
+mod campaign;
 mod chart;
 mod choices;
 mod citation;
@@ -38,6 +39,7 @@ use utoipa::ToSchema;
 
 pub use advice::{AdviceInfo, AdviceSpec, Asked};
 pub use board::{Accuracy, Board, BoardFilter, BoardOption, BoardRequest, BoardRow, StabilityPassed};
+pub use campaign::{CampaignInfo, CampaignPreview, CampaignRequest, CampaignRuns, Compared, ComparedResult};
 pub use chart::{ChartKind, ChartRequest};
 pub use choices::{Choices, NewAddress, NewChoices, OpenedLink};
 pub use citation::Citation;
@@ -209,6 +211,12 @@ pub struct RunInfo {
     pub commitment: Option<String>,
     /// Times this run was started (more than 1 after a restart of the service).
     pub attempts: u32,
+    /// The campaign that it belongs to.
+    #[serde(default)]
+    pub campaign: Option<String>,
+    /// The run that it repeats in that campaign.
+    #[serde(default)]
+    pub rerun_of: Option<String>,
     /// Made by the caller, who may cancel it and decides who sees it.
     pub mine: bool,
     /// Who sees it: what its owner decided, and no more than see its objects.

@@ -7,6 +7,7 @@ mod accounts;
 mod advice;
 mod audit;
 mod blobs;
+mod campaigns;
 mod choices;
 mod invitations;
 mod mails;
@@ -22,7 +23,7 @@ mod stability;
 mod submissions;
 mod suites;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod things;
 mod visibility;
 
@@ -39,6 +40,7 @@ use crate::{EngineError, Result};
 
 pub use advice::{AdviceRow, StoredPaper};
 pub use audit::Note;
+pub use campaigns::CampaignRow;
 pub use mails::{Confirmation, WaitingMail};
 pub use requests::Request;
 pub use results::StoredResult;
@@ -112,6 +114,7 @@ fn migrations() -> Migrator {
         one(13, "invitations", include_str!("../migrations/0013_invitations.sql")),
         one(14, "requests", include_str!("../migrations/0014_requests.sql")),
         one(15, "notices", include_str!("../migrations/0015_notices.sql")),
+        one(16, "campaigns", include_str!("../migrations/0016_campaigns.sql")),
     ])
 }
 

@@ -23,7 +23,8 @@ impl Inner {
         self.tell_author(row, what, text, reason).await;
     }
 
-    async fn tell_author(&self, row: &SubmissionRow, what: &str, text: &str, reason: &str) {
+    /// Tells the author something of a plugin, with the words that are the reason in front. That it happened is more than that it was told.
+    pub(super) async fn tell_author(&self, row: &SubmissionRow, what: &str, text: &str, reason: &str) {
         let subject = format!("Your plugin {} {} {what}", row.manifest.name, row.manifest.version);
         let text = if reason.is_empty() { text.to_owned() } else { format!("{reason}\n\n{text}") };
         if let Err(e) = self.notify(&row.account, &subject, &text, &format!("/p/{}", row.id)).await {

@@ -75,6 +75,7 @@ impl Engine {
             state: PluginState::Uploaded,
             reason: String::new(),
             hardware_class: None,
+            excluded_on: None,
             algorithms: Vec::new(),
             created_us: now,
             changed_us: now,
@@ -189,6 +190,7 @@ impl Engine {
             state: row.state,
             reason: row.reason.clone(),
             hardware_class: row.hardware_class.clone(),
+            excluded_on: row.excluded_on.clone(),
             flags: if close { flags(row, &lines, &before, all, owner.as_ref()) } else { Vec::new() },
             lines,
             algorithms: row.algorithms.clone(),
@@ -239,6 +241,8 @@ impl Engine {
         self.inner.renew_plugins().await?;
         if step.to == PluginState::Public {
             self.measure_brought(row.algorithms.iter()).await?;
+        } else if row.state == PluginState::Public {
+            self.inner.forget_waiting().await?;
         }
         self.inner.tell_decision(&row, action, &reason).await;
         self.plugin(id, Some(by)).await
@@ -389,6 +393,7 @@ mod tests {
             state,
             reason: String::new(),
             hardware_class: None,
+            excluded_on: None,
             algorithms: Vec::new(),
             created_us: 1,
             changed_us,

@@ -28,6 +28,8 @@ pub enum Made {
     Token,
     /// An invitation.
     Invitation,
+    /// A campaign.
+    Campaign,
 }
 
 impl Engine {
@@ -69,6 +71,7 @@ impl Made {
             Self::Advice => "advice",
             Self::Token => "token",
             Self::Invitation => "invitation",
+            Self::Campaign => "campaign",
         }
     }
 }

@@ -25,6 +25,10 @@ pub(super) struct Asking<'a> {
     pub key: Option<&'a str>,
     /// The suite that it belongs to.
     pub suite: Option<&'a str>,
+    /// The campaign that it belongs to.
+    pub campaign: Option<&'a str>,
+    /// The run that it repeats there.
+    pub rerun_of: Option<&'a str>,
 }
 
 impl Engine {
@@ -44,13 +48,19 @@ impl Engine {
     }
 
     pub(super) async fn queue(&self, spec: RunSpec, asking: Asking<'_>) -> Result<(RunInfo, bool)> {
-        let Asking { owner, priority, featured, key, suite } = asking;
+        let (id, new) = self.enqueue(spec, asking).await?;
+        self.run(&id, asking.owner).await.map(|run| (run, new))
+    }
+
+    /// The same, for who needs its id alone.
+    pub(super) async fn enqueue(&self, spec: RunSpec, asking: Asking<'_>) -> Result<(String, bool)> {
+        let Asking { owner, priority, featured, key, suite, campaign, rerun_of } = asking;
         let checked = self.check(&spec, owner).await?;
         let asked_before = match (owner, key) {
             (Some(owner), Some(key)) => self.inner.store.run_of_request(owner, key).await?.is_some(),
             _ => false,
         };
-        if !asked_before {
+        if !asked_before && campaign.is_none() {
             self.has_room_for_a_run(owner).await?;
         }
         let expected = estimate::estimate(&self.inner, &checked).await?;
@@ -59,9 +69,15 @@ impl Engine {
             owner: owner.map(str::to_owned),
             featured,
             private: checked.contestants.iter().any(|c| self.inner.registry.is_private(c)),
-            visibility: if featured || suite.is_some() { Visibility::Public } else { Visibility::default() },
+            visibility: if featured || suite.is_some() || campaign.is_some() {
+                Visibility::Public
+            } else {
+                Visibility::default()
+            },
             priority,
             suite: suite.map(str::to_owned),
+            campaign: campaign.map(str::to_owned),
+            rerun_of: rerun_of.map(str::to_owned),
             state: State::Queued,
             attempts: 0,
             message: None,
@@ -78,24 +94,28 @@ impl Engine {
             spec: checked.spec,
         };
         if !self.inner.store.add_run(&row, &fresh_stages(&row.spec.algorithms), key).await? {
-            return self.asked_before(&row, key.unwrap_or_default(), owner).await.map(|run| (run, false));
+            return self.asked_before(&row, key.unwrap_or_default()).await.map(|run| (run, false));
         }
         if priority <= INTERACTIVE {
             dispatcher::announce(&self.inner).await?;
         }
         self.inner.wake.notify_one();
-        self.run(&row.id, owner).await.map(|run| (run, true))
+        Ok((row.id, true))
     }
 
-    /// The run that was asked for under the key of this one.
-    async fn asked_before(&self, row: &RunRow, key: &str, owner: Option<&str>) -> Result<RunInfo> {
+    /// The run that was asked for under the key of this one, or that repeats the same one in its campaign.
+    async fn asked_before(&self, row: &RunRow, key: &str) -> Result<String> {
         let missing = || EngineError::Fault("A run was lost while it was asked for.".into());
-        let known = self.inner.store.run_of_request(owner.unwrap_or_default(), key).await?.ok_or_else(missing)?;
+        if let (Some(campaign), Some(repeated)) = (&row.campaign, &row.rerun_of) {
+            return Ok(self.inner.store.repeat_of(campaign, repeated).await?.ok_or_else(missing)?.id);
+        }
+        let owner = row.owner.as_deref().unwrap_or_default();
+        let known = self.inner.store.run_of_request(owner, key).await?.ok_or_else(missing)?;
         if known.spec != row.spec {
             let told = format!("The key {key:?} was used for another run; give every run a key of its own.");
             return Err(EngineError::Invalid(told));
         }
-        self.info(known, owner).await
+        Ok(known.id)
     }
 
     /// Queues a preview's run for all of its configurations. It stays the same run; its numbers are a preview's until those
@@ -185,6 +205,9 @@ impl Engine {
             }
             tokio::time::sleep(Duration::from_millis(20)).await;
         }
+        if let Some(campaign) = &row.campaign {
+            self.inner.end_campaign_when_through(campaign).await?;
+        }
         Ok(())
     }
 
@@ -211,6 +234,8 @@ impl Engine {
             set: row.set,
             environment: row.environment,
             preview: row.preview,
+            campaign: row.campaign,
+            rerun_of: row.rerun_of,
             commitment: row.secret.as_deref().filter(|_| row.spec.seed.is_none()).map(draw::commitment),
             attempts: row.attempts,
             created_us: row.created_us,

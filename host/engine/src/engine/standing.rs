@@ -40,7 +40,7 @@ impl Inner {
         let standing = |row: &SubmissionRow| Standing {
             state: row.state,
             reason: row.reason.clone(),
-            hardware_class: row.hardware_class.clone(),
+            hardware_class: row.excluded_on.clone().or_else(|| row.hardware_class.clone()),
         };
         Ok(left.map(|row| (row.blob.clone(), standing(row))).collect())
     }

@@ -126,6 +126,9 @@ pub struct PluginInfo {
     pub reason: String,
     /// The hardware class on which it was checked.
     pub hardware_class: Option<String>,
+    /// The hardware class on which it was taken out, where that is not the one of its check.
+    #[serde(default)]
+    pub excluded_on: Option<String>,
     /// The report so far.
     pub lines: Vec<CheckLine>,
     /// The algorithms that it describes.

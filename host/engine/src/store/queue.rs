@@ -10,7 +10,7 @@ use crate::Result;
 pub struct QueuedRun {
     /// Its id.
     pub id: String,
-    /// Its owner; the empty text for runs of the service itself.
+    /// Its owner; the empty text for runs of the service itself and of campaigns, which take nobody's turn.
     pub owner: String,
     /// Smaller is served first.
     pub priority: i64,
@@ -27,10 +27,11 @@ impl Store {
         let claimed: Option<(String, String)> = sqlx::query_as(
             "UPDATE runs SET state = 'running', attempts = attempts + 1, started_us = $1, message = NULL \
              WHERE state = 'queued' AND id = ( \
-                 SELECT r.id FROM runs r LEFT JOIN served s ON s.owner = COALESCE(r.owner, '') \
+                 SELECT r.id FROM runs r LEFT JOIN served s \
+                 ON s.owner = CASE WHEN r.campaign IS NULL THEN COALESCE(r.owner, '') ELSE '' END \
                  WHERE r.state = 'queued' \
                  ORDER BY r.priority, COALESCE(s.served_us, 0), r.created_us, r.id LIMIT 1) \
-             RETURNING id, COALESCE(owner, '')",
+             RETURNING id, CASE WHEN campaign IS NULL THEN COALESCE(owner, '') ELSE '' END",
         )
         .bind(now)
         .fetch_optional(&self.pool)
@@ -74,9 +75,9 @@ impl Store {
         Ok(())
     }
 
-    /// How many runs of this owner wait.
+    /// How many runs of this owner wait, without those of campaigns, for which nobody asked.
     pub async fn waiting_runs(&self, owner: &str) -> Result<u64> {
-        let text = "SELECT COUNT(*) FROM runs WHERE owner = $1 AND state = 'queued'";
+        let text = "SELECT COUNT(*) FROM runs WHERE owner = $1 AND state = 'queued' AND campaign IS NULL";
         let count: i64 = sqlx::query_scalar(text).bind(owner).fetch_one(&self.pool).await?;
         Ok(count as u64)
     }
@@ -84,7 +85,8 @@ impl Store {
     /// All waiting runs in the order in which they will be served if nothing else is asked for.
     pub async fn queued(&self) -> Result<Vec<QueuedRun>> {
         let rows: Vec<(String, String, i64, i64, f64)> = sqlx::query_as(
-            "SELECT id, COALESCE(owner, ''), priority, created_us, expected_seconds FROM runs WHERE state = 'queued'",
+            "SELECT id, CASE WHEN campaign IS NULL THEN COALESCE(owner, '') ELSE '' END, priority, created_us, \
+             expected_seconds FROM runs WHERE state = 'queued'",
         )
         .fetch_all(&self.pool)
         .await?;

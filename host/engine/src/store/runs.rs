@@ -25,6 +25,10 @@ pub struct RunRow {
     pub priority: i64,
     /// The suite that it belongs to, by its hash.
     pub suite: Option<String>,
+    /// The campaign that it belongs to.
+    pub campaign: Option<String>,
+    /// The run that it repeats there; its owner may have taken that away since.
+    pub rerun_of: Option<String>,
     /// State.
     pub state: State,
     /// How often it was started.
@@ -85,7 +89,7 @@ macro_rules! select_runs {
     ($rest:literal) => {
         concat!(
             "SELECT id, owner, featured, private, visibility, priority, state, attempts, message, spec, object_a_name, object_b_name, ",
-            "set_info, set_blob, environment, preview, secret, expected_seconds, created_us, finished_us, suite FROM runs ",
+            "set_info, set_blob, environment, preview, secret, expected_seconds, created_us, finished_us, suite, campaign, rerun_of FROM runs ",
             $rest
         )
     };
@@ -93,14 +97,15 @@ macro_rules! select_runs {
 pub(super) use select_runs;
 
 impl Store {
-    /// Queues a run with its lanes; false when its owner has used this key of a request before.
+    /// Queues a run with its lanes; false when its owner has used this key of a request before, or its campaign
+    /// repeats the same run already.
     pub async fn add_run(&self, run: &RunRow, stages: &[Stage], key: Option<&str>) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
         let added = sqlx::query(
             "INSERT INTO runs (id, owner, featured, priority, state, attempts, spec, object_a_name, object_b_name, \
-             secret, expected_seconds, created_us, private, request_key, visibility, suite) \
-             VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15) \
-             ON CONFLICT (owner, request_key) DO NOTHING",
+             secret, expected_seconds, created_us, private, request_key, visibility, suite, campaign, rerun_of) \
+             VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17) \
+             ON CONFLICT DO NOTHING",
         )
         .bind(&run.id)
         .bind(run.owner.as_deref())
@@ -117,6 +122,8 @@ impl Store {
         .bind(key)
         .bind(run.visibility.name())
         .bind(run.suite.as_deref())
+        .bind(run.campaign.as_deref())
+        .bind(run.rerun_of.as_deref())
         .execute(&mut *transaction)
         .await?;
         if added.rows_affected() == 0 {
@@ -332,6 +339,8 @@ pub(super) fn read_run(row: &AnyRow) -> Result<RunRow> {
         visibility: visibility(row.try_get("visibility")?)?,
         priority: row.try_get("priority")?,
         suite: row.try_get("suite")?,
+        campaign: row.try_get("campaign")?,
+        rerun_of: row.try_get("rerun_of")?,
         state: named_state(row.try_get("state")?)?,
         attempts: row.try_get::<i64, _>("attempts")? as u32,
         message: row.try_get("message")?,
@@ -359,7 +368,7 @@ fn state_name(state: State) -> &'static str {
     }
 }
 
-fn named_state(name: &str) -> Result<State> {
+pub(super) fn named_state(name: &str) -> Result<State> {
     match name {
         "queued" => Ok(State::Queued),
         "running" => Ok(State::Running),

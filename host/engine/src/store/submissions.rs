@@ -34,6 +34,8 @@ pub struct SubmissionRow {
     pub reason: String,
     /// The hardware class on which it was checked.
     pub hardware_class: Option<String>,
+    /// The hardware class on which it was taken out, where that is not the one of its check.
+    pub excluded_on: Option<String>,
     /// What it describes.
     pub algorithms: Vec<AlgorithmInfo>,
     /// When it was sent.
@@ -45,8 +47,8 @@ pub struct SubmissionRow {
 macro_rules! select_submissions {
     ($rest:literal) => {
         concat!(
-            "SELECT id, account, blob, file, bytes, manifest, signed_by, state, reason, hardware_class, algorithms, ",
-            "created_us, changed_us FROM submissions ",
+            "SELECT id, account, blob, file, bytes, manifest, signed_by, state, reason, hardware_class, excluded_on, ",
+            "algorithms, created_us, changed_us FROM submissions ",
             $rest
         )
     };
@@ -128,17 +130,42 @@ impl Store {
         note: Option<Note<'_>>,
     ) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
-        let done =
-            sqlx::query("UPDATE submissions SET state = $1, reason = $2, changed_us = $3 WHERE id = $4 AND state = $5")
-                .bind(to.name())
-                .bind(reason)
-                .bind(now_us())
-                .bind(id)
-                .bind(from.name())
-                .execute(&mut *transaction)
-                .await?;
+        let done = sqlx::query(
+            "UPDATE submissions SET state = $1, reason = $2, changed_us = $3, excluded_on = NULL \
+                 WHERE id = $4 AND state = $5",
+        )
+        .bind(to.name())
+        .bind(reason)
+        .bind(now_us())
+        .bind(id)
+        .bind(from.name())
+        .execute(&mut *transaction)
+        .await?;
         let moved = done.rows_affected() == 1;
         if let Some(note) = note.filter(|_| moved) {
+            append(&mut transaction, note).await?;
+        }
+        transaction.commit().await?;
+        Ok(moved)
+    }
+
+    /// Takes a public submission out on this hardware class, and notes it; false when it is not public any more, or has changed
+    /// since it failed.
+    pub async fn exclude_submission(&self, id: &str, class: &str, failed_us: i64, note: Note<'_>) -> Result<bool> {
+        let mut transaction = self.pool.begin().await?;
+        let done = sqlx::query(
+            "UPDATE submissions SET state = 'excluded', reason = $1, changed_us = $2, excluded_on = $3 \
+             WHERE id = $4 AND state = 'public' AND changed_us < $5",
+        )
+        .bind(note.detail)
+        .bind(now_us())
+        .bind(class)
+        .bind(id)
+        .bind(failed_us)
+        .execute(&mut *transaction)
+        .await?;
+        let moved = done.rows_affected() == 1;
+        if moved {
             append(&mut transaction, note).await?;
         }
         transaction.commit().await?;
@@ -240,6 +267,7 @@ fn read(row: &AnyRow) -> Result<SubmissionRow> {
         state: PluginState::named(state).ok_or_else(unknown)?,
         reason: row.try_get("reason")?,
         hardware_class: row.try_get("hardware_class")?,
+        excluded_on: row.try_get("excluded_on")?,
         algorithms: from_json(row.try_get("algorithms")?)?,
         created_us: row.try_get("created_us")?,
         changed_us: row.try_get("changed_us")?,

@@ -3,6 +3,7 @@
 use ocb_core::configuration::Class;
 use ocb_core::query::Query;
 
+mod campaigns;
 mod lists;
 mod mails;
 mod people;
@@ -97,6 +98,8 @@ on_both!(
     lists_go_on_where_they_were_left,
     what_is_taken_away_takes_the_files_that_nobody_else_uses,
     a_suites_runs_are_apart_from_those_of_people,
+    a_campaign_repeats_a_run_once_and_takes_nobodys_turn,
+    only_runs_of_those_who_agree_are_measured_again,
 );
 
 fn object(id: &str) -> ObjectInfo {
@@ -125,7 +128,7 @@ fn spec() -> RunSpec {
     .unwrap()
 }
 
-fn run(id: &str, owner: Option<&str>, priority: i64, created_us: i64) -> RunRow {
+pub(crate) fn run(id: &str, owner: Option<&str>, priority: i64, created_us: i64) -> RunRow {
     RunRow {
         id: id.into(),
         owner: owner.map(str::to_owned),
@@ -134,6 +137,8 @@ fn run(id: &str, owner: Option<&str>, priority: i64, created_us: i64) -> RunRow 
         visibility: Visibility::Unlisted,
         priority,
         suite: None,
+        campaign: None,
+        rerun_of: None,
         state: State::Queued,
         attempts: 0,
         message: None,
@@ -213,6 +218,7 @@ async fn add(store: &Store, run: RunRow) {
 }
 
 mod contract {
+    pub use super::campaigns::*;
     pub use super::lists::*;
     pub use super::mails::*;
     pub use super::people::*;

@@ -152,6 +152,7 @@ pub async fn a_submission_is_checked_three_times_at_most(store: Store) {
         state: PluginState::Uploaded,
         reason: String::new(),
         hardware_class: None,
+        excluded_on: None,
         algorithms: Vec::new(),
         created_us: 1,
         changed_us: 1,
@@ -186,6 +187,22 @@ pub async fn a_submission_is_checked_three_times_at_most(store: Store) {
     );
     store.describe_submission("p", &[], "class").await.unwrap();
     assert_eq!(store.submissions().await.unwrap()[0].hardware_class.as_deref(), Some("class"));
+
+    // Taken out on another class while it is public, unless somebody has decided since it failed.
+    let public = |from| store.move_submission("p", from, PluginState::Public, "", None);
+    let out = |failed_us| store.exclude_submission("p", "other", failed_us, Note { detail: "why", ..NOTE });
+    assert!(!out(now_us() + 1_000_000).await.unwrap(), "it is not public");
+    assert!(public(PluginState::Failed).await.unwrap());
+    assert!(!out(1).await.unwrap(), "it failed before it was decided about");
+    assert!(out(now_us() + 1_000_000).await.unwrap());
+    let row = store.submission("p").await.unwrap().unwrap();
+    assert_eq!(
+        (row.state, row.reason.as_str(), row.excluded_on.as_deref()),
+        (PluginState::Excluded, "why", Some("other"))
+    );
+    assert_eq!((row.hardware_class.as_deref(), store.notes_on("x").await.unwrap().len()), (Some("class"), 6));
+    assert!(public(PluginState::Excluded).await.unwrap());
+    assert_eq!(store.submission("p").await.unwrap().unwrap().excluded_on, None);
 }
 
 pub async fn a_key_names_one_request(store: Store) {
