@@ -3,6 +3,7 @@
 mod account;
 mod advice;
 mod algorithms;
+mod campaigns;
 mod charts;
 mod choices;
 mod citations;
@@ -129,6 +130,10 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(invitations::accept_invitation))
         .routes(routes!(stability::show_stability))
         .routes(routes!(suite::show_suite))
+        .routes(routes!(campaigns::create_campaign, campaigns::list_campaigns))
+        .routes(routes!(campaigns::preview_campaign))
+        .routes(routes!(campaigns::show_campaign))
+        .routes(routes!(campaigns::cancel_campaign))
         .routes(routes!(advice::ask_advice))
         .routes(routes!(advice::show_advice))
         .routes(routes!(advice::cancel_advice))

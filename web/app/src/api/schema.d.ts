@@ -402,6 +402,78 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/campaigns": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Campaigns, newest first, without their results. */
+        get: operations["list_campaigns"];
+        put?: never;
+        /**
+         * Has stored benchmarks measured again on this hardware class, suite and oracle, after whatever anybody waits for. With an
+         *     `Idempotency-Key` the same request, sent again because its answer was lost, gives the same campaign.
+         */
+        post: operations["create_campaign"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/campaigns/preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** How many runs a campaign would queue now. Nothing is queued. */
+        get: operations["preview_campaign"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/campaigns/{id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** One campaign: how far it is, with old and new results side by side. */
+        get: operations["show_campaign"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/campaigns/{id}/cancel": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Ends what waits of a campaign; the run at work comes to its end, and one that has ended stays as it is. */
+        post: operations["cancel_campaign"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/curation": {
         parameters: {
             query?: never;
@@ -1866,6 +1938,129 @@ export interface components {
              */
             version: number;
         };
+        /** @description A campaign, and how far it is. */
+        CampaignInfo: {
+            /** @description Name of the account that made it, or `the operator`. */
+            created_by: string;
+            /**
+             * Format: int64
+             * @description When it was made.
+             */
+            created_us: number;
+            /**
+             * Format: int64
+             * @description When its last run ended.
+             */
+            ended_us?: number | null;
+            /** @description The hardware class that it measures on. */
+            hardware_class: string;
+            /** @description Its id. */
+            id: string;
+            /**
+             * Format: int32
+             * @description Version of the oracle that judges.
+             */
+            oracle: number;
+            /** @description It measures public runs again. */
+            people: boolean;
+            /** @description Why it was made. */
+            reason: string;
+            /** @description Old and new results side by side, as far as the viewer may see them; empty in lists. */
+            results: components["schemas"]["Compared"][];
+            /** @description Its runs by state. */
+            runs: components["schemas"]["CampaignRuns"];
+            /** @description Running until nothing of it waits any more; then done, or cancelled. */
+            state: components["schemas"]["State"];
+            /** @description It measures the suite. */
+            suite: boolean;
+            /** @description SHA-256 (hex) of the suite's file. */
+            suite_sha256: string;
+            /**
+             * Format: int32
+             * @description Version of the suite.
+             */
+            suite_version: number;
+        };
+        /** @description What a campaign would queue now. */
+        CampaignPreview: {
+            /** @description The hardware class of this machine. */
+            hardware_class: string;
+            /**
+             * Format: int32
+             * @description Version of the oracle that judges.
+             */
+            oracle: number;
+            /**
+             * Format: int32
+             * @description Public runs of people.
+             */
+            peoples_runs: number;
+            /**
+             * Format: int32
+             * @description Of these, runs that repeat one which was measured before.
+             */
+            suite_repeats: number;
+            /**
+             * Format: int32
+             * @description Runs of the suite.
+             */
+            suite_runs: number;
+            /**
+             * Format: int32
+             * @description Version of the suite.
+             */
+            suite_version: number;
+        };
+        /**
+         * @description A campaign that is asked for.
+         * @example {
+         *       "people": true,
+         *       "reason": "A new machine: the class before was retired.",
+         *       "suite": true
+         *     }
+         */
+        CampaignRequest: {
+            /**
+             * @description Measure public runs again whose accounts agree to that.
+             * @default true
+             */
+            people: boolean;
+            /** @description Why, for everybody to read. */
+            reason: string;
+            /**
+             * @description Measure the suite as far as it was not measured on this hardware class and by this oracle.
+             * @default true
+             */
+            suite: boolean;
+        };
+        /** @description The runs of a campaign by state. */
+        CampaignRuns: {
+            /**
+             * Format: int32
+             * @description Ended by somebody.
+             */
+            cancelled: number;
+            /**
+             * Format: int32
+             * @description With results.
+             */
+            done: number;
+            /**
+             * Format: int32
+             * @description Ended by a fault.
+             */
+            failed: number;
+            /**
+             * Format: int32
+             * @description At work.
+             */
+            running: number;
+            /**
+             * Format: int32
+             * @description In the queue.
+             */
+            waiting: number;
+        };
         /**
          * @description How a cell of the table looks: the gravest of what is in it.
          * @enum {string}
@@ -1958,6 +2153,66 @@ export interface components {
              * @description How many.
              */
             count: number;
+        };
+        /** @description One algorithm in one scenario, before and in a campaign. */
+        Compared: {
+            /** @description Algorithm id, with its settings. */
+            algorithm: string;
+            /** @description How far apart. */
+            distance: string;
+            /** @description Display name. */
+            name: string;
+            new?: components["schemas"]["ComparedResult"] | null;
+            /** @description It belongs to the suite. */
+            of_suite: boolean;
+            old?: components["schemas"]["ComparedResult"] | null;
+            /** @description The question, in words. */
+            question: string;
+            ratio?: components["schemas"]["Estimated"] | null;
+            /** @description The run of the campaign. */
+            run: string;
+            /** @description Both are of the same plugin file. */
+            same_file: boolean;
+            /** @description The pair of objects. */
+            scene: string;
+            /** @description Where that is. */
+            state: components["schemas"]["State"];
+        };
+        /** @description One side of a comparison. */
+        ComparedResult: {
+            /** @description CPU model. */
+            cpu: string;
+            /**
+             * Format: int64
+             * @description When that ended.
+             */
+            finished_us: number;
+            /** @description Hardware class. */
+            hardware_class: string;
+            median_ns?: components["schemas"]["Estimated"] | null;
+            /**
+             * Format: int32
+             * @description Configurations measured.
+             */
+            n: number;
+            /**
+             * Format: int32
+             * @description Version of the oracle; absent in runs of older versions.
+             */
+            oracle?: number | null;
+            /** @description Name of the outcome. */
+            outcome: string;
+            /** @description SHA-256 (hex) of the plugin file. */
+            plugin_sha256: string;
+            /** @description The run. */
+            run: string;
+            /** @description Version of the program that measured. */
+            version: string;
+            /**
+             * Format: int32
+             * @description Wrong answers.
+             */
+            wrong: number;
         };
         /** @description Lists of contacts against the complete ones, all configurations together. Pairs within the precision band are free. */
         ContactQuality: {
@@ -2690,6 +2945,8 @@ export interface components {
              * @description When it was sent.
              */
             created_us: number;
+            /** @description The hardware class on which it was taken out, where that is not the one of its check. */
+            excluded_on?: string | null;
             /** @description Name of the file as it was sent. */
             file: string;
             /** @description What a curator should look at; for curators and the author. */
@@ -2975,6 +3232,8 @@ export interface components {
              * @description Times this run was started (more than 1 after a restart of the service).
              */
             attempts: number;
+            /** @description The campaign that it belongs to. */
+            campaign?: string | null;
             /**
              * @description SHA-256 of the secret that the seed is drawn from, published before anything is measured; absent when the seed was
              *     given.
@@ -3002,6 +3261,8 @@ export interface components {
             /** @description Name of object B. */
             object_b_name: string;
             preview?: components["schemas"]["Preview"] | null;
+            /** @description The run that it repeats in that campaign. */
+            rerun_of?: string | null;
             /** @description Summary per algorithm, as far as there is one. */
             results: components["schemas"]["AlgorithmResult"][];
             /**
@@ -5853,6 +6114,340 @@ export interface operations {
             };
             /** @description The precision is none */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_campaigns: {
+        parameters: {
+            query?: {
+                /** @description Entries at most, from 1 to 200. */
+                limit?: number;
+                /** @description Where the list goes on, as the `Link` header of the part before says; absent for the first part. */
+                cursor?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description A part of the list */
+            200: {
+                headers: {
+                    /** @description Where the list goes on: `<...>; rel="next"`; absent at its end */
+                    Link?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CampaignInfo"][];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No part of the list */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    create_campaign: {
+        parameters: {
+            query?: never;
+            header?: {
+                /**
+                 * @description 1 to 200 visible characters, another one for every request; the same request under the same key makes nothing new. Kept
+                 *     as long as a run, and for 30 days otherwise.
+                 */
+                "Idempotency-Key"?: string | null;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CampaignRequest"];
+            };
+        };
+        responses: {
+            /** @description Was asked for before under this key */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CampaignInfo"];
+                };
+            };
+            /** @description Queued; `Location` names it */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CampaignInfo"];
+                };
+            };
+            /** @description The body or the address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No curator */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body came too slowly */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description There is nothing to measure again */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body does not say that it is JSON */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No reason, or neither suite nor people */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    preview_campaign: {
+        parameters: {
+            query?: {
+                /** @description The suite. */
+                suite?: boolean;
+                /** @description Public runs whose accounts agree. */
+                people?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "hardware_class": "0d52c1f3b7a96e48",
+                     *       "oracle": 5,
+                     *       "peoples_runs": 12,
+                     *       "suite_repeats": 144,
+                     *       "suite_runs": 150,
+                     *       "suite_version": 1
+                     *     }
+                     */
+                    "application/json": components["schemas"]["CampaignPreview"];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No curator */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_campaign: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Campaign id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CampaignInfo"];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` opens nothing */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such campaign */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    cancel_campaign: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Campaign id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The campaign as it is now */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CampaignInfo"];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No curator */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such campaign */
+            404: {
                 headers: {
                     [name: string]: unknown;
                 };

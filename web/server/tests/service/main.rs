@@ -4,6 +4,7 @@
 //! does so.
 
 mod advice;
+mod campaigns;
 mod citations;
 mod errors;
 mod invitations;

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::support::{Guest, Service, header, problem, small_spec};
 
-const PASSWORD: &str = "a long enough password";
+pub const PASSWORD: &str = "a long enough password";
 
 /// A browser that is logged in as a new account of this role.
 pub async fn member(service: &Service, name: &str, role: Role) -> Guest {
@@ -154,6 +154,8 @@ const DOORS: &[(&str, &[&str])] = &[
             "get /algorithms",
             "get /board",
             "get /board.csv",
+            "get /campaigns",
+            "get /campaigns/{id}",
             "post /estimates",
             "get /featured",
             "get /objects",
@@ -233,6 +235,9 @@ const DOORS: &[(&str, &[&str])] = &[
         &[
             "get /accounts",
             "post /accounts/{id}/role",
+            "get /campaigns/preview",
+            "post /campaigns",
+            "post /campaigns/{id}/cancel",
             "get /curation",
             "get /invitations",
             "post /invitations",

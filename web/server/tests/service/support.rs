@@ -26,6 +26,7 @@ pub struct How {
     pub plugins: Vec<PathBuf>,
     pub suite: Option<PathBuf>,
     pub mail: Option<MailServer>,
+    pub machine_note: Option<String>,
 }
 
 impl Service {
@@ -58,6 +59,7 @@ impl Service {
         config.runner = built().join("ocb-runner");
         config.plugins.clone_from(&how.plugins);
         config.suite.clone_from(&how.suite);
+        config.machine_note.clone_from(&how.machine_note);
         config.profile = Profile::Dev;
         config.mail.clone_from(&how.mail);
         let engine = Engine::open(config).await.expect("the engine opens");
@@ -97,6 +99,12 @@ impl Service {
     pub async fn restart_mailing(self, mail: MailServer) -> Self {
         let (data, how) = self.end().await;
         Self::open_in(data, How { mail: Some(mail), ..how }).await
+    }
+
+    /// The same, on what is another hardware class by this note.
+    pub async fn restart_noted(self, note: &str) -> Self {
+        let (data, how) = self.end().await;
+        Self::open_in(data, How { machine_note: Some(note.to_owned()), ..how }).await
     }
 
     async fn end(self) -> (TempDir, How) {
