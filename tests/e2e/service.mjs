@@ -1,4 +1,4 @@
-// The built service on a data folder of its own, with a curator; stopped by its process id.
+// The built service on a data folder, stopped by its process id.
 import { spawn, spawnSync } from 'node:child_process'
 import { randomUUID } from 'node:crypto'
 import { mkdtempSync, rmSync } from 'node:fs'
@@ -9,6 +9,23 @@ import { fileURLToPath } from 'node:url'
 
 export const root = resolve(dirname(fileURLToPath(import.meta.url)), '../..')
 const target = resolve(root, process.env.CARGO_TARGET_DIR ?? 'target')
+
+/** A built file, such as `ocb` or a plugin. */
+export const built = (name) => join(target, 'release', name)
+
+/** Runs `ocb` to its end, which must be a good one. */
+export function ocb(args, env = {}) {
+  const ended = spawnSync(built('ocb'), args, { env: { ...process.env, ...env }, encoding: 'utf8' })
+  if (ended.status !== 0) throw new Error(`ocb ${args.join(' ')}: ${ended.stderr}`)
+  return ended.stdout
+}
+
+/** Makes the account "curator" on a data folder that no service has open, and gives its password. */
+export function addCurator(data) {
+  const password = randomUUID()
+  ocb(['admin', 'create', 'curator', '--role', 'curator', '--data', data], { OCB_PASSWORD: password })
+  return password
+}
 
 function freePort() {
   return new Promise((done) => {
@@ -28,16 +45,13 @@ async function ready(url, alive) {
   throw new Error(`the service did not answer on ${url}`)
 }
 
-export async function startService() {
+/** Serves this data folder, or a new one with a curator that goes away with the service. */
+export async function startService({ data: given, options: more = [] } = {}) {
   const url = `http://127.0.0.1:${await freePort()}`
-  const data = mkdtempSync(join(tmpdir(), 'ocb-e2e-'))
-  const password = randomUUID()
-  const made = spawnSync(join(target, 'release/ocb'), ['admin', 'create', 'curator', '--role', 'curator', '--data', data], {
-    env: { ...process.env, OCB_PASSWORD: password }, stdio: ['ignore', 'ignore', 'inherit'],
-  })
-  if (made.status !== 0) throw new Error('no curator could be made')
-  const options = ['serve', '--data', data, '--listen', url.slice('http://'.length), '--stock-dir', join(root, 'target/stock')]
-  const service = spawn(join(target, 'release/ocb'), options, { cwd: root, stdio: ['ignore', 'inherit', 'inherit'] })
+  const data = given ?? mkdtempSync(join(tmpdir(), 'ocb-e2e-'))
+  const password = given ? undefined : addCurator(data)
+  const options = ['serve', '--data', data, '--listen', url.slice('http://'.length), '--stock-dir', join(root, 'target/stock'), ...more]
+  const service = spawn(built('ocb'), options, { cwd: root, stdio: ['ignore', 'inherit', 'inherit'] })
   const ended = new Promise((done) => service.once('exit', (code, signal) => done(signal ?? code)))
   let running = true
   ended.then(() => { running = false })
@@ -45,7 +59,7 @@ export async function startService() {
     const early = !running
     service.kill('SIGTERM')
     const how = await ended
-    rmSync(data, { recursive: true, force: true })
+    if (!given) rmSync(data, { recursive: true, force: true })
     if (early) throw new Error(`the service ended by itself during the journeys (${how})`)
   }
   try {

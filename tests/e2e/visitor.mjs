@@ -11,8 +11,8 @@ const pictures = process.env.OCB_E2E_PICTURES ?? 'pictures'
 // Software WebGL: the machine that runs the tests has no graphics card. Chromium's own sandbox needs a user that is not root.
 const FLAGS = ['--no-sandbox', '--disable-dev-shm-usage', '--use-angle=swiftshader', '--enable-unsafe-swiftshader']
 
-/** Opens a browser for test `t`; it is closed, and its problems are asserted to be none, when the test ends. */
-export async function visitor(t, { scheme = 'light', width = 1280, height = 900 } = {}) {
+/** Opens a browser for test `t`, on the service of the journeys or the one at `base`; it is closed, and its problems are asserted to be none, when the test ends. */
+export async function visitor(t, { scheme = 'light', width = 1280, height = 900, base = url } = {}) {
   const browser = await chromium.launch({ executablePath: process.env.OCB_CHROMIUM ?? '/usr/bin/chromium', headless: true, args: FLAGS })
   const context = await browser.newContext({ colorScheme: scheme, viewport: { width, height }, acceptDownloads: true })
   context.setDefaultTimeout(30_000)
@@ -36,11 +36,11 @@ export async function visitor(t, { scheme = 'light', width = 1280, height = 900 
     at: (id) => page.getByTestId(id),
     /** The number behind what an element shows (`data-value`); NaN while there is none. */
     value: async (id) => Number((await page.getByTestId(id).getAttribute('data-value')) ?? NaN),
-    go: (path) => page.goto(url + path),
+    go: (path) => page.goto(base + path),
     /** Says that refusals by this address are what the test is about. */
     expectRefusal: (path) => expected.add(path),
     api: async (path, options) => {
-      const answer = await context.request.fetch(`${url}/api/v1${path}`, options)
+      const answer = await context.request.fetch(`${base}/api/v1${path}`, options)
       assert.ok(answer.ok(), `${path}: ${answer.status()} ${await answer.text()}`)
       return answer.json()
     },

@@ -1,5 +1,6 @@
 //! What can be said on the command line.
 
+mod campaigns;
 mod looking;
 mod mail;
 mod plugins;
@@ -13,6 +14,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+pub use campaigns::{CampaignArgs, CampaignCommand, CampaignOf};
 pub use looking::{HeatmapArgs, SelectArgs, WorstArgs};
 pub use mail::MailArgs;
 pub use plugins::{AdminCommand, PluginCommand, SubmitArgs};
@@ -83,6 +85,10 @@ pub struct Store {
     /// File of the suite that public plugins are measured on [default: the newest that ships].
     #[arg(long = "suite-file", global = true, env = "OCB_SUITE", value_name = "FILE", hide_env_values = true)]
     pub suite_file: Option<PathBuf>,
+    /// What distinguishes this machine though the kernel does not tell, such as `turbo off`: results are compared only with those
+    /// of machines of the same note.
+    #[arg(long, global = true, env = "OCB_MACHINE_NOTE", value_name = "TEXT", hide_env_values = true)]
+    pub machine_note: Option<String>,
 }
 
 impl Store {
@@ -159,6 +165,11 @@ pub enum Command {
     Suite {
         #[command(subcommand)]
         command: SuiteCommand,
+    },
+    /// Measure stored benchmarks again: for a new hardware class, suite or oracle, side by side with the old results.
+    Campaign {
+        #[command(subcommand)]
+        command: CampaignCommand,
     },
     /// Compare algorithms over all runs: speed against accuracy, with a table and a chart.
     Board(BoardArgs),

@@ -5,6 +5,7 @@ mod advise;
 mod args;
 mod bench;
 mod board;
+mod campaign;
 mod chart;
 mod choice;
 mod cite;
@@ -81,6 +82,7 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Stability(args) => stability::stability(&store, &args, json).await,
         Command::Doctor => doctor::doctor(&store, json),
         Command::Suite { command } => suite::suite(&store, &command, json).await,
+        Command::Campaign { command } => campaign::campaign(&store, &command, json).await,
         Command::Board(args) => board::board(&store, &args, json).await,
         Command::Chart(args) => chart::chart(&store, &args, json).await,
         Command::Heatmap(args) => heatmap::heatmap(&store, &args, json).await,

@@ -80,6 +80,7 @@ fn config(store: &Store, data: PathBuf, purpose: Purpose) -> EngineConfig {
     }
     config.stock_dir = store.stock_dir.clone().or_else(beside_us);
     config.suite.clone_from(&store.suite_file);
+    config.machine_note.clone_from(&store.machine_note);
     config.dispatch = purpose != Purpose::Look;
     config.featured = purpose == Purpose::Serve;
     config

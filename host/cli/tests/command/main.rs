@@ -4,6 +4,7 @@
 
 mod advise;
 mod bench;
+mod campaign;
 mod errors;
 mod generate;
 mod look;

@@ -45,7 +45,16 @@ impl Desk {
     #[expect(clippy::disallowed_methods, reason = "the test runs the program that it tests")]
     pub fn command(&self, args: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_ocb"));
-        for variable in ["OCB_DATA", "OCB_DATABASE", "OCB_BLOBS", "OCB_RUNNER", "OCB_PLUGINS", "OCB_STOCK", "OCB_LOG"] {
+        for variable in [
+            "OCB_DATA",
+            "OCB_DATABASE",
+            "OCB_BLOBS",
+            "OCB_RUNNER",
+            "OCB_PLUGINS",
+            "OCB_STOCK",
+            "OCB_LOG",
+            "OCB_MACHINE_NOTE",
+        ] {
             command.env_remove(variable);
         }
         command.env("HOME", self.path("home")).env_remove("XDG_DATA_HOME");
