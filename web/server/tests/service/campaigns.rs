@@ -100,6 +100,16 @@ async fn a_curator_has_old_results_measured_again_and_everybody_sees_both() {
     };
     let (theirs, own) = (ended(&guest, &id).await, ended(&mine, &id).await);
     assert_eq!((olds(&theirs), olds(&own)), (4, 6));
+    let rows = |campaign: &Value| campaign["results"].as_array().map(Vec::len);
+    assert_eq!((rows(&theirs), rows(&own)), (Some(6), Some(6)));
+    let repeated =
+        own["results"].as_array().expect("rows").iter().find(|row| row["old"]["run"] == run).expect("its row");
+    let again = repeated["run"].as_str().expect("an id");
+    let hidden = mine.client.put(format!("{}/api/v1/runs/{again}/visibility", service.url));
+    hidden.json(&json!({ "visibility": "private" })).send().await.expect("an answer");
+    let (theirs, own) = (ended(&guest, &id).await, ended(&mine, &id).await);
+    assert_eq!((rows(&theirs), rows(&own)), (Some(4), Some(6)));
+    assert!(!theirs.to_string().contains(again) && !theirs.to_string().contains(&run), "nothing names them");
 
     let cancelled = curator.post(&format!("/api/v1/campaigns/{id}/cancel")).send().await.expect("an answer");
     assert_eq!(cancelled.json::<Value>().await.expect("JSON")["state"], "done", "one that has ended stays as it is");
