@@ -72,10 +72,19 @@ export class Selecting {
     const predicates = question.where.map(parse)
     const needed = predicates.flatMap((one) => algorithms(one, question.lookedAt))
     const rows = predicates.length > 0 ? question.algorithms : []
-    await Promise.all([this.witnesses(), ...[...new Set([question.lookedAt, ...needed, ...rows])].map((id) => this.columns(id))])
-
+    await this.have([question.lookedAt, ...needed, ...rows])
     const columns = this.view(question.lookedAt)
-    const masks = predicates.map((one) => apply(one, columns))
+    return this.answered(question, rows, columns, predicates.map((one) => apply(one, columns)))
+  }
+
+  /** Does what any selection needs, so that the first one is answered as soon as the others. */
+  async prepare(question: Question): Promise<void> {
+    await this.have([question.lookedAt, ...question.algorithms])
+    const all = new Uint8Array(this.known('').distance?.length ?? 0).fill(1)
+    this.answered(question, question.algorithms, this.view(question.lookedAt), [all])
+  }
+
+  private answered(question: Question, rows: string[], columns: Columns, masks: Uint8Array[]): Answer {
     const of = this.known('').distance?.length ?? 0
     const chosen = masks.length > 0 ? masks.reduce((x, y) => x.map((is, i) => is & (y[i] ?? 0))) : null
     const surface = this.surfaces[question.side]
@@ -140,12 +149,10 @@ export class Selecting {
     return this.loaded.get(key) ?? {}
   }
 
-  private columns(algorithm: string): Promise<Numbers> {
-    return this.fetch(algorithm, `columns.arrow?${new URLSearchParams({ algorithm })}`)
-  }
-
-  private witnesses(): Promise<Numbers> {
-    return this.fetch('', 'witnesses.arrow')
+  /** Witness points, and the columns of these algorithms. */
+  private async have(ids: string[]): Promise<void> {
+    const columns = [...new Set(ids)].map((id) => this.fetch(id, `columns.arrow?${new URLSearchParams({ algorithm: id })}`))
+    await Promise.all([this.fetch('', 'witnesses.arrow'), ...columns])
   }
 
   private fetch(key: string, what: string): Promise<Numbers> {

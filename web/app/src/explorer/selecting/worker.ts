@@ -7,6 +7,7 @@ export type Message =
 export type Reply = { number: number } & ({ answer: Answer } | { error: string })
 
 let selecting: Selecting | null = null
+let prepared = false
 
 self.addEventListener('message', ({ data }: MessageEvent<Message>) => {
   if (data.kind === 'open') selecting = new Selecting(data.run, data)
@@ -20,6 +21,10 @@ async function reply(number: number, question: Question): Promise<void> {
     const answer = await selecting.answer(question)
     const buffers = [answer.lit, answer.chart?.all, answer.chart?.lit].flatMap((array) => (array ? [array.buffer] : []))
     send({ number, answer }, buffers)
+    if (prepared) return
+    prepared = true
+    // What goes wrong here goes wrong again, and is told, when it is asked for.
+    await selecting.prepare(question).catch(() => {})
   } catch (error) {
     send({ number, error: error instanceof Error ? error.message : String(error) })
   }
