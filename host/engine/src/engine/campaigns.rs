@@ -88,7 +88,10 @@ impl Engine {
         let (sender, filled) = tokio::sync::oneshot::channel();
         let (engine, id) = (self.clone(), row.id.clone());
         inner.spawn(async move {
-            let _ = sender.send(engine.fill_campaign(&id).await);
+            // Nobody is left to be told: the log is, and the next start takes the campaign up.
+            if let Err(Err(e)) = sender.send(engine.fill_campaign(&id).await) {
+                tracing::error!("campaign {id}: not all of it was queued: {e}");
+            }
         });
         filled.await.unwrap_or_else(|_| Err(EngineError::Fault("Queueing the campaign broke down.".into())))?;
         Ok((self.campaign(&row.id, viewer.as_deref()).await?, new))
