@@ -3,7 +3,7 @@
 use core::arch::x86_64::*;
 use core::ops::{Add, Mul, Sub};
 
-use super::{Bits, Lanes};
+use super::{Bits, Lanes, Numbers};
 
 /// Sixteen numbers in two registers. Values are made in [`super::Path::run`] alone, below a check for the instructions.
 #[derive(Clone, Copy)]
@@ -49,7 +49,7 @@ impl Mul for Avx2 {
     }
 }
 
-impl Lanes for Avx2 {
+impl Numbers for Avx2 {
     type Mask = (__m256, __m256);
 
     #[inline(always)]
@@ -57,6 +57,57 @@ impl Lanes for Avx2 {
         instructions!(Self(_mm256_set1_ps(x), _mm256_set1_ps(x)))
     }
 
+    #[inline(always)]
+    fn mul_add(self, factor: Self, summand: Self) -> Self {
+        let low = instructions!(_mm256_fmadd_ps(self.0, factor.0, summand.0));
+        Self(low, instructions!(_mm256_fmadd_ps(self.1, factor.1, summand.1)))
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        let sign = Self::splat(-0.0);
+        of_two!(sign, self, _mm256_andnot_ps)
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        of_two!(self, other, _mm256_min_ps)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        of_two!(self, other, _mm256_max_ps)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        instructions!(Self(_mm256_sqrt_ps(self.0), _mm256_sqrt_ps(self.1)))
+    }
+
+    #[inline(always)]
+    fn lanes(bits: Bits) -> Self::Mask {
+        instructions!({
+            let bits = _mm256_set1_epi32(bits as i32);
+            let low = _mm256_set_epi32(0x80, 0x40, 0x20, 0x10, 8, 4, 2, 1);
+            let high = _mm256_slli_epi32::<8>(low);
+            let set = |of| _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_and_si256(bits, of), of));
+            (set(low), set(high))
+        })
+    }
+
+    #[inline(always)]
+    fn unless_above(keep: Self::Mask, x: Self, bound: Self) -> Self::Mask {
+        let low = instructions!(_mm256_and_ps(keep.0, _mm256_cmp_ps::<_CMP_NGT_UQ>(x.0, bound.0)));
+        (low, instructions!(_mm256_and_ps(keep.1, _mm256_cmp_ps::<_CMP_NGT_UQ>(x.1, bound.1))))
+    }
+
+    #[inline(always)]
+    fn bits(mask: Self::Mask) -> Bits {
+        instructions!(_mm256_movemask_ps(mask.0) as Bits | (_mm256_movemask_ps(mask.1) as Bits) << 8)
+    }
+}
+
+impl Lanes for Avx2 {
     #[inline(always)]
     fn load(from: &[f32; 16]) -> Self {
         let (low, high) = from.split_at(8);
@@ -101,52 +152,8 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    fn mul_add(self, factor: Self, summand: Self) -> Self {
-        let low = instructions!(_mm256_fmadd_ps(self.0, factor.0, summand.0));
-        Self(low, instructions!(_mm256_fmadd_ps(self.1, factor.1, summand.1)))
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        let sign = Self::splat(-0.0);
-        of_two!(sign, self, _mm256_andnot_ps)
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        of_two!(self, other, _mm256_min_ps)
-    }
-
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        of_two!(self, other, _mm256_max_ps)
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        instructions!(Self(_mm256_sqrt_ps(self.0), _mm256_sqrt_ps(self.1)))
-    }
-
-    #[inline(always)]
     fn reciprocal(self) -> Self {
         instructions!(Self(_mm256_rcp_ps(self.0), _mm256_rcp_ps(self.1)))
-    }
-
-    #[inline(always)]
-    fn lanes(bits: Bits) -> Self::Mask {
-        instructions!({
-            let bits = _mm256_set1_epi32(bits as i32);
-            let low = _mm256_set_epi32(0x80, 0x40, 0x20, 0x10, 8, 4, 2, 1);
-            let high = _mm256_slli_epi32::<8>(low);
-            let set = |of| _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_and_si256(bits, of), of));
-            (set(low), set(high))
-        })
-    }
-
-    #[inline(always)]
-    fn unless_above(keep: Self::Mask, x: Self, bound: Self) -> Self::Mask {
-        let low = instructions!(_mm256_and_ps(keep.0, _mm256_cmp_ps::<_CMP_NGT_UQ>(x.0, bound.0)));
-        (low, instructions!(_mm256_and_ps(keep.1, _mm256_cmp_ps::<_CMP_NGT_UQ>(x.1, bound.1))))
     }
 
     #[inline(always)]
@@ -163,11 +170,6 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn or_else(self, mask: Self::Mask, other: Self) -> Self {
         instructions!(Self(_mm256_blendv_ps(other.0, self.0, mask.0), _mm256_blendv_ps(other.1, self.1, mask.1)))
-    }
-
-    #[inline(always)]
-    fn bits(mask: Self::Mask) -> Bits {
-        instructions!(_mm256_movemask_ps(mask.0) as Bits | (_mm256_movemask_ps(mask.1) as Bits) << 8)
     }
 
     #[inline(always)]

@@ -3,7 +3,7 @@
 use core::arch::x86_64::*;
 use core::ops::{Add, Mul, Sub};
 
-use super::{Bits, Lanes};
+use super::{Bits, Lanes, Numbers};
 
 /// Sixteen numbers in one register. Values are made in [`super::Path::run`] alone, below a check for the instructions.
 #[derive(Clone, Copy)]
@@ -42,7 +42,7 @@ impl Mul for Avx512 {
     }
 }
 
-impl Lanes for Avx512 {
+impl Numbers for Avx512 {
     type Mask = __mmask16;
 
     #[inline(always)]
@@ -50,6 +50,48 @@ impl Lanes for Avx512 {
         instructions!(Self(_mm512_set1_ps(x)))
     }
 
+    #[inline(always)]
+    fn mul_add(self, factor: Self, summand: Self) -> Self {
+        instructions!(Self(_mm512_fmadd_ps(self.0, factor.0, summand.0)))
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        instructions!(Self(_mm512_abs_ps(self.0)))
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        instructions!(Self(_mm512_min_ps(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        instructions!(Self(_mm512_max_ps(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        instructions!(Self(_mm512_sqrt_ps(self.0)))
+    }
+
+    #[inline(always)]
+    fn lanes(bits: Bits) -> Self::Mask {
+        bits as __mmask16
+    }
+
+    #[inline(always)]
+    fn unless_above(keep: Self::Mask, x: Self, bound: Self) -> Self::Mask {
+        instructions!(_mm512_mask_cmp_ps_mask::<_CMP_NGT_UQ>(keep, x.0, bound.0))
+    }
+
+    #[inline(always)]
+    fn bits(mask: Self::Mask) -> Bits {
+        Bits::from(mask)
+    }
+}
+
+impl Lanes for Avx512 {
     #[inline(always)]
     fn load(from: &[f32; 16]) -> Self {
         instructions!(Self(_mm512_loadu_ps(from.as_ptr())))
@@ -79,43 +121,8 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
-    fn mul_add(self, factor: Self, summand: Self) -> Self {
-        instructions!(Self(_mm512_fmadd_ps(self.0, factor.0, summand.0)))
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        instructions!(Self(_mm512_abs_ps(self.0)))
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        instructions!(Self(_mm512_min_ps(self.0, other.0)))
-    }
-
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        instructions!(Self(_mm512_max_ps(self.0, other.0)))
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        instructions!(Self(_mm512_sqrt_ps(self.0)))
-    }
-
-    #[inline(always)]
     fn reciprocal(self) -> Self {
         instructions!(Self(_mm512_rcp14_ps(self.0)))
-    }
-
-    #[inline(always)]
-    fn lanes(bits: Bits) -> Self::Mask {
-        bits as __mmask16
-    }
-
-    #[inline(always)]
-    fn unless_above(keep: Self::Mask, x: Self, bound: Self) -> Self::Mask {
-        instructions!(_mm512_mask_cmp_ps_mask::<_CMP_NGT_UQ>(keep, x.0, bound.0))
     }
 
     #[inline(always)]
@@ -131,11 +138,6 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn or_else(self, mask: Self::Mask, other: Self) -> Self {
         instructions!(Self(_mm512_mask_blend_ps(mask, other.0, self.0)))
-    }
-
-    #[inline(always)]
-    fn bits(mask: Self::Mask) -> Bits {
-        Bits::from(mask)
     }
 
     #[inline(always)]

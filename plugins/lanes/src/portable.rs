@@ -1,29 +1,29 @@
-//! An array, for processors without AVX2: the compiler makes of it what it can.
+//! Four registers of four numbers, for processors without AVX2.
 
 use core::ops::{Add, Mul, Sub};
 
-use super::{Bits, Lanes};
+use super::{Bits, Four, Lanes, Numbers};
 
-/// Sixteen numbers in an array.
+/// Sixteen numbers in four registers.
 #[derive(Clone, Copy)]
-pub struct Portable([f32; 16]);
+pub struct Portable([Four; 4]);
 
-impl Portable {
-    #[inline(always)]
-    fn with(self, other: Self, f: impl Fn(f32, f32) -> f32) -> Self {
-        let mut out = [0.0; 16];
-        for i in 0..16 {
-            out[i] = f(self.0[i], other.0[i]);
-        }
-        Self(out)
-    }
+/// The same for each register.
+macro_rules! each {
+    ($i:ident => $value:expr) => {
+        [each!($i = 0, $value), each!($i = 1, $value), each!($i = 2, $value), each!($i = 3, $value)]
+    };
+    ($i:ident = $number:literal, $value:expr) => {{
+        let $i = $number;
+        $value
+    }};
 }
 
 impl Add for Portable {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        self.with(other, |x, y| x + y)
+        Self(each!(i => self.0[i] + other.0[i]))
     }
 }
 
@@ -31,7 +31,7 @@ impl Sub for Portable {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        self.with(other, |x, y| x - y)
+        Self(each!(i => self.0[i] - other.0[i]))
     }
 }
 
@@ -39,134 +39,121 @@ impl Mul for Portable {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        self.with(other, |x, y| x * y)
+        Self(each!(i => self.0[i] * other.0[i]))
     }
 }
 
-impl Lanes for Portable {
-    type Mask = [u32; 16];
+impl Numbers for Portable {
+    type Mask = [Four; 4];
 
     #[inline(always)]
     fn splat(x: f32) -> Self {
-        Self([x; 16])
-    }
-
-    #[inline(always)]
-    fn load(from: &[f32; 16]) -> Self {
-        Self(*from)
-    }
-
-    #[inline(always)]
-    fn store(self, to: &mut [f32; 16]) {
-        *to = self.0;
-    }
-
-    #[inline(always)]
-    fn spread(from: &[f32; 4]) -> Self {
-        let [x, y, z, w] = *from;
-        Self([x, x, x, x, y, y, y, y, z, z, z, z, w, w, w, w])
-    }
-
-    #[inline(always)]
-    fn spread_of(self, four: usize) -> Self {
-        Self::spread(&self.0.as_chunks().0[four])
-    }
-
-    #[inline(always)]
-    fn tile(from: &[f32; 4]) -> Self {
-        let [x, y, z, w] = *from;
-        Self([x, y, z, w, x, y, z, w, x, y, z, w, x, y, z, w])
+        Self([Four::splat(x); 4])
     }
 
     #[inline(always)]
     fn mul_add(self, factor: Self, summand: Self) -> Self {
-        // Rounded twice: a fused one would be a function call.
         self * factor + summand
     }
 
     #[inline(always)]
     fn abs(self) -> Self {
-        Self(self.0.map(f32::abs))
+        Self(each!(i => self.0[i].abs()))
     }
 
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        self.with(other, |x, y| if x < y { x } else { y })
+        Self(each!(i => Numbers::min(self.0[i], other.0[i])))
     }
 
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        self.with(other, |x, y| if x > y { x } else { y })
+        Self(each!(i => Numbers::max(self.0[i], other.0[i])))
     }
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Self(self.0.map(f32::sqrt))
-    }
-
-    #[inline(always)]
-    fn reciprocal(self) -> Self {
-        Self(self.0.map(|x| 1.0 / x))
+        Self(each!(i => self.0[i].sqrt()))
     }
 
     #[inline(always)]
     fn lanes(bits: Bits) -> Self::Mask {
-        let mut out = [0; 16];
-        for i in 0..16 {
-            out[i] = 0u32.wrapping_sub(bits >> i & 1);
-        }
-        out
+        each!(i => Four::lanes(bits >> (4 * i)))
     }
 
     #[inline(always)]
     fn unless_above(keep: Self::Mask, x: Self, bound: Self) -> Self::Mask {
-        let mut out = keep;
-        for i in 0..16 {
-            out[i] &= if x.0[i] > bound.0[i] { 0 } else { u32::MAX };
-        }
-        out
-    }
-
-    #[inline(always)]
-    fn above(self, other: Self) -> Self::Mask {
-        let mut out = [0; 16];
-        for i in 0..16 {
-            out[i] = if self.0[i] > other.0[i] { u32::MAX } else { 0 };
-        }
-        out
-    }
-
-    #[inline(always)]
-    fn either(one: Self::Mask, other: Self::Mask) -> Self::Mask {
-        let mut out = one;
-        for i in 0..16 {
-            out[i] |= other[i];
-        }
-        out
-    }
-
-    #[inline(always)]
-    fn or_else(self, mask: Self::Mask, other: Self) -> Self {
-        let mut out = other.0;
-        for i in 0..16 {
-            out[i] = if mask[i] != 0 { self.0[i] } else { out[i] };
-        }
-        Self(out)
+        each!(i => Four::unless_above(keep[i], x.0[i], bound.0[i]))
     }
 
     #[inline(always)]
     fn bits(mask: Self::Mask) -> Bits {
-        mask.iter().enumerate().fold(0, |bits, (i, &set)| bits | (set & 1) << i)
+        let [first, second, third, fourth] = each!(i => mask[i].to_bitmask());
+        first | second << 4 | third << 8 | fourth << 12
+    }
+}
+
+impl Lanes for Portable {
+    const NARROW: bool = true;
+
+    #[inline(always)]
+    fn load(from: &[f32; 16]) -> Self {
+        let from = from.as_chunks().0;
+        Self(each!(i => Four::new(from[i])))
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f32; 16]) {
+        for (four, to) in self.0.iter().zip(to.as_chunks_mut().0) {
+            *to = four.to_array();
+        }
+    }
+
+    #[inline(always)]
+    fn spread(from: &[f32; 4]) -> Self {
+        Self(each!(i => Four::splat(from[i])))
+    }
+
+    #[inline(always)]
+    fn spread_of(self, four: usize) -> Self {
+        Self::spread(self.0[four].as_array())
+    }
+
+    #[inline(always)]
+    fn tile(from: &[f32; 4]) -> Self {
+        Self([Four::new(*from); 4])
+    }
+
+    #[inline(always)]
+    fn reciprocal(self) -> Self {
+        Self(each!(i => Four::splat(1.0) / self.0[i]))
+    }
+
+    #[inline(always)]
+    fn above(self, other: Self) -> Self::Mask {
+        each!(i => self.0[i].simd_gt(other.0[i]))
+    }
+
+    #[inline(always)]
+    fn either(one: Self::Mask, other: Self::Mask) -> Self::Mask {
+        each!(i => one[i] | other[i])
+    }
+
+    #[inline(always)]
+    fn or_else(self, mask: Self::Mask, other: Self) -> Self {
+        Self(each!(i => mask[i].bitselect(self.0[i], other.0[i])))
     }
 
     #[inline(always)]
     fn least(self, mut among: Bits) -> usize {
+        let mut numbers = [0.0; 16];
+        self.store(&mut numbers);
         let (mut least, mut found) = (f32::INFINITY, 0);
         while among != 0 {
             let lane = among.trailing_zeros() as usize % 16;
             among &= among - 1;
-            if self.0[lane] < least {
-                (least, found) = (self.0[lane], lane);
+            if numbers[lane] < least {
+                (least, found) = (numbers[lane], lane);
             }
         }
         found

@@ -4,6 +4,7 @@ mod boxes;
 mod build;
 mod collide;
 mod faces;
+mod narrow;
 mod nearest;
 mod obb;
 mod queue;

@@ -1,16 +1,16 @@
 //! Sixteen pairs of oriented boxes: do they overlap, how far apart are they?
 
-use ocb_lanes::{Bits, Lanes, Points, dot, inverse, sub, three};
+use ocb_lanes::{Bits, Lanes, Numbers, Points, dot, inverse, sub, three};
 
 use super::relative::{Relative, stored};
 use super::tree::{Node, row};
 
-/// Sixteen boxes.
+/// As many boxes as there are lanes.
 #[derive(Clone, Copy)]
 pub struct Boxes<L> {
-    center: Points<L>,
-    axes: [Points<L>; 3],
-    half: Points<L>,
+    pub center: Points<L>,
+    pub axes: [Points<L>; 3],
+    pub half: Points<L>,
 }
 
 impl<L: Lanes> Boxes<L> {
@@ -82,18 +82,24 @@ pub(crate) use against;
 pub fn overlap<L: Lanes>(a: &Boxes<L>, b: &Boxes<L>, live: Bits) -> (Bits, usize) {
     let between = sub(&b.center, &a.center);
     let nearest = dot(&between, &between).least(live);
+    (not_separated(a, b, &between, live), nearest)
+}
+
+/// The lanes in which no axis of either box separates them; `between` leads from A's middles to B's.
+#[inline(always)]
+pub fn not_separated<L: Numbers>(a: &Boxes<L>, b: &Boxes<L>, between: &Points<L>, live: Bits) -> Bits {
     let reach = three!(k => three!(j => dot(&a.axes[k], &b.axes[j]).abs()));
     // Three short chains of comparisons, since each waits for the one before.
     let mut keep = [L::lanes(live); 3];
     for k in 0..3 {
         let radius_b = dot(&reach[k], &b.half);
-        keep[k] = L::unless_above(keep[k], dot(&a.axes[k], &between).abs(), radius_b + a.half[k]);
+        keep[k] = L::unless_above(keep[k], dot(&a.axes[k], between).abs(), radius_b + a.half[k]);
     }
     for j in 0..3 {
         let radius_a = dot(&[reach[0][j], reach[1][j], reach[2][j]], &a.half);
-        keep[j] = L::unless_above(keep[j], dot(&b.axes[j], &between).abs(), radius_a + b.half[j]);
+        keep[j] = L::unless_above(keep[j], dot(&b.axes[j], between).abs(), radius_a + b.half[j]);
     }
-    (L::bits(keep[0]) & L::bits(keep[1]) & L::bits(keep[2]), nearest)
+    L::bits(keep[0]) & L::bits(keep[1]) & L::bits(keep[2])
 }
 
 /// Lower bounds of the squared distances of the boxes. B's boxes have been enlarged by the slack.
@@ -120,4 +126,4 @@ pub fn squared_distance<L: Lanes>(a: &Boxes<L>, b: &Boxes<L>) -> L {
 }
 
 /// Takes off what squares and the reciprocal may be off.
-const SURE: f32 = 1.0 - 1.0 / 65_536.0;
+pub const SURE: f32 = 1.0 - 1.0 / 65_536.0;

@@ -4,13 +4,13 @@ use ocb_lanes::{Bits, Lanes, Work};
 use ocb_triangles::meet;
 use opencollbench_plugin::Count;
 
-use super::Placed;
 use super::boxes::{Boxes, against, overlap};
 use super::faces::{left_by_edges, left_by_planes};
 use super::relative::stored;
 use super::stack::Stack;
 use super::tree::{Link, Node, Tree};
 use super::waiting::Waiting;
+use super::{Placed, narrow};
 use crate::Pair;
 
 /// What is still to be done, kept from query to query for its memory.
@@ -116,7 +116,11 @@ impl<C: Count> Contacts<'_, C> {
         let (node_a, node_b) = (tree_a.node(a), tree_b.node(b));
         let live = live(a, b);
         self.work.bv_tests(u64::from(live.count_ones()));
-        let (left, nearest) = against!(overlap, [a, b], node_a, node_b, relative, live);
+        let (left, nearest) = if L::NARROW {
+            narrow::overlap([a, b], node_a, node_b, relative, live)
+        } else {
+            against!(overlap, [a, b], node_a, node_b, relative, live)
+        };
         self.put::<L>(left, nearest, &successors(a, node_a), &successors(b, node_b));
     }
 

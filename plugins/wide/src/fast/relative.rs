@@ -1,11 +1,11 @@
 //! B as A sees it: what all kernels of a query share.
 
-use ocb_triangles::vector::{dot, norm_1, rotate, transposed};
+use ocb_triangles::vector::{self, norm_1, rotate, transposed};
 use ocb_triangles::{Frame, skew};
 
 use super::rounding::SLACK;
 use super::tree::{Node, Tree, Vectors};
-use ocb_lanes::{Lanes, Points, three};
+use ocb_lanes::{Lanes, Numbers, Points, dot, three};
 
 use crate::Between;
 
@@ -29,7 +29,7 @@ impl Relative {
     #[inline(always)]
     pub fn new<L: Lanes>(frame: &Frame, a: &Tree, b: &Tree) -> Self {
         let (columns_a, columns_b) = (transposed(&frame.rotation_a), transposed(&frame.rotation_b));
-        let rotation = three!(i => three!(j => dot(columns_a[i], columns_b[j]) as f32));
+        let rotation = three!(i => three!(j => vector::dot(columns_a[i], columns_b[j]) as f32));
         let between = Between::new(frame, &a.local, &b.local);
         let translation = rotate(&columns_a, between.middles);
         let scale = between.scale;
@@ -67,9 +67,22 @@ impl Relative {
         })
     }
 
+    /// Points of B in A's frame.
+    #[inline(always)]
+    pub fn place_points<N: Numbers>(&self, points: &Points<N>) -> Points<N> {
+        let turned = self.turn(points);
+        three!(i => turned[i].mul_add(N::splat(self.scale), N::splat(self.shifts[0][i][0])))
+    }
+
+    /// Directions of B in A's frame.
+    #[inline(always)]
+    pub fn turn<N: Numbers>(&self, directions: &Points<N>) -> Points<N> {
+        three!(i => dot(&three!(j => N::splat(self.rotation[i][j])), directions))
+    }
+
     /// Half sides of boxes of B in A's unit, larger by the slack.
     #[inline(always)]
-    pub fn enlarge<L: Lanes>(&self, half: L) -> L {
+    pub fn enlarge<L: Numbers>(&self, half: L) -> L {
         half.mul_add(L::splat(self.scale), L::splat(self.slack))
     }
 }

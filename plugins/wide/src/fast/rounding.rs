@@ -36,6 +36,11 @@
 //! products with a unit vector add up to 1 at least. Half sides of B are brought to A's unit, a power of two, and
 //! enlarged by the slack in one or two roundings: `2 u` of them, in the spare.
 //!
+//! **Spheres.** No point of a box is further from its middle than the root of the squares of the stored half sides: axes
+//! off orthonormal by `10 u` add less than that much of it, which is in the spare, and sides that are longer by the slack
+//! have a diagonal that is longer by no less. The squared distance of the middles, the roots and the square of their sum are
+//! off by less than `2^-19`; the kernel takes off `2^-16`.
+//!
 //! **Bounds of distances of boxes.** Gaps along the three axes of one box are parts of one vector, up to `2 sqrt(3)
 //! u` of its length. Along the line of the middles, both reaches are products with the same numbers that make the
 //! squared length: off by `3 u sum h`, in the spare, and by `4 u S`, in the slack. Squares, products and the inverse
@@ -54,8 +59,8 @@
 //! the gap along the vector between them, divided by its length, less the slack; the quotient is off by less than
 //! `2^-19`, and `2^-16` is taken off. Neither depends on how good the points are.
 //!
-//! **Small numbers.** Products of two edges may be smaller than single precision can hold. They are then off by a
-//! few times 2^-149, and every comparison asks for `1e-36` more.
+//! **Small numbers.** Products of two edges, or squares, may be smaller than single precision can hold. They are then off by
+//! a few times 2^-149, and every comparison of such asks for `1e-36` more.
 
 /// A rounding of single precision, relative to its result.
 pub const ROUNDING: f64 = f32::EPSILON as f64 / 2.0;
