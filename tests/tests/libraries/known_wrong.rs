@@ -2,7 +2,7 @@
 
 use ocb_tests::place::{built, root};
 
-use super::{near_contact, single_pairs};
+use super::{near_contact, single_pairs, units};
 
 const DOCUMENT: &str = "plugins/cpp/KNOWN-WRONG.md";
 
@@ -20,7 +20,7 @@ nearest points until they are so far apart, or so deep in each other; the boundi
 
 #[test]
 fn the_known_wrong_answers_are_still_those() {
-    let found = format!("{HEAD}{}{}", near_contact::tables(), single_pairs::tables());
+    let found = format!("{HEAD}{}{}{}", near_contact::tables(), single_pairs::tables(), units::table());
     let written = std::fs::read_to_string(root().join(DOCUMENT)).unwrap_or_default();
     if found != written {
         let beside = built("ocb-runner").with_file_name("KNOWN-WRONG.md");

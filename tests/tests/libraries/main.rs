@@ -10,3 +10,4 @@ mod own_copies;
 mod real_input;
 mod single_pairs;
 mod support;
+mod units;

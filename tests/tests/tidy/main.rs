@@ -3,4 +3,5 @@
 mod files;
 mod floors;
 mod licences;
+mod plugins;
 mod sources;
