@@ -76,7 +76,7 @@ impl Bench {
 
     /// One pass of box-tree in a fresh process.
     fn process(&self, seed: u64) -> Process {
-        let shown = Presentation::drawn(&self.mesh, None, self.configurations.iter(), false, seed);
+        let shown = Presentation::drawn(&self.mesh, None, self.configurations.iter(), false, seed, 2);
         let mut session = self.start(&self.box_tree, "box-tree", shown.first());
         let mut order: Vec<u32> = (0..self.configurations.len() as u32).collect();
         Numbers::new(seed).shuffle(&mut order);

@@ -5,9 +5,10 @@
 //! or their exponent and nothing else. So the certified truth of the original holds for every instance, an answer
 //! translates back without a rounding, and a wrong answer to an instance is a wrong answer.
 //!
-//! Renumbering and scaling belong to a [`Presentation`], which lasts as long as a process; the rotation differs from
-//! question to question, unless the order of the questions is part of what is measured. Only questions whose time does not
-//! count are swapped: a method may be faster one way round, and the time shall be that of the question as it was asked.
+//! Renumbering and scaling belong to a [`Presentation`], which lasts as long as a process; the first two processes see the
+//! smallest and the largest scale, so that no luck decides whether a tolerance is met that is a length in nobody's unit. The
+//! rotation differs from question to question, unless the order of the questions is part of what is measured. Only questions
+//! whose time does not count are swapped: a method may be faster one way round, and the time shall be that of the question as it was asked.
 
 use nalgebra::{Matrix3, Point3};
 use serde::{Deserialize, Serialize};
@@ -19,7 +20,7 @@ use crate::pose::Pose;
 use crate::query::Answer;
 
 /// Grows when the same seed gives other instances, which a recorded run can then not be asked again as.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 /// Scales are from 2^-3 to 2^3.
 const EXPONENTS: usize = 7;
 /// Coordinates between these magnitudes can be scaled that far, in single precision as well.
@@ -90,16 +91,20 @@ impl Presentation {
         }
     }
 
-    /// Drawn by a seed. `coherent`: all questions are turned alike, so that near configurations stay near.
+    /// Drawn by a seed, for the process of this number. `coherent`: all questions are turned alike, so that near
+    /// configurations stay near.
     pub fn drawn<'c>(
         a: &Mesh,
         b: Option<&Mesh>,
         mut configurations: impl Iterator<Item = &'c Configuration>,
         coherent: bool,
         seed: u64,
+        process: u32,
     ) -> Self {
         let mut numbers = Numbers::new(seed);
-        let exponent = numbers.below(EXPONENTS) as i32 - EXPONENTS as i32 / 2;
+        let drawn = numbers.below(EXPONENTS);
+        let exponent = [0, EXPONENTS - 1].get(process as usize).unwrap_or(&drawn);
+        let exponent = *exponent as i32 - EXPONENTS as i32 / 2;
         let fits = |x: f64| x == 0.0 || SCALABLE.contains(&x.abs());
         let poses = |c: &Configuration| [c.pose_a, c.pose_b].iter().all(|p| p.translation.iter().copied().all(fits));
         let scalable =
@@ -269,7 +274,7 @@ mod tests {
         let all: Vec<Configuration> = (0..24).map(|i| configuration(f64::from(i) * 0.1 - 1.2)).collect();
         let (mut hits, mut swaps, mut scales) = (0, 0, std::collections::BTreeSet::new());
         for seed in 0..20 {
-            let shown = Presentation::drawn(&a, Some(&b), all.iter(), false, seed);
+            let shown = Presentation::drawn(&a, Some(&b), all.iter(), false, seed, seed as u32);
             scales.insert(shown.scale.to_bits());
             let meshes = [shown.first(), shown.second().unwrap()].map(|m| Shape::new(Arc::new(m.clone())));
             let [straight, crossed] = [Pair::new(&meshes[0], &meshes[1]), Pair::new(&meshes[1], &meshes[0])];
@@ -306,9 +311,21 @@ mod tests {
     }
 
     #[test]
+    fn whatever_the_seed_the_first_two_processes_see_the_smallest_and_the_largest_scale() {
+        let (a, near) = (mesh(0.0, 5), configuration(1.0));
+        let scales = |process| -> std::collections::BTreeSet<u64> {
+            let scale = |seed| Presentation::drawn(&a, None, [near].iter(), false, seed, process).scale.to_bits();
+            (0..100).map(scale).collect()
+        };
+        assert_eq!(scales(0), [0.125f64.to_bits()].into());
+        assert_eq!(scales(1), [8f64.to_bits()].into());
+        assert_eq!(scales(2).len(), EXPONENTS);
+    }
+
+    #[test]
     fn numbers_are_renumbered_and_those_that_do_not_exist_stay_so() {
         let a = mesh(0.0, 5);
-        let shown = Presentation::drawn(&a, None, [configuration(1.0)].iter(), true, 3);
+        let shown = Presentation::drawn(&a, None, [configuration(1.0)].iter(), true, 3, 3);
         assert!(shown.second().is_none());
         for i in 0..5u32 {
             let answer = Answer::Collision { hit: true, pair: Some([i, u32::MAX]) };
@@ -329,7 +346,7 @@ mod tests {
             pose_b: Pose { translation: Vector3::repeat(1e-305), ..Pose::identity() },
             ..configuration(0.0)
         };
-        assert!((0..20).all(|seed| Presentation::drawn(&a, None, [tiny].iter(), true, seed).scale == 1.0));
+        assert!((0..20).all(|seed| Presentation::drawn(&a, None, [tiny].iter(), true, seed, 0).scale == 1.0));
         let other = Instance { number: 9, aside: false };
         assert_eq!(shown.present(&tiny, 0, Instance::default()), shown.present(&tiny, 7, other));
     }

@@ -260,7 +260,7 @@ pub fn shown<'c>(
     seed: u64,
     process: u32,
 ) -> Presentation {
-    Presentation::drawn(a, b, configurations, coherent, process_seed(seed, process))
+    Presentation::drawn(a, b, configurations, coherent, process_seed(seed, process), process)
 }
 
 fn process_seed(seed: u64, process: u32) -> u64 {

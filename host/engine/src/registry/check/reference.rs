@@ -23,7 +23,7 @@ use crate::model::{AlgorithmInfo, CheckLine, CheckVerdict};
 use crate::{EngineError, Result};
 
 /// Processes per scene.
-const PROCESSES: u64 = 2;
+const PROCESSES: u32 = 2;
 /// Questions to the small pair: enough to meet one wrong answer in a hundred thousand with a probability of 98 in 100.
 const MANY: usize = 400_000;
 /// A slow algorithm is asked for so long on each scene; the report says how far it came.
@@ -83,13 +83,14 @@ impl Checking<'_> {
             if self.stopped || asked.first.is_some() || asked.ending.is_some() {
                 break;
             }
-            let seed = seed_of(&algorithm.plugin_sha256) ^ process;
+            let seed = seed_of(&algorithm.plugin_sha256) ^ u64::from(process);
             let shown = Presentation::drawn(
                 &scene.mesh_a,
                 scene.mesh_b.as_deref(),
                 scene.placed.iter().map(|placed| &placed.configuration),
                 algorithm.coherent,
                 seed,
+                process,
             );
             let trial = Trial {
                 plugin: file,
