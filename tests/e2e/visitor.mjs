@@ -63,7 +63,7 @@ async function accessible(page, what, parts = []) {
   assert.ok(over <= 0, `${what} scrolls sideways by ${over} px`)
 }
 
-/** How many strongly coloured pixels, and how many different hues (of 36), an element shows. */
+/** How many strongly coloured pixels, how many different hues (of 36), and how many pixels of each an element shows. */
 async function colours(context, locator) {
   const picture = (await locator.screenshot()).toString('base64')
   const blank = await context.newPage()
@@ -88,7 +88,7 @@ async function colours(context, locator) {
         const hue = Math.floor(sixth * 6)
         hues.set(hue, (hues.get(hue) ?? 0) + 1)
       }
-      return { coloured, hues: [...hues.values()].filter((n) => n > 20).length }
+      return { coloured, hues: [...hues.values()].filter((n) => n > 20).length, each: Object.fromEntries(hues) }
     }, picture)
   } finally {
     await blank.close()

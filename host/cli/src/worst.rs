@@ -33,11 +33,17 @@ async fn list(engine: &Engine, args: &WorstArgs, json: bool) -> Result<()> {
         "answer",
         "truth",
         "error [u S]",
-        "triangles A, B",
-        "witness A",
-        "witness B",
+        "true triangles A, B",
+        "true point A",
+        "true point B",
+        "claimed triangles A, B",
+        "claimed point A",
+        "claimed point B",
     ];
-    output::print(&output::table(&headings, cases.iter().map(row).collect(), &[0, 1, 5]))
+    // What wrong answers point at, where there are any.
+    let shown = if cases.iter().any(|case| case.claim.is_some()) { headings.len() } else { headings.len() - 3 };
+    let rows = cases.iter().map(|case| row(case).into_iter().take(shown).collect()).collect();
+    output::print(&output::table(&headings[..shown], rows, &[0, 1, 5]))
 }
 
 fn row(case: &WorstCase) -> Vec<String> {
@@ -50,6 +56,8 @@ fn row(case: &WorstCase) -> Vec<String> {
     let truth =
         if case.distance.is_some() { format!("{:.6e}", case.true_distance[1]) } else { decision(case.true_hit) };
     let point = |[x, y, z]: [f64; 3]| format!("{x:.4} {y:.4} {z:.4}");
+    let triangles = |[a, b]: [u32; 2]| format!("{a}, {b}");
+    let claimed = case.claim.and_then(|claim| claim.points);
     vec![
         case.configuration.to_string(),
         units::time(case.time_ns),
@@ -57,8 +65,11 @@ fn row(case: &WorstCase) -> Vec<String> {
         answer,
         truth,
         case.error.map_or_else(String::new, |error| format!("{error:.3}")),
-        format!("{}, {}", case.triangles[0], case.triangles[1]),
+        triangles(case.triangles),
         point(case.points[0]),
         point(case.points[1]),
+        case.claim.and_then(|claim| claim.triangles).map_or_else(String::new, triangles),
+        claimed.map_or_else(String::new, |points| point(points[0])),
+        claimed.map_or_else(String::new, |points| point(points[1])),
     ]
 }

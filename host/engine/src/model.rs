@@ -58,7 +58,7 @@ pub use people::{
 pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport, Repro};
 pub use preview::{Beside, Preview};
 pub use replay::{Difference, Recipe, RecipeAlgorithm, RecipeFile, RecipeObject, RecipeVersions, Replay, Replayed};
-pub use selecting::{Meeting, Selected, SelectedOf, WorstBy, WorstCase, WorstRequest};
+pub use selecting::{Claim, Meeting, Selected, SelectedOf, WorstBy, WorstCase, WorstRequest};
 pub use stability::{
     CellState, FailingCase, FailureInfo, FailureResult, FamilyInfo, FamilyResult, RelationInfo, RelationResult,
     RelationStep, SearchResult, Stability, StabilityTable, StepResult, Tally, TessellationResult, ThresholdInfo,

@@ -151,6 +151,9 @@ async fn the_worst_come_wrong_ones_first_with_poses_witnesses_and_triangles() {
     let first = &worst[0];
     let apart: f64 = (0..3).map(|i| (first.points[0][i] - first.points[1][i]).powi(2)).sum::<f64>().sqrt();
     assert!((apart - first.true_distance[1]).abs() < 1e-9 && first.pose_b.len() == 16 && apart > 0.0);
+    // A false alarm names triangles; what is right points at nothing that would have to be looked at.
+    assert!(worst[..failed].iter().all(|case| case.claim.is_some_and(|c| c.triangles.is_some() && c.points.is_none())));
+    assert!(worst[failed..].iter().all(|case| case.claim.is_none()));
     let meeting = engine.meeting(&run.id, first.configuration).await.unwrap();
     assert_eq!((meeting.total, meeting.pairs.len()), (0, 0), "they do not meet");
     assert!(matches!(engine.meeting(&run.id, 60_000).await, Err(EngineError::NotFound(_))));
@@ -165,5 +168,7 @@ async fn the_worst_come_wrong_ones_first_with_poses_witnesses_and_triangles() {
     let largest = worst.iter().filter_map(|case| case.error).fold(0.0, f64::max);
     assert_eq!((map.range.unwrap()[1], map.unit.as_str()), (largest, "u S"));
     assert!(worst.iter().all(|case| case.verdict.is_wrong() || case.error.is_none_or(|error| error <= 32.0)));
+    assert!(worst.iter().all(|case| case.verdict.is_wrong() || case.claim.is_none()));
+    assert!(worst.iter().any(|case| case.claim.is_some_and(|claim| claim.triangles.is_some())), "{:?}", worst[0]);
     engine.shutdown().await;
 }

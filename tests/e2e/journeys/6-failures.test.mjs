@@ -124,9 +124,17 @@ test('failures stand on the object, zero as zero, and are subtracted, brushed, l
   assert.equal(await rows.first().getAttribute('data-verdict'), 'false_positive')
   await rows.nth(1).getByRole('button').press('Enter')
   await until('what meets', async () => (await v.value('pair-meeting')) === 0)
+  assert.match(await v.at('pair-claim').textContent(), /^the answer names triangles \d+ of A and \d+ of B$/)
   await until('the pair', async () => (await v.colours(v.at('pair'))).coloured > 300)
   await v.at('worst').scrollIntoViewIfNeeded()
   await v.picture('failures-worst')
+  // Closer, the claimed triangles are seen.
+  const PURPLE = 31
+  const claimed = async () => (await v.colours(v.at('pair'))).each[PURPLE] ?? 0
+  const far = await claimed()
+  await v.at('pair-close').press('Enter')
+  await until('the claim', async () => (await claimed()) > far + 100)
+  await v.picture('failures-close')
   for (const scheme of ['light', 'dark']) {
     await v.page.emulateMedia({ colorScheme: scheme })
     await v.accessible(`failures, ${scheme}`)

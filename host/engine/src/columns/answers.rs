@@ -117,6 +117,39 @@ pub fn read_answers(bytes: &[u8]) -> Result<Vec<AnswerRow>, String> {
     Ok(all)
 }
 
+/// What answers point at.
+pub struct Pointers<'b> {
+    triangles: [&'b UInt32Array; 2],
+    coordinates: Vec<&'b Float64Array>,
+}
+
+impl<'b> Pointers<'b> {
+    /// The columns of a file of records that hold it.
+    pub fn of(batch: &'b RecordBatch) -> Result<Self, String> {
+        let real = |name| column::<Float64Array>(batch, name);
+        let coordinates = ["point_a_x", "point_a_y", "point_a_z", "point_b_x", "point_b_y", "point_b_z"].map(real);
+        Ok(Self {
+            triangles: [column(batch, "triangle_a")?, column(batch, "triangle_b")?],
+            coordinates: coordinates.into_iter().collect::<Result<Vec<_>, _>>()?,
+        })
+    }
+
+    /// Triangles of A and B.
+    pub fn triangles(&self, row: usize) -> Option<[u32; 2]> {
+        let of = |side: usize| self.triangles[side].is_valid(row).then(|| self.triangles[side].value(row));
+        Some([of(0)?, of(1)?])
+    }
+
+    /// Points on A and on B.
+    pub fn points(&self, row: usize) -> Option<[Point3<f64>; 2]> {
+        let of = |side: usize| {
+            let of = |axis: usize| self.coordinates[3 * side + axis];
+            of(0).is_valid(row).then(|| Point3::new(of(0).value(row), of(1).value(row), of(2).value(row)))
+        };
+        Some([of(0)?, of(1)?])
+    }
+}
+
 fn append(all: &mut Vec<AnswerRow>, batch: &RecordBatch) -> Result<(), String> {
     let whole = |name| column::<UInt32Array>(batch, name);
     let real = |name| column::<Float64Array>(batch, name);
@@ -126,18 +159,11 @@ fn append(all: &mut Vec<AnswerRow>, batch: &RecordBatch) -> Result<(), String> {
     let (contacts, hash) =
         (column::<UInt64Array>(batch, "contacts")?, column::<StringArray>(batch, "contacts_sha256")?);
     let distance = real("distance")?;
-    let triangles = [whole("triangle_a")?, whole("triangle_b")?];
-    let coordinates = ["point_a_x", "point_a_y", "point_a_z", "point_b_x", "point_b_y", "point_b_z"].map(real);
-    let coordinates = coordinates.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let pointers = Pointers::of(batch)?;
     for row in 0..batch.num_rows() {
         let name = kind.value(row);
         let known =
             KINDS.iter().find(|known| **known == name).ok_or_else(|| format!("{name:?} is no kind of answer"))?;
-        let point = |side: usize| {
-            let of = |axis: usize| coordinates[3 * side + axis];
-            of(0).is_valid(row).then(|| Point3::new(of(0).value(row), of(1).value(row), of(2).value(row)))
-        };
-        let triangle = |side: usize| triangles[side].is_valid(row).then(|| triangles[side].value(row));
         all.push(AnswerRow {
             configuration: configuration.value(row),
             asked: AskedAs {
@@ -150,8 +176,8 @@ fn append(all: &mut Vec<AnswerRow>, batch: &RecordBatch) -> Result<(), String> {
                 contacts: contacts.is_valid(row).then(|| contacts.value(row)),
                 contacts_sha256: hash.is_valid(row).then(|| hash.value(row).to_owned()),
                 distance: distance.is_valid(row).then(|| distance.value(row)),
-                triangles: triangle(0).zip(triangle(1)).map(|(a, b)| [a, b]),
-                points: point(0).zip(point(1)).map(|(a, b)| [a, b]),
+                triangles: pointers.triangles(row),
+                points: pointers.points(row),
             },
         });
     }

@@ -7,8 +7,9 @@ use arrow_array::{BooleanArray, Float64Array, RecordBatch, StringArray, UInt32Ar
 use ocb_core::agreement::Said;
 use ocb_core::record::{ContactScore, Record, Verdict};
 
-use super::answers::Flat;
+use super::answers::{Flat, Pointers};
 use super::{SCHEMA_VERSION, batch, column, from_parquet, to_parquet};
+use crate::model::Claim;
 use crate::{EngineError, Result};
 
 /// What the file says of itself.
@@ -42,6 +43,8 @@ pub struct RecordColumns {
     pub said: Vec<Said>,
     /// Answers that contradict the first one; nothing in files of versions that did not count them.
     pub flips: Vec<Option<u32>>,
+    /// What the wrong answers point at, by row.
+    pub claims: HashMap<usize, Claim>,
 }
 
 impl RecordColumns {
@@ -127,6 +130,7 @@ pub fn read_records(bytes: &[u8]) -> Result<RecordColumns> {
 
 impl RecordColumns {
     fn append(&mut self, batch: &RecordBatch) -> std::result::Result<(), String> {
+        let before = self.configuration.len();
         self.configuration.extend_from_slice(column::<UInt32Array>(batch, "configuration")?.values());
         self.time_ns.extend_from_slice(column::<Float64Array>(batch, "time_ns")?.values());
         self.bv_tests.extend(column::<UInt64Array>(batch, "bv_tests")?.iter());
@@ -145,6 +149,14 @@ impl RecordColumns {
         match column::<UInt32Array>(batch, "flips") {
             Ok(flips) => self.flips.extend(flips.iter()),
             Err(_) => self.flips.extend(std::iter::repeat_n(None, batch.num_rows())),
+        }
+        let pointers = Pointers::of(batch)?;
+        for row in (0..batch.num_rows()).filter(|row| self.verdict[before + row].is_wrong()) {
+            let points = pointers.points(row).map(|both| both.map(|p| [p.x, p.y, p.z]));
+            let claim = Claim { triangles: pointers.triangles(row), points };
+            if claim.triangles.is_some() || claim.points.is_some() {
+                self.claims.insert(before + row, claim);
+            }
         }
         Ok(())
     }
@@ -183,6 +195,22 @@ mod tests {
     }
 
     #[test]
+    fn what_a_wrong_answer_points_at_comes_back_with_its_row() {
+        let hit = |pair| Answer::Collision { hit: true, pair };
+        let [a, b] = [nalgebra::Point3::new(1.0, 2.0, 3.0), nalgebra::Point3::new(4.0, 5.0, 6.0)];
+        let near = Answer::Distance { distance: 0.25, points: Some([a, b]), triangles: None };
+        let wrong =
+            |configuration, answer| Record { verdict: Verdict::WrongWitness, ..record(configuration, answer, None) };
+        let records =
+            [record(0, hit(Some([1, 2])), None), wrong(1, hit(Some([3, 4]))), wrong(2, hit(None)), wrong(3, near)];
+        let of = RecordsOf { run: "r", algorithm: "a", plugin_sha256: "p", hardware_class: "h", set_sha256: "s" };
+        let claims = read_records(&records_parquet(&of, &records).unwrap()).unwrap().claims;
+        let points = Some([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+        let expected = [(1, Claim { triangles: Some([3, 4]), points: None }), (3, Claim { triangles: None, points })];
+        assert_eq!(claims, HashMap::from(expected));
+    }
+
+    #[test]
     fn records_come_back_from_parquet_and_read_well_as_csv() {
         let records = [
             record(
@@ -204,6 +232,7 @@ mod tests {
         assert_eq!(columns.flips, [7, 1, 2, 3].map(Some));
         assert_eq!(columns.said, [Said::Decision(true), Said::Distance(0.25), Said::Nothing, Said::Decision(true)]);
         assert_eq!(columns.verdict, [Verdict::Correct; 4]);
+        assert!(columns.claims.is_empty());
         let two = crate::columns::select(&file, &[false, true, false, true, true, true, true, false]).unwrap();
         assert_eq!(read_records(&two).unwrap().configuration, [1, 3]);
         let csv = String::from_utf8(csv(&file).unwrap()).unwrap();

@@ -100,6 +100,18 @@ pub struct WorstCase {
     pub points: [[f64; 3]; 2],
     /// The triangles of A and B that hold them.
     pub triangles: [u32; 2],
+    /// What a wrong answer points at, to be held against the certified points; absent when the answer is right or names
+    /// nothing.
+    pub claim: Option<Claim>,
+}
+
+/// What an answer says to be where two objects meet, or are nearest.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Claim {
+    /// Triangles of A and B.
+    pub triangles: Option<[u32; 2]>,
+    /// Points in the world, on A and on B.
+    pub points: Option<[[f64; 3]; 2]>,
 }
 
 /// All pairs of triangles that meet in one configuration.

@@ -201,5 +201,6 @@ fn case(table: &Table, lane: &Lane, row: usize, error: Option<f64>) -> WorstCase
         pose_b: placed.configuration.pose_b.to_row_major().to_vec(),
         points: [witness.point_a, witness.point_b].map(|p| [p.x, p.y, p.z]),
         triangles: [witness.triangle_a, witness.triangle_b],
+        claim: records.claims.get(&row).copied(),
     }
 }

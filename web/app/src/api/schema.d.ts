@@ -2139,6 +2139,13 @@ export interface components {
              */
             link: string;
         };
+        /** @description What an answer says to be where two objects meet, or are nearest. */
+        Claim: {
+            /** @description Points in the world, on A and on B. */
+            points?: number[][] | null;
+            /** @description Triangles of A and B. */
+            triangles?: number[] | null;
+        };
         /**
          * @description What may be asked of an answer at one precision: `CLEAR` and `COLLIDING` are scored, `GRAZING` is reported only.
          * @enum {string}
@@ -4116,6 +4123,7 @@ export interface components {
         };
         /** @description One of the worst configurations of an algorithm. */
         WorstCase: {
+            claim?: components["schemas"]["Claim"] | null;
             /**
              * Format: int32
              * @description Index of the configuration in the set.

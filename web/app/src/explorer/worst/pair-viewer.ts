@@ -13,7 +13,14 @@ export interface Posed {
   points: readonly (readonly number[])[]
   /** Triangles to light, of A and of B. */
   triangles: readonly [readonly number[], readonly number[]]
+  /** What a wrong answer points at: triangles of A and of B, and points in the world. */
+  claimed: { triangles: readonly [readonly number[], readonly number[]]; points: readonly (readonly number[])[] }
+  /** Look at the points and what is claimed, not at the whole objects. */
+  close: boolean
 }
+
+/** Of the whole scene, the least that a close look shows. */
+const CLOSEST = 0.04
 
 /** Draws both objects of one configuration, translucent, with witness points and lit triangles. Draws on demand only. */
 export class PairViewer {
@@ -48,6 +55,8 @@ export class PairViewer {
     this.clear()
     const poses = [posed.poseA, posed.poseB].map((pose) => new Matrix4().fromArray([...pose]).transpose())
     const box = new Box3()
+    const vector = ([x = 0, y = 0, z = 0]: readonly number[]) => new Vector3(x, y, z)
+    const spots = [...posed.points, ...posed.claimed.points].map(vector)
     this.surfaces.forEach((surface, side) => {
       const pose = poses[side] ?? new Matrix4()
       const material = new MeshLambertMaterial({
@@ -57,21 +66,23 @@ export class PairViewer {
       this.place(mesh, pose)
       mesh.updateMatrixWorld(true)
       box.expandByObject(mesh, true)
-      const lit = triangles(surface, posed.triangles[side] ?? [])
-      this.place(new Mesh(lit, new MeshBasicMaterial({ color: this.colour('--bad'), side: DoubleSide, depthTest: false })), pose)
+      for (const [chosen, colour] of [[posed.triangles, '--bad'], [posed.claimed.triangles, '--series-3']] as const) {
+        const lit = triangles(surface, chosen[side] ?? [])
+        this.place(new Mesh(lit, this.bright(colour)), pose)
+        const corners = lit.getAttribute('position')
+        if (chosen === posed.claimed.triangles)
+          for (let i = 0; i < corners.count; i++) spots.push(new Vector3().fromBufferAttribute(corners, i).applyMatrix4(pose))
+      }
     })
-    const points = posed.points.map(([x = 0, y = 0, z = 0]) => new Vector3(x, y, z))
-    const whole = box.getBoundingSphere(new Sphere())
-    for (const point of points) {
-      const dot = new Mesh(new SphereGeometry(whole.radius * 0.011, 16, 12), new MeshBasicMaterial({ color: this.colour('--ink'), depthTest: false }))
-      dot.position.copy(point)
-      dot.renderOrder = 3
-      this.content.add(dot)
+    const shown = box.getBoundingSphere(new Sphere())
+    if (posed.close) {
+      const least = CLOSEST * shown.radius
+      shown.setFromPoints(spots)
+      shown.radius = Math.max(least, 1.5 * shown.radius)
     }
-    const between = new Line(new BufferGeometry().setFromPoints(points), new LineBasicMaterial({ color: this.colour('--ink'), depthTest: false }))
-    between.renderOrder = 3
-    this.content.add(between)
-    this.rig.fit(whole)
+    this.join(posed.points.map(vector), '--ink', shown.radius)
+    this.join(posed.claimed.points.map(vector), '--series-3', shown.radius)
+    this.rig.fit(shown)
     this.invalidate()
   }
 
@@ -90,6 +101,27 @@ export class PairViewer {
     mesh.matrix.copy(pose)
     mesh.renderOrder = mesh.material instanceof MeshBasicMaterial ? 2 : 1
     this.content.add(mesh)
+  }
+
+  /** Dots, and a line through them. */
+  private join(points: readonly Vector3[], colour: string, size: number): void {
+    const dots = points.map((point) => {
+      const dot = new Mesh(new SphereGeometry(size * 0.011, 16, 12), this.bright(colour))
+      dot.position.copy(point)
+      return dot
+    })
+    const line = new Line(
+      new BufferGeometry().setFromPoints([...points]), new LineBasicMaterial({ color: this.colour(colour), depthTest: false, transparent: true }),
+    )
+    for (const node of [...dots, line]) {
+      node.renderOrder = 3
+      this.content.add(node)
+    }
+  }
+
+  /** Seen through everything: what is transparent is drawn last, in the order that is asked for. */
+  private bright(colour: string): MeshBasicMaterial {
+    return new MeshBasicMaterial({ color: this.colour(colour), side: DoubleSide, depthTest: false, transparent: true })
   }
 
   private clear(): void {
