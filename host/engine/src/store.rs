@@ -13,6 +13,7 @@ mod invitations;
 mod mails;
 mod notices;
 mod objects;
+mod plugin_lists;
 mod plugins;
 mod queue;
 mod requests;
@@ -115,6 +116,7 @@ fn migrations() -> Migrator {
         one(14, "requests", include_str!("../migrations/0014_requests.sql")),
         one(15, "notices", include_str!("../migrations/0015_notices.sql")),
         one(16, "campaigns", include_str!("../migrations/0016_campaigns.sql")),
+        one(17, "plugin lists", include_str!("../migrations/0017_plugin_lists.sql")),
     ])
 }
 

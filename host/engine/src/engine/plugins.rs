@@ -1,5 +1,8 @@
 //! Plugins that developers bring: sending, looking, deciding.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
 use super::Engine;
 use super::people::said;
 use crate::blobs::sha256_hex;
@@ -110,34 +113,34 @@ impl Engine {
     #[boxed]
     pub async fn plugins(&self, viewer: Option<&AccountInfo>, page: &Page) -> Result<Part<PluginInfo>> {
         let (from, limit) = page.start()?;
-        let all = self.inner.store.submissions().await?;
-        let place = |row: &&SubmissionRow| Cursor::behind(row.created_us, &row.id);
-        let may = |row: &&SubmissionRow| row.state.is_shown() || viewer.is_some_and(|v| v.id == row.account);
-        let mut rows: Vec<&SubmissionRow> = all.iter().filter(may).filter(|row| place(row) < from).collect();
-        rows.sort_by_key(|row| std::cmp::Reverse(place(row)));
-        let Part { entries, next } = Part::of(rows, limit, place);
-        Ok(Part { entries: self.listed(&entries, &all, viewer).await?, next })
+        let account = viewer.map(|viewer| viewer.id.as_str());
+        let rows = self.inner.store.submissions_for(account, &from, limit + 1).await?;
+        let Part { entries, next } =
+            Part::of(rows, limit, |row: &SubmissionRow| Cursor::behind(row.created_us, &row.id));
+        Ok(Part { entries: self.listed(&entries, viewer).await?, next })
     }
 
     /// What waits for a curator, oldest first; without reports and history.
     #[boxed]
     pub async fn curation(&self, curator: &AccountInfo, page: &Page) -> Result<Part<PluginInfo>> {
         let (from, limit) = page.start()?;
-        let all = self.inner.store.submissions().await?;
-        let Part { entries, next } = waiting(&all, &from, limit);
-        Ok(Part { entries: self.listed(&entries, &all, Some(curator)).await?, next })
+        let rows = self.inner.store.waiting_submissions(&from, limit + 1).await?;
+        let Part { entries, next } =
+            Part::of(rows, limit, |row: &SubmissionRow| Cursor::behind(-row.changed_us, &row.id));
+        Ok(Part { entries: self.listed(&entries, Some(curator)).await?, next })
     }
 
-    async fn listed(
-        &self,
-        rows: &[&SubmissionRow],
-        all: &[SubmissionRow],
-        viewer: Option<&AccountInfo>,
-    ) -> Result<Vec<PluginInfo>> {
-        let mut infos = Vec::new();
+    async fn listed(&self, rows: &[SubmissionRow], viewer: Option<&AccountInfo>) -> Result<Vec<PluginInfo>> {
+        let store = &self.inner.store;
+        let (mut infos, mut published) = (Vec::new(), HashMap::new());
         for row in rows {
-            let lines = self.inner.store.lines(&row.id).await?;
-            let mut info = self.shown(row, lines, all, viewer).await?;
+            // Once for each author of the part.
+            let published = match published.entry(row.account.as_str()) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(new) => new.insert(store.published_by(&row.account).await?),
+            };
+            let lines = store.lines(&row.id).await?;
+            let mut info = self.shown(row, lines, published, viewer).await?;
             info.lines.clear();
             infos.push(info);
         }
@@ -148,9 +151,9 @@ impl Engine {
     #[boxed]
     pub async fn plugin(&self, id: &str, viewer: Option<&AccountInfo>) -> Result<PluginInfo> {
         let row = self.visible(id, viewer).await?;
-        let all = self.inner.store.submissions().await?;
+        let published = self.inner.store.published_by(&row.account).await?;
         let lines = self.inner.store.lines(id).await?;
-        let mut info = self.shown(&row, lines, &all, viewer).await?;
+        let mut info = self.shown(&row, lines, &published, viewer).await?;
         info.history = self.inner.store.notes_on(id).await?;
         Ok(info)
     }
@@ -163,20 +166,27 @@ impl Engine {
         row.ok_or_else(|| EngineError::NotFound(format!("There is no plugin {id:?}; check the link.")))
     }
 
+    /// With what its author has published, newest first.
     async fn shown(
         &self,
         row: &SubmissionRow,
         lines: Vec<CheckLine>,
-        all: &[SubmissionRow],
+        published: &[SubmissionRow],
         viewer: Option<&AccountInfo>,
     ) -> Result<PluginInfo> {
         let owner = self.inner.store.account(&row.account).await?;
         let mine = viewer.is_some_and(|v| v.id == row.account);
         let close = mine || viewer.is_some_and(|v| v.role >= Role::Curator);
-        let previous = all.iter().find(|other| is_version_before(other, row)).map(|other| other.id.clone());
+        let previous = published.iter().find(|other| is_version_before(other, row)).map(|other| other.id.clone());
         let before = match &previous {
             Some(id) if close => self.inner.store.lines(id).await?,
             _ => Vec::new(),
+        };
+        let flags = if close {
+            let twins = self.inner.store.twins(&row.blob, &row.account).await?;
+            flags(row, &lines, &before, twins, owner.as_ref())
+        } else {
+            Vec::new()
         };
         Ok(PluginInfo {
             id: row.id.clone(),
@@ -191,7 +201,7 @@ impl Engine {
             reason: row.reason.clone(),
             hardware_class: row.hardware_class.clone(),
             excluded_on: row.excluded_on.clone(),
-            flags: if close { flags(row, &lines, &before, all, owner.as_ref()) } else { Vec::new() },
+            flags,
             lines,
             algorithms: row.algorithms.clone(),
             previous,
@@ -300,15 +310,6 @@ fn step(action: Action) -> Step {
     Step { by_author, wants_reason, from, to, word }
 }
 
-/// What waits for a curator from this place on, oldest first: times count backwards, so that it is a list like the others.
-fn waiting<'a>(all: &'a [SubmissionRow], from: &Cursor, limit: usize) -> Part<&'a SubmissionRow> {
-    let place = |row: &&SubmissionRow| Cursor::behind(-row.changed_us, &row.id);
-    let waits = |row: &&SubmissionRow| matches!(row.state, PluginState::Awaiting | PluginState::Asked);
-    let mut rows: Vec<&SubmissionRow> = all.iter().filter(waits).filter(|row| place(row) < *from).collect();
-    rows.sort_by_key(|row| std::cmp::Reverse(place(row)));
-    Part::of(rows, limit, place)
-}
-
 fn ids(row: &SubmissionRow) -> impl Iterator<Item = &str> {
     row.algorithms.iter().map(|a| a.id.as_str())
 }
@@ -349,7 +350,7 @@ fn flags(
     row: &SubmissionRow,
     lines: &[CheckLine],
     before: &[CheckLine],
-    all: &[SubmissionRow],
+    twins: usize,
     owner: Option<&AccountInfo>,
 ) -> Vec<String> {
     let mut flags = Vec::new();
@@ -369,53 +370,6 @@ fn flags(
         line.verdict != CheckVerdict::Pass && before.iter().any(passed)
     };
     flags.extend(lines.iter().filter(worse).map(|line| format!("{}: the version before passed.", line.check)));
-    let twins = all.iter().filter(|other| other.account != row.account && other.blob == row.blob);
-    flags.extend(twins.map(|_| "Another account sent the same file.".to_owned()));
+    flags.extend((0..twins).map(|_| "Another account sent the same file.".to_owned()));
     flags
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_waits_comes_oldest_first_part_by_part() {
-        let manifest =
-            serde_json::json!({ "name": "n", "version": "1", "authors": "a", "license": "MIT", "queries": [] });
-        let row = |id: &str, state, changed_us| SubmissionRow {
-            id: id.into(),
-            account: "1".into(),
-            blob: id.into(),
-            file: "f.so".into(),
-            bytes: 1,
-            manifest: serde_json::from_value(manifest.clone()).unwrap(),
-            signed_by: None,
-            state,
-            reason: String::new(),
-            hardware_class: None,
-            excluded_on: None,
-            algorithms: Vec::new(),
-            created_us: 1,
-            changed_us,
-        };
-        use PluginState::{Asked, Awaiting, Public};
-        let all = [
-            row("c", Awaiting, 7),
-            row("p", Public, 1),
-            row("a", Asked, 3),
-            row("b", Awaiting, 7),
-            row("d", Awaiting, 9),
-        ];
-        for limit in 1..=5 {
-            let (mut from, mut got) = (Cursor::start(), Vec::new());
-            loop {
-                let part = waiting(&all, &from, limit);
-                assert!(part.entries.len() == limit || part.next.is_none());
-                got.extend(part.entries.iter().map(|row| row.id.clone()));
-                let Some(next) = part.next else { break };
-                from = next;
-            }
-            assert_eq!(got, ["a", "c", "b", "d"], "{limit} at a time");
-        }
-    }
 }

@@ -53,6 +53,7 @@ macro_rules! select_submissions {
         )
     };
 }
+pub(super) use select_submissions;
 
 impl Store {
     /// Adds a submission, and notes it; false when the account has sent these bytes before.
@@ -101,7 +102,7 @@ impl Store {
     /// One submission.
     pub async fn submission(&self, id: &str) -> Result<Option<SubmissionRow>> {
         let row = sqlx::query(select_submissions!("WHERE id = $1")).bind(id).fetch_optional(&self.pool).await?;
-        row.as_ref().map(read).transpose()
+        row.as_ref().map(read_submission).transpose()
     }
 
     /// The account's submission of these bytes.
@@ -111,13 +112,13 @@ impl Store {
             .bind(blob)
             .fetch_optional(&self.pool)
             .await?;
-        row.as_ref().map(read).transpose()
+        row.as_ref().map(read_submission).transpose()
     }
 
     /// All submissions, newest first.
     pub async fn submissions(&self) -> Result<Vec<SubmissionRow>> {
         let rows = sqlx::query(select_submissions!("ORDER BY created_us DESC, id DESC")).fetch_all(&self.pool).await?;
-        rows.iter().map(read).collect()
+        rows.iter().map(read_submission).collect()
     }
 
     /// Moves a submission from one state to another, and notes it; false when it was not in the first.
@@ -253,7 +254,7 @@ impl Store {
     }
 }
 
-fn read(row: &AnyRow) -> Result<SubmissionRow> {
+pub(super) fn read_submission(row: &AnyRow) -> Result<SubmissionRow> {
     let state: &str = row.try_get("state")?;
     let unknown = || EngineError::Fault(format!("The database holds a plugin in the unknown state {state:?}."));
     Ok(SubmissionRow {

@@ -96,6 +96,7 @@ on_both!(
     a_submission_is_checked_three_times_at_most,
     only_what_is_public_is_in_the_lists_of_others,
     lists_go_on_where_they_were_left,
+    lists_of_plugins_are_whole_and_in_order,
     what_is_taken_away_takes_the_files_that_nobody_else_uses,
     a_suites_runs_are_apart_from_those_of_people,
     a_campaign_repeats_a_run_once_and_takes_nobodys_turn,

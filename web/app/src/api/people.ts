@@ -72,11 +72,11 @@ export const revokeInvitation = (id: string): Promise<InvitationInfo> =>
 export const acceptInvitation = (secret: string): Promise<AccountInfo> =>
   answer(http.POST('/api/v1/account/invitation', { body: { secret } }))
 
-export const listPlugins = (): Promise<PluginInfo[]> =>
-  whole((query) => part(http.GET('/api/v1/plugins', { params: { query } })))
+export const listPluginsFrom = (cursor: string | null): Promise<Part<PluginInfo>> =>
+  part(http.GET('/api/v1/plugins', { params: { query: { limit: 50, ...(cursor !== null && { cursor }) } } }))
 
-export const listCuration = (): Promise<PluginInfo[]> =>
-  whole((query) => part(http.GET('/api/v1/curation', { params: { query } })))
+export const listCurationFrom = (cursor: string | null): Promise<Part<PluginInfo>> =>
+  part(http.GET('/api/v1/curation', { params: { query: { limit: 50, ...(cursor !== null && { cursor }) } } }))
 
 export const getPlugin = (id: string): Promise<PluginInfo> =>
   answer(http.GET('/api/v1/plugins/{id}', { params: { path: { id } } }))
