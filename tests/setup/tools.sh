@@ -29,6 +29,8 @@ have curl || packages+=(ca-certificates curl)
 node_ok || have npm || packages+=(nodejs npm)
 if [ "$purpose" = test ]; then
   have chromium || packages+=(chromium)
+  # Certificates for the mail server of the tests.
+  have openssl || packages+=(openssl)
   [ -d /usr/share/fonts/truetype/dejavu ] || packages+=(fonts-dejavu-core)
   compgen -G '/usr/lib/postgresql/*/bin/initdb' >/dev/null || packages+=(postgresql)
   # CGAL's exact kernel is the oracle's second opinion; development only, nothing of the product is linked with it.

@@ -10,6 +10,9 @@ use crate::failure::{Failure, Result};
 /// Owner of what the command line makes.
 pub const OWNER: &str = "cli";
 
+/// Bytes of a file with certificates; all that a machine trusts have a quarter of it.
+const MAX_AUTHORITIES: usize = 1 << 20;
+
 /// What the command needs the engine for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
@@ -28,13 +31,20 @@ pub async fn open(store: &Store, purpose: Purpose) -> Result<Engine> {
 
 /// Opens the engine to serve at this URL; what guests make stays so many days.
 pub async fn open_to_serve(store: &Store, args: &ServeArgs, url: &str) -> Result<Engine> {
-    let MailArgs { smtp_url, mail_from, public_url } = &args.mail;
-    let mail = match (smtp_url, mail_from) {
-        (Some(server), Some(from)) => Some(MailServer::new(server, from, public_url.as_deref().unwrap_or(url))?),
-        _ => None,
-    };
+    let mail = mail_server(&args.mail, url)?;
     let config = config(store, data(store)?, Purpose::Serve);
     Ok(Engine::open(EngineConfig { guest_days: args.guest_days, mail, ..config }).await?)
+}
+
+/// Who takes the mails of a service at this URL, if anybody does.
+fn mail_server(args: &MailArgs, url: &str) -> Result<Option<MailServer>> {
+    let MailArgs { smtp_url, smtp_ca, mail_from, public_url } = args;
+    let (Some(server), Some(from)) = (smtp_url, mail_from) else { return Ok(None) };
+    let server = MailServer::new(server, from, public_url.as_deref().unwrap_or(url))?;
+    match smtp_ca {
+        Some(file) => Ok(Some(server.trusting(&read_bounded(file, MAX_AUTHORITIES)?)?)),
+        None => Ok(Some(server)),
+    }
 }
 
 /// The data folder.

@@ -7,6 +7,7 @@ use std::fmt;
 use std::time::Duration;
 
 use lettre::Address;
+use lettre::transport::smtp::client::Certificate;
 use percent_encoding::percent_decode_str;
 use url::{Host, Url};
 
@@ -22,6 +23,8 @@ pub struct MailServer {
     port: u16,
     security: Security,
     credentials: Option<(String, String)>,
+    /// Whom its certificate may be from, beside those that the machine trusts.
+    authorities: Option<Certificate>,
     from: Address,
     /// Where the pages of this service are, without a slash at its end.
     origin: String,
@@ -36,7 +39,7 @@ enum Security {
     Wrapped,
     /// From the server's consent on, and never without it.
     StartTls,
-    /// Never: the server is this machine.
+    /// Never: the server is this machine, and no authority is named for it.
     Plain,
 }
 
@@ -116,10 +119,32 @@ impl MailServer {
             port,
             security,
             credentials,
+            authorities: None,
             from: address(from)?,
             origin: pages(origin)?,
             pace: Pace::default(),
         })
+    }
+
+    /// The same, whose certificate may also be from the authorities in this text of certificates (PEM). Whoever names one wants
+    /// the certificate looked at, so this machine is spoken to with encryption, too.
+    ///
+    /// # Errors
+    /// `Invalid` when there is no certificate in it, or one that cannot be read.
+    pub fn trusting(mut self, pem: &[u8]) -> Result<Self> {
+        let wrong = |what: &str| {
+            let shape = "it has lines from -----BEGIN CERTIFICATE----- to -----END CERTIFICATE-----";
+            EngineError::Invalid(format!("The file with the mail server's authority {what}; {shape}."))
+        };
+        if !String::from_utf8_lossy(pem).contains("-----BEGIN CERTIFICATE-----") {
+            return Err(wrong("holds no certificate"));
+        }
+        self.authorities = Some(Certificate::from_pem(pem).map_err(|_| wrong("cannot be read"))?);
+        self.tls().map_err(|_| wrong("holds a certificate that cannot be read"))?;
+        if self.security == Security::Plain {
+            self.security = Security::StartTls;
+        }
+        Ok(self)
     }
 
     /// Who it is, for the log: no name and no password.
@@ -179,6 +204,16 @@ mod tests {
         assert_eq!(of("smtp://localhost.example.org:25"), (Security::StartTls, 25));
         for here in ["localhost", "127.0.0.1", "[::1]"] {
             assert_eq!(of(&format!("smtp://{here}:2525")), (Security::Plain, 2525), "{here}");
+        }
+    }
+
+    #[test]
+    fn an_authority_is_one_or_more_certificates() {
+        let here = server("smtp://127.0.0.1:2525").unwrap();
+        let broken = "-----BEGIN CERTIFICATE-----\nbm8gY2VydGlmaWNhdGU=\n-----END CERTIFICATE-----\n";
+        for odd in ["", "no certificate", "-----BEGIN CERTIFICATE-----\n", broken] {
+            let told = here.clone().trusting(odd.as_bytes()).unwrap_err().to_string();
+            assert!(told.contains("authority") && told.ends_with('.'), "{odd:?}: {told}");
         }
     }
 

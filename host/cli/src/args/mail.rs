@@ -1,5 +1,7 @@
 //! Who takes the mails of a service.
 
+use std::path::PathBuf;
+
 use clap::Args;
 
 /// The mail server. Without one nothing is mailed.
@@ -10,6 +12,10 @@ pub struct MailArgs {
     /// it in the environment.
     #[arg(long, env = "OCB_SMTP_URL", value_name = "URL", hide_env_values = true, requires = "mail_from")]
     pub smtp_url: Option<String>,
+    /// Certificates (PEM) of authorities that may vouch for the mail server, beside those that this machine trusts; with it a
+    /// server on this machine must become encrypted, too.
+    #[arg(long, env = "OCB_SMTP_CA", value_name = "FILE", hide_env_values = true, requires = "smtp_url")]
+    pub smtp_ca: Option<PathBuf>,
     /// Address that the mails come from.
     #[arg(long, env = "OCB_MAIL_FROM", value_name = "ADDRESS", hide_env_values = true, requires = "smtp_url")]
     pub mail_from: Option<String>,

@@ -65,5 +65,11 @@ fn what_is_wrong_with_a_mail_server_is_told_without_its_password() {
     assert!(told.contains("name@example.org") && !told.contains("secret"), "{told}");
     let told = serve(&[&server[..], &["--mail-from", "ocb@example.org", "--public-url", "here"]].concat());
     assert!(told.contains("https://host") && !told.contains("secret"), "{told}");
+    for (file, expected) in [(desk.path("nothing"), "nothing"), (desk.path("authority.pem"), "holds no certificate")] {
+        std::fs::write(desk.path("authority.pem"), "none").expect("a file");
+        let file = file.to_str().expect("plain text").to_owned();
+        let told = serve(&[&server[..], &["--mail-from", "ocb@example.org", "--smtp-ca", &file]].concat());
+        assert!(told.contains(expected) && !told.contains("secret"), "{told}");
+    }
     assert!(!desk.path("data").exists(), "nothing was opened");
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use lettre::Message;
 use lettre::transport::smtp::authentication::{Credentials, DEFAULT_MECHANISMS};
-use lettre::transport::smtp::client::{AsyncSmtpConnection, TlsParameters};
+use lettre::transport::smtp::client::{AsyncSmtpConnection, TlsParameters, TlsParametersBuilder};
 use lettre::transport::smtp::extension::ClientId;
 use lettre::transport::smtp::response::Code;
 
@@ -28,7 +28,7 @@ pub async fn deliver(server: &MailServer, mail: &Message) -> Result<(), Refused>
     let patience = server.pace.delivery;
     let brought = tokio::time::timeout(patience, bring(server, mail)).await;
     let mut connection = match brought {
-        Ok(brought) => brought.map_err(|e| refused(&e))?,
+        Ok(brought) => brought.map_err(|e| refused(server, &e))?,
         Err(_) => {
             let reason = format!("it did not take the mail within {} s", patience.as_secs_f64());
             return Err(Refused { reason, for_good: false });
@@ -40,12 +40,11 @@ pub async fn deliver(server: &MailServer, mail: &Message) -> Result<(), Refused>
 
 async fn bring(server: &MailServer, mail: &Message) -> Result<AsyncSmtpConnection, lettre::transport::smtp::Error> {
     let name = ClientId::default();
-    let tls = || TlsParameters::new(server.host.clone());
-    let wrapped = if server.security == Security::Wrapped { Some(tls()?) } else { None };
+    let wrapped = if server.security == Security::Wrapped { Some(server.tls()?) } else { None };
     let place = (server.host.as_str(), server.port);
     let mut connection = AsyncSmtpConnection::connect_tokio1(place, None, &name, wrapped, None).await?;
     if server.security == Security::StartTls {
-        connection.starttls(tls()?, &name).await?;
+        connection.starttls(server.tls()?, &name).await?;
     }
     if let Some((user, password)) = &server.credentials {
         connection.auth(DEFAULT_MECHANISMS, &Credentials::new(user.clone(), password.clone())).await?;
@@ -54,11 +53,32 @@ async fn bring(server: &MailServer, mail: &Message) -> Result<AsyncSmtpConnectio
     Ok(connection)
 }
 
-fn refused(e: &lettre::transport::smtp::Error) -> Refused {
+impl MailServer {
+    /// How its certificate is looked at: it must be for this host, by somebody whom the machine trusts or who was named.
+    pub(super) fn tls(&self) -> Result<TlsParameters, lettre::transport::smtp::Error> {
+        let how = TlsParametersBuilder::new(self.host.clone());
+        let named = self.authorities.clone();
+        named.into_iter().fold(how, TlsParametersBuilder::add_root_certificate).build()
+    }
+}
+
+/// What is wrong, and how to mend it where the server is another than we were told, or seems to be.
+fn told(server: &MailServer, e: &lettre::transport::smtp::Error) -> String {
+    let told = one_line(&e.to_string());
+    let Some((_, why)) = told.split_once("invalid peer certificate: ") else { return told };
+    let server = server.named();
+    if why.contains("not valid for name") {
+        return format!("nothing was sent, because the certificate of {server} names another one: {why}");
+    }
+    let mend = "name the authority with --smtp-ca if it is your own";
+    format!("nothing was sent, because nobody whom we trust vouches for the certificate of {server} ({why}); {mend}")
+}
+
+fn refused(server: &MailServer, e: &lettre::transport::smtp::Error) -> Refused {
     // 550, 551 and 553 are about the receiver; other refusals may be about us, and somebody may mend them.
     let receiver = ["550", "551", "553"];
     let for_good = e.status().is_some_and(|code: Code| receiver.contains(&code.to_string().as_str()));
-    Refused { reason: one_line(&e.to_string()).chars().take(300).collect(), for_good }
+    Refused { reason: told(server, e).chars().take(300).collect(), for_good }
 }
 
 #[cfg(test)]

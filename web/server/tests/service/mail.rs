@@ -16,7 +16,7 @@ async fn give(guest: &Guest, address: &str) -> Response {
     request.json(&json!({ "address": address })).send().await.expect("an answer")
 }
 
-async fn given(guest: &Guest, address: &str) -> Value {
+pub async fn given(guest: &Guest, address: &str) -> Value {
     let answer = give(guest, address).await;
     assert_eq!(answer.status(), StatusCode::OK);
     answer.json().await.expect("JSON")

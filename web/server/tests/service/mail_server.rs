@@ -1,7 +1,7 @@
 //! A real mail server of our own, which keeps what it takes, and servers that do not behave.
 
 use std::net::TcpListener;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
@@ -29,6 +29,13 @@ impl Post {
         post
     }
 
+    /// With a server in this mode that has this certificate and key.
+    pub async fn certified(mode: &str, certificate: &[PathBuf; 2]) -> Self {
+        let mut post = Self::closed();
+        post.serve_certified(mode, certificate).await;
+        post
+    }
+
     /// Nobody listens there yet.
     pub fn closed() -> Self {
         let port = TcpListener::bind("127.0.0.1:0").and_then(|l| l.local_addr()).expect("a free port").port();
@@ -41,14 +48,19 @@ impl Post {
     }
 
     /// Starts the server and waits until it listens.
-    #[expect(clippy::disallowed_methods, reason = "the test starts the mail server that it talks to")]
     pub async fn serve(&mut self, mode: &str) {
+        self.serve_certified(mode, &[]).await;
+    }
+
+    #[expect(clippy::disallowed_methods, reason = "the test starts the mail server that it talks to")]
+    async fn serve_certified(&mut self, mode: &str, certificate: &[PathBuf]) {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let python = root.join(".tools/smtp/bin/python");
         assert!(python.exists(), "the mail server for tests is missing: run tests/setup/tools.sh test");
         let mut command = Command::new(python);
         command.arg(root.join("tests/setup/mail_server.py")).arg(self.port.to_string());
-        self.server = Some(command.arg(self.folder.path()).arg(mode).spawn().expect("the mail server starts"));
+        command.arg(self.folder.path()).arg(mode).args(certificate);
+        self.server = Some(command.spawn().expect("the mail server starts"));
         let end = Instant::now() + Duration::from_secs(30);
         while tokio::net::TcpStream::connect(("127.0.0.1", self.port)).await.is_err() {
             assert!(Instant::now() < end, "the mail server does not listen");
@@ -63,7 +75,12 @@ impl Post {
 
     /// The same, known there as somebody: `name:password@`.
     pub fn as_user(&self, user: &str) -> MailServer {
-        let url = format!("smtp://{user}127.0.0.1:{}", self.port);
+        self.reached_by("smtp", user)
+    }
+
+    /// The same, by `smtp` or `smtps`.
+    pub fn reached_by(&self, scheme: &str, user: &str) -> MailServer {
+        let url = format!("{scheme}://{user}127.0.0.1:{}", self.port);
         let mut server = MailServer::new(&url, FROM, PAGES).expect("a mail server");
         server.pace = Pace {
             delivery: Duration::from_secs(5),
@@ -72,6 +89,11 @@ impl Post {
             link: Duration::from_secs(3600),
         };
         server
+    }
+
+    /// What was heard unencrypted.
+    pub fn heard_in_the_clear(&self) -> String {
+        std::fs::read_to_string(self.folder.path().join("clear")).unwrap_or_default()
     }
 
     /// What was taken, in its order.

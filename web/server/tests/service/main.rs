@@ -4,6 +4,7 @@
 //! does so.
 
 mod advice;
+mod authority;
 mod campaigns;
 mod citations;
 mod errors;
@@ -11,6 +12,7 @@ mod invitations;
 mod lists;
 mod mail;
 mod mail_server;
+mod mail_tls;
 mod notices;
 mod objects;
 mod pages;
