@@ -27,7 +27,8 @@ export function addCurator(data) {
   return password
 }
 
-function freePort() {
+/** A port of the loopback interface that nobody listens on. */
+export function freePort() {
   return new Promise((done) => {
     const server = createServer().listen(0, '127.0.0.1', () => {
       const { port } = server.address()

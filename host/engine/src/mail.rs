@@ -54,13 +54,21 @@ pub struct Pace {
     pub give_up: Duration,
     /// How long a link that confirms an address can be opened.
     pub link: Duration,
+    /// How long a link that turns mails off does so: mails are read late.
+    pub off: Duration,
 }
 
 impl Default for Pace {
     fn default() -> Self {
         let hours = |n: u64| Duration::from_secs(n * 3600);
         let seconds = Duration::from_secs;
-        Self { delivery: seconds(30), first_wait: seconds(30), give_up: hours(24), link: hours(24) }
+        Self {
+            delivery: seconds(30),
+            first_wait: seconds(30),
+            give_up: hours(24),
+            link: hours(24),
+            off: hours(180 * 24),
+        }
     }
 }
 

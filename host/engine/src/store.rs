@@ -42,7 +42,7 @@ use crate::{EngineError, Result};
 pub use advice::{AdviceRow, StoredPaper};
 pub use audit::Note;
 pub use campaigns::CampaignRow;
-pub use mails::{Confirmation, WaitingMail};
+pub use mails::{MailLink, WaitingMail};
 pub use requests::Request;
 pub use results::StoredResult;
 pub use runs::RunRow;
@@ -117,6 +117,7 @@ fn migrations() -> Migrator {
         one(15, "notices", include_str!("../migrations/0015_notices.sql")),
         one(16, "campaigns", include_str!("../migrations/0016_campaigns.sql")),
         one(17, "plugin lists", include_str!("../migrations/0017_plugin_lists.sql")),
+        one(18, "off links", include_str!("../migrations/0018_off_links.sql")),
     ])
 }
 

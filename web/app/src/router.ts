@@ -12,6 +12,7 @@ export const router = createRouter({
     { path: '/runs', component: () => import('./pages/RunsPage.vue'), meta: { title: 'My runs' } },
     { path: '/objects', component: () => import('./pages/ObjectsPage.vue'), meta: { title: 'Objects' } },
     { path: '/account', component: () => import('./pages/AccountPage.vue'), meta: { title: 'Account' } },
+    { path: '/mails/off/:secret', component: () => import('./pages/MailsOffPage.vue'), props: true, meta: { title: 'Turn mails off' } },
     { path: '/submit', component: () => import('./pages/SubmitPage.vue'), meta: { title: 'Submit a plugin' } },
     { path: '/plugins', component: () => import('./pages/PluginsPage.vue'), meta: { title: 'Plugins' } },
     { path: '/p/:id', component: () => import('./pages/PluginPage.vue'), props: true, meta: { title: 'Plugin' } },

@@ -38,6 +38,9 @@ pub(crate) const MAIL_TO: Limit = limit("have a mail sent", 5, 3600);
 /// Secrets of links that confirm an address, per address of the visitor and per account.
 pub(crate) const CONFIRM: Limit = limit("confirm an address", 20, 60);
 
+/// Wrong links that would turn mails off, per address of the visitor.
+pub(crate) const TURN_OFF: Limit = limit("turn mails off", 20, 60);
+
 /// Plugins, per account.
 pub(crate) const SUBMIT: Limit = limit("submit a plugin", 30, 3600);
 

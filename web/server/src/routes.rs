@@ -9,6 +9,7 @@ mod choices;
 mod citations;
 mod heatmaps;
 mod invitations;
+mod mails;
 mod notices;
 mod objects;
 mod people;
@@ -24,6 +25,7 @@ mod things;
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
 use axum::middleware;
+use axum::routing::get;
 use utoipa::OpenApi;
 use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouterExt};
 use utoipa_axum::routes;
@@ -114,6 +116,7 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(choices::show_choices, choices::choose))
         .routes(routes!(choices::give_address, choices::forget_address))
         .routes(routes!(choices::confirm_address))
+        .routes(routes!(mails::turn_mails_off))
         .routes(routes!(notices::list_notices))
         .routes(routes!(notices::read_notice))
         .routes(routes!(notices::remove_notice))
@@ -152,6 +155,8 @@ pub fn document() -> utoipa::openapi::OpenApi {
 /// The whole service: API, progress stream and pages.
 pub fn router(app: App) -> Router {
     let (router, _) = api().split_for_parts();
+    // The link in a mail: a page with a button for people, and for mail programs what the button does.
+    let router = router.route("/mails/off/{secret}", get(pages::serve).post(mails::turn_mails_off));
     let router = router.fallback(pages::serve).method_not_allowed_fallback(service::wrong_method);
     layers::wrap(router, &app).with_state(app)
 }

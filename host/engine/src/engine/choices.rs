@@ -55,6 +55,23 @@ impl Engine {
         self.choices(account).await
     }
 
+    /// Turns off the mails of the account that a mail with this secret in its link went to. Whatever is wrong with it, the answer is
+    /// the same; who does it again changes nothing.
+    #[boxed]
+    pub async fn turn_mails_off(&self, secret: &str) -> Result<()> {
+        let known = self.inner.store.account_of_off_link(&sha256_hex(secret.as_bytes()), now_us()).await?;
+        let Some(([id, name], wanted)) = known else {
+            return Err(EngineError::NotFound(
+                "This link turns no mails off: it is too old, the address was changed since, or a part of it was lost; take the one \
+                 of a newer mail, or log in and turn them off on the account page."
+                    .into(),
+            ));
+        };
+        let subject = format!("account:{id}");
+        let note = Note { actor: &name, action: "mails turned off by a link", subject: &subject, detail: "" };
+        self.inner.store.turn_mails_off(&id, wanted.then_some(note)).await
+    }
+
     /// Confirms the account's address by the secret of the link that went there. Whatever is wrong with it, the answer is the same.
     #[boxed]
     pub async fn confirm_address(&self, account: &AccountInfo, secret: &str) -> Result<Choices> {

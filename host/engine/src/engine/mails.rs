@@ -7,7 +7,7 @@ use std::time::Duration;
 use super::Inner;
 use crate::blobs::sha256_hex;
 use crate::mail::{Letter, MailServer, Refused, deliver};
-use crate::store::{Confirmation, WaitingMail, now_us};
+use crate::store::{MailLink, WaitingMail, now_us};
 use crate::{Result, draw};
 
 /// The waiting mails are looked at this often even if nobody rings.
@@ -65,14 +65,16 @@ impl Inner {
     /// The secret of a link is drawn when it is sent, so that no row ever holds it.
     async fn letter(&self, server: &MailServer, mail: &WaitingMail) -> Result<Letter> {
         let WaitingMail { account: [id, name], address, notice, .. } = mail;
+        let (off, until) = (draw::secret(), |time: Duration| now_us() + time.as_micros() as i64);
+        let (sha256, expires_us) = (&sha256_hex(off.as_bytes()), until(server.pace.off));
+        self.store.add_off_link(MailLink { sha256, account: id, address, expires_us }).await?;
         if let Some([subject, text, link]) = notice {
-            return Ok(Letter::notice(server, name, address, [subject, text, link]));
+            return Ok(Letter::notice(server, name, address, [subject, text, link], &off));
         }
         let secret = draw::secret();
-        let expires_us = now_us() + server.pace.link.as_micros() as i64;
-        let sha256 = &sha256_hex(secret.as_bytes());
-        self.store.add_confirmation(Confirmation { sha256, account: id, address, expires_us }).await?;
-        Ok(Letter::confirmation(server, name, address, &secret))
+        let (sha256, expires_us) = (&sha256_hex(secret.as_bytes()), until(server.pace.link));
+        self.store.add_confirmation(MailLink { sha256, account: id, address, expires_us }).await?;
+        Ok(Letter::confirmation(server, name, address, &secret, &off))
     }
 
     async fn put_off(&self, server: &MailServer, mail: &WaitingMail, refused: &Refused) -> Result<()> {

@@ -98,7 +98,7 @@ mod tests {
         let mut server = MailServer::new(&url, "ocb@example.org", "https://ocb.example.org").unwrap();
         server.security = security;
         server.pace.delivery = Duration::from_secs(20);
-        let letter = Letter { to: "ada@example.org".into(), subject: "s".into(), text: "t".into() };
+        let letter = Letter { to: "ada@example.org".into(), subject: "s".into(), text: "t".into(), off: "o".into() };
         let mail = letter.written(&server, "1").unwrap();
         let hearing = async {
             let (mut stream, _) = listener.accept().await.unwrap();

@@ -65,6 +65,7 @@ impl Store {
         .await?;
         for text in [
             "DELETE FROM confirmations WHERE account = $1 AND address <> $2",
+            "DELETE FROM off_links WHERE account = $1 AND address <> $2",
             "DELETE FROM mails WHERE account = $1 AND (address <> $2 OR notice IS NULL)",
         ] {
             sqlx::query(text).bind(account).bind(address).execute(&mut *transaction).await?;
@@ -91,6 +92,7 @@ impl Store {
         for text in [
             "UPDATE accounts SET address = NULL, confirmed_us = NULL WHERE id = $1",
             "DELETE FROM confirmations WHERE account = $1",
+            "DELETE FROM off_links WHERE account = $1",
             "DELETE FROM mails WHERE account = $1",
         ] {
             sqlx::query(text).bind(account).execute(&mut *transaction).await?;

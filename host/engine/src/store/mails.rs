@@ -1,9 +1,10 @@
-//! Mails that wait to be taken by the mail server, and links that confirm an address.
+//! Mails that wait to be taken by the mail server, and the links in them.
 
 use sqlx::Row;
 use sqlx::any::AnyRow;
 
-use super::{Store, now_us};
+use super::audit::append;
+use super::{Note, Store, now_us};
 use crate::Result;
 
 /// A mail that waits.
@@ -25,9 +26,9 @@ pub struct WaitingMail {
     pub tries: u32,
 }
 
-/// A link that confirms an address.
+/// A link in a mail: one that confirms its address, or one that turns mails off.
 #[derive(Clone, Copy, Debug)]
-pub struct Confirmation<'a> {
+pub struct MailLink<'a> {
     /// Over its secret.
     pub sha256: &'a str,
     /// For this account alone.
@@ -95,7 +96,7 @@ impl Store {
     }
 
     /// Adds a link that confirms an address, and forgets those whose time is over.
-    pub async fn add_confirmation(&self, new: Confirmation<'_>) -> Result<()> {
+    pub async fn add_confirmation(&self, new: MailLink<'_>) -> Result<()> {
         sqlx::query("DELETE FROM confirmations WHERE expires_us <= $1").bind(now_us()).execute(&self.pool).await?;
         sqlx::query("INSERT INTO confirmations (sha256, account, address, expires_us) VALUES ($1, $2, $3, $4)")
             .bind(new.sha256)
@@ -104,6 +105,50 @@ impl Store {
             .bind(new.expires_us)
             .execute(&self.pool)
             .await?;
+        Ok(())
+    }
+
+    /// Adds a link that turns mails off, and forgets those whose time is over.
+    pub async fn add_off_link(&self, new: MailLink<'_>) -> Result<()> {
+        sqlx::query("DELETE FROM off_links WHERE expires_us <= $1").bind(now_us()).execute(&self.pool).await?;
+        sqlx::query("INSERT INTO off_links (sha256, account, address, expires_us) VALUES ($1, $2, $3, $4)")
+            .bind(new.sha256)
+            .bind(new.account)
+            .bind(new.address)
+            .bind(new.expires_us)
+            .execute(&self.pool)
+            .await?;
+        Ok(())
+    }
+
+    /// Id and name of the account whose mails the link with this hash turns off, and whether it wants any: in time, and as long as
+    /// its mails go to the address that the link went to.
+    pub async fn account_of_off_link(&self, sha256: &str, now_us: i64) -> Result<Option<([String; 2], bool)>> {
+        let row: Option<(String, String, i64)> = sqlx::query_as(
+            "SELECT a.id, a.name, a.mail_notices FROM off_links l JOIN accounts a ON a.id = l.account \
+             WHERE l.sha256 = $1 AND l.expires_us > $2 AND a.address = l.address",
+        )
+        .bind(sha256)
+        .bind(now_us)
+        .fetch_optional(&self.pool)
+        .await?;
+        Ok(row.map(|(id, name, wanted)| ([id, name], wanted != 0)))
+    }
+
+    /// Turns the account's mails off: what waits is forgotten, and so are links that would confirm its address.
+    pub async fn turn_mails_off(&self, account: &str, note: Option<Note<'_>>) -> Result<()> {
+        let mut transaction = self.pool.begin().await?;
+        for text in [
+            "UPDATE accounts SET mail_notices = 0 WHERE id = $1",
+            "DELETE FROM confirmations WHERE account = $1",
+            "DELETE FROM mails WHERE account = $1",
+        ] {
+            sqlx::query(text).bind(account).execute(&mut *transaction).await?;
+        }
+        if let Some(note) = note {
+            append(&mut transaction, note).await?;
+        }
+        transaction.commit().await?;
         Ok(())
     }
 }

@@ -93,6 +93,7 @@ on_both!(
     notices_belong_to_their_account_and_go_with_it,
     mails_wait_for_those_who_want_them,
     an_address_counts_once_its_link_was_opened,
+    a_link_turns_off_the_mails_of_its_account_alone,
     a_submission_is_checked_three_times_at_most,
     only_what_is_public_is_in_the_lists_of_others,
     lists_go_on_where_they_were_left,

@@ -45,6 +45,10 @@ export const forgetAddress = (): Promise<Choices> => answer(http.DELETE('/api/v1
 export const confirmAddress = (secret: string): Promise<Choices> =>
   answer(http.POST('/api/v1/account/address/confirmation', { body: { secret } }))
 
+/** By the secret in the link of a mail, whoever is logged in. */
+export const turnMailsOff = (secret: string): Promise<void> =>
+  nothing(http.POST('/api/v1/mails/off/{secret}', { params: { path: { secret } } }))
+
 export const listNoticesFrom = (cursor: string | null): Promise<Part<NoticeInfo>> =>
   part(http.GET('/api/v1/notices', { params: { query: { limit: 20, ...(cursor !== null && { cursor }) } } }))
 

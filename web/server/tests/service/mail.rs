@@ -22,26 +22,26 @@ pub async fn given(guest: &Guest, address: &str) -> Value {
     answer.json().await.expect("JSON")
 }
 
-async fn choose(guest: &Guest, choices: Value) -> Value {
+pub async fn choose(guest: &Guest, choices: Value) -> Value {
     let answer = guest.request(Method::PUT, "/api/v1/account/choices").json(&choices).send().await.expect("an answer");
     assert_eq!(answer.status(), StatusCode::OK);
     answer.json().await.expect("JSON")
 }
 
-async fn open(guest: &Guest, secret: &str) -> Response {
+pub async fn open(guest: &Guest, secret: &str) -> Response {
     let request = guest.post("/api/v1/account/address/confirmation");
     request.json(&json!({ "secret": secret })).send().await.expect("an answer")
 }
 
 /// The secret in the link of a mail that asks whether an address is right.
-fn secret(mail: &Value) -> String {
+pub fn secret(mail: &Value) -> String {
     let text = mail["text"].as_str().expect("a text");
     let (_, link) = text.split_once(&format!("{PAGES}/account#confirm=")).unwrap_or_else(|| panic!("no link: {text}"));
     link.split_whitespace().next().expect("a secret").to_owned()
 }
 
 /// An account with notices by mail, at an address that it has confirmed by the mail of this number.
-async fn reachable(service: &Service, post: &Post, name: &str, number: usize) -> Guest {
+pub async fn reachable(service: &Service, post: &Post, name: &str, number: usize) -> Guest {
     let guest = member(service, name, Role::Developer).await;
     given(&guest, &format!("{name}@example.org")).await;
     let mails = post.exactly(number).await;
@@ -52,7 +52,7 @@ async fn reachable(service: &Service, post: &Post, name: &str, number: usize) ->
 }
 
 /// Something happens that the account is told of.
-async fn told(guest: &Guest, number: u8) -> Value {
+pub async fn told(guest: &Guest, number: u8) -> Value {
     let sent: Value = garbage(guest, number).await.json().await.expect("JSON");
     let ended = failed(guest, &sent).await;
     while !guest.json("/api/v1/notices").await.to_string().contains(ended["id"].as_str().expect("an id")) {

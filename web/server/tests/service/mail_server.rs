@@ -87,6 +87,7 @@ impl Post {
             first_wait: Duration::from_millis(200),
             give_up: Duration::from_secs(3600),
             link: Duration::from_secs(3600),
+            off: Duration::from_secs(3600),
         };
         server
     }

@@ -13,6 +13,7 @@ mod lists;
 mod mail;
 mod mail_server;
 mod mail_tls;
+mod mails_off;
 mod notices;
 mod objects;
 mod pages;

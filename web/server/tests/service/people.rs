@@ -158,6 +158,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "get /campaigns/{id}",
             "post /estimates",
             "get /featured",
+            "post /mails/off/{secret}",
             "get /objects",
             "post /objects",
             "get /objects/{id}",

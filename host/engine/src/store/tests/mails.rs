@@ -90,7 +90,7 @@ pub async fn mails_wait_for_those_who_want_them(store: Store) {
 /// Opens a link to this address.
 async fn confirmed(store: &Store, account: &str, address: &str) {
     let sha256 = &format!("opened by {account}");
-    store.add_confirmation(Confirmation { sha256, account, address, expires_us: i64::MAX }).await.unwrap();
+    store.add_confirmation(MailLink { sha256, account, address, expires_us: i64::MAX }).await.unwrap();
     assert!(store.confirm_address(sha256, account, 10, NOTE).await.unwrap());
 }
 
@@ -113,7 +113,7 @@ pub async fn an_address_counts_once_its_link_was_opened(store: Store) {
     let asks = store.due_mail(i64::MAX).await.unwrap().unwrap();
     assert!(asks.wanted && asks.notice.is_none() && asks.account[0] == "1", "{asks:?}");
     let link = async |sha256: &str, address: &str, expires_us: i64| {
-        store.add_confirmation(Confirmation { sha256, account: "1", address, expires_us }).await.unwrap();
+        store.add_confirmation(MailLink { sha256, account: "1", address, expires_us }).await.unwrap();
     };
     let now = now_us();
     let opened =
@@ -144,4 +144,56 @@ pub async fn an_address_counts_once_its_link_was_opened(store: Store) {
     assert_eq!(store.choices("1").await.unwrap().unwrap().address, None);
     assert_eq!(store.due_mail(i64::MAX).await.unwrap(), None);
     assert_eq!(store.notes_on("x").await.unwrap().len(), 8, "every change is noted, and nothing else");
+}
+
+pub async fn a_link_turns_off_the_mails_of_its_account_alone(store: Store) {
+    two_accounts(&store).await;
+    let wants = NewChoices { mail_notices: Some(true), ..NewChoices::default() };
+    for (account, id) in [("1", "a"), ("2", "b")] {
+        store.choose(account, &wants).await.unwrap();
+        store.set_address(account, "both@example.org", false, NOTE).await.unwrap();
+        confirmed(&store, account, "both@example.org").await;
+        store.add_notice(account, &notice(id, 1), 9, true).await.unwrap();
+    }
+    let now = now_us();
+    let later = now + 1_000_000_000;
+    let link = async |sha256: &str, address: &str, expires_us: i64| {
+        store.add_off_link(MailLink { sha256, account: "1", address, expires_us }).await.unwrap();
+    };
+    let of = async |sha256: &str, at: i64| store.account_of_off_link(sha256, at).await.unwrap();
+    link("a", "both@example.org", later).await;
+    link("b", "ada@elsewhere.example", later).await;
+    let ada = ["1".to_owned(), "ada".to_owned()];
+    assert_eq!(of("a", now).await, Some((ada.clone(), true)));
+    assert_eq!((of("a", later).await, of("b", now).await, of("x", now).await), (None, None, None));
+    let noted = store.notes_on("x").await.unwrap().len();
+    let half_open = MailLink { sha256: "c", account: "1", address: "both@example.org", expires_us: later };
+    store.add_confirmation(half_open).await.unwrap();
+    store.turn_mails_off("1", Some(NOTE)).await.unwrap();
+    assert_eq!(of("a", now).await, Some((ada, false)));
+    let row = store.choices("1").await.unwrap().unwrap();
+    assert_eq!((row.mail_notices, row.address.as_deref()), (false, Some("both@example.org")));
+    assert!(row.confirmed_us.is_some() && store.choices("2").await.unwrap().unwrap().mail_notices);
+    assert!(!store.confirm_address("c", "1", now, NOTE).await.unwrap(), "no link of before confirms anything");
+    assert_eq!(
+        store.due_mail(i64::MAX).await.unwrap().unwrap().account[0],
+        "2",
+        "what waited for the other waits still"
+    );
+    store.turn_mails_off("1", None).await.unwrap();
+    assert_eq!(store.notes_on("x").await.unwrap().len(), noted + 1);
+
+    // What went to an address of before turns nothing off, also when that comes back; nor does what was too late.
+    store.set_address("1", "ada@elsewhere.example", false, NOTE).await.unwrap();
+    store.set_address("1", "both@example.org", false, NOTE).await.unwrap();
+    assert_eq!(of("a", now).await, None);
+    link("d", "both@example.org", now - 1).await;
+    link("e", "both@example.org", later).await;
+    assert_eq!(
+        (of("d", now - 2).await.is_some(), of("e", now).await.is_some()),
+        (false, true),
+        "the old one is forgotten"
+    );
+    store.forget_address("1", NOTE).await.unwrap();
+    assert_eq!(of("e", now).await, None);
 }
