@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use tokio::runtime::Handle;
 
-use crate::engine::{Inner, conflict};
+use crate::engine::{Inner, conflict, of_check};
 use crate::machine::MeasuringRight;
 use crate::measure::Stop;
 use crate::model::{CheckLine, CheckVerdict, PluginReport, PluginState};
@@ -66,7 +66,10 @@ fn check(
             inner.store.add_line(&row.id, seq, line).await?;
             // The file may be loaded: what follows is about its answers.
             if line.check == "load and describe" && line.verdict == CheckVerdict::Pass {
-                inner.store.move_submission(&row.id, PluginState::Uploaded, PluginState::Vetted, "", None).await?;
+                inner
+                    .store
+                    .move_submission(&row.id, PluginState::Uploaded, PluginState::Vetted, "", None, None)
+                    .await?;
             }
             Ok(())
         });
@@ -96,10 +99,12 @@ async fn settle(inner: &Inner, row: &SubmissionRow, report: PluginReport) -> Res
         Some(reason) => (PluginState::Failed, "failed the check", reason),
         None => (PluginState::Validated, "validated", format!("Passed on hardware class {class}.")),
     };
+    let notice = of_check(row, state, &reason);
     for from in [PluginState::Uploaded, PluginState::Vetted] {
         let note = Note { actor: THE_SERVICE, action: word, subject: &row.id, detail: &reason };
-        if store.move_submission(&row.id, from, state, &reason, Some(note)).await? {
-            inner.tell_check(row, state, &reason).await;
+        let telling = inner.telling(&row.account, &notice);
+        if store.move_submission(&row.id, from, state, &reason, Some(telling), Some(note)).await? {
+            inner.post_soon();
         }
     }
     inner.renew_plugins().await
@@ -109,7 +114,7 @@ async fn settle(inner: &Inner, row: &SubmissionRow, report: PluginReport) -> Res
 pub async fn recover(inner: &Inner) -> Result<()> {
     for id in inner.store.recover_checks(MAX_ATTEMPTS).await? {
         if let Some(row) = inner.store.submission(&id).await? {
-            inner.tell_check(&row, row.state, &row.reason).await;
+            inner.tell_check(&row).await;
         }
     }
     Ok(())

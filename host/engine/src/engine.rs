@@ -29,6 +29,7 @@ mod visibility;
 pub use campaigns::campaign_csv;
 pub use charts::{board_csv, chart_csv, chart_parquet};
 pub use people::SESSION;
+pub use plugin_notices::of_check;
 pub use plugins::{MAX_PLUGIN_BYTES, conflict};
 pub use requests::Made;
 pub use sets::SetJob;

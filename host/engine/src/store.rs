@@ -43,6 +43,7 @@ pub use advice::{AdviceRow, StoredPaper};
 pub use audit::Note;
 pub use campaigns::CampaignRow;
 pub use mails::{MailLink, WaitingMail};
+pub use notices::Telling;
 pub use requests::Request;
 pub use results::StoredResult;
 pub use runs::RunRow;

@@ -10,6 +10,7 @@ mod plan;
 
 use std::collections::BTreeMap;
 
+use super::notices::notice;
 use super::people::{NAME_OF_OPERATOR, said};
 use super::runs::Asking;
 use super::{BACKGROUND, Engine, Inner, Made};
@@ -281,7 +282,8 @@ impl Inner {
                 "{runs} measured again: {} Old and new results stand side by side; the old ones stay as they are.",
                 sentence(&row.reason)
             );
-            self.notify(&account, "Your public runs were measured again", &text, &format!("/campaigns/{id}")).await?;
+            let told = notice("Your public runs were measured again", &text, &format!("/campaigns/{id}"));
+            self.notify(&account, &told).await?;
         }
         self.store.end_campaign(id).await
     }

@@ -4,7 +4,7 @@ use super::{Engine, Inner};
 use crate::boxed;
 use crate::mail::one_line;
 use crate::model::{AccountInfo, Cursor, NoticeInfo, Page, Part};
-use crate::store::now_us;
+use crate::store::{Telling, now_us};
 use crate::{EngineError, Result};
 
 /// Notices of one account that are kept, and letters of their parts.
@@ -13,26 +13,40 @@ const SUBJECT: usize = 160;
 const TEXT: usize = 4000;
 
 impl Inner {
-    /// Tells an account something: `account` is its id, `link` a path within the service such as `/r/<id>`. What is too long is
-    /// cut; of an account that is gone, nothing is kept.
+    /// Tells an account something: `account` is its id; of an account that is gone, nothing is kept.
     ///
     /// # Errors
     /// Only a fault of the database; whoever tells of something that is done already logs it and goes on.
     #[boxed]
-    pub async fn notify(&self, account: &str, subject: &str, text: &str, link: &str) -> Result<()> {
-        let notice = NoticeInfo {
-            id: uuid::Uuid::now_v7().to_string(),
-            subject: one_line(subject).chars().take(SUBJECT).collect(),
-            text: text.trim().chars().filter(|c| *c == '\n' || !c.is_control()).take(TEXT).collect(),
-            link: own_path(link),
-            created_us: now_us(),
-            read_us: None,
-        };
-        let mailing = self.config.mail.is_some();
-        if self.store.add_notice(account, &notice, MOST, mailing).await? && mailing {
-            self.posting.notify_one();
+    pub async fn notify(&self, account: &str, notice: &NoticeInfo) -> Result<()> {
+        if self.store.add_notice(self.telling(account, notice)).await? {
+            self.post_soon();
         }
         Ok(())
+    }
+
+    /// How an account is told something in the transaction of what it is told of; `post_soon` when that is through.
+    pub fn telling<'a>(&self, account: &'a str, notice: &'a NoticeInfo) -> Telling<'a> {
+        Telling { account, notice, most: MOST, mailing: self.config.mail.is_some() }
+    }
+
+    /// Somebody was told something: there may be a mail to bring.
+    pub fn post_soon(&self) {
+        if self.config.mail.is_some() {
+            self.posting.notify_one();
+        }
+    }
+}
+
+/// A notice; `link` is a path within the service such as `/r/<id>`. What is too long is cut.
+pub(super) fn notice(subject: &str, text: &str, link: &str) -> NoticeInfo {
+    NoticeInfo {
+        id: uuid::Uuid::now_v7().to_string(),
+        subject: one_line(subject).chars().take(SUBJECT).collect(),
+        text: text.trim().chars().filter(|c| *c == '\n' || !c.is_control()).take(TEXT).collect(),
+        link: own_path(link),
+        created_us: now_us(),
+        read_us: None,
     }
 }
 

@@ -1,39 +1,44 @@
 //! What authors are told of their plugins.
 
 use super::Inner;
-use crate::model::{Action, PluginState};
+use super::notices::notice;
+use crate::model::{Action, NoticeInfo, PluginState};
 use crate::store::SubmissionRow;
 
 impl Inner {
-    /// Tells the author what a curator decided. That the decision stands is more than that it was told: a fault goes to the log.
-    pub(super) async fn tell_decision(&self, row: &SubmissionRow, action: Action, reason: &str) {
-        if let Some((what, text)) = decided(action) {
-            self.tell_author(row, what, text, reason).await;
-        }
-    }
-
-    /// Tells the author that the check of their plugin has ended.
-    pub async fn tell_check(&self, row: &SubmissionRow, state: PluginState, reason: &str) {
-        let (what, text) = match state {
-            PluginState::Validated => {
-                ("passed its check", "You may benchmark it now, and offer it to the curators on its page.")
-            }
-            _ => ("failed its check", "Its page shows the report line by line."),
-        };
-        self.tell_author(row, what, text, reason).await;
-    }
-
-    /// Tells the author something of a plugin, with the words that are the reason in front. That it happened is more than that it was told.
-    pub(super) async fn tell_author(&self, row: &SubmissionRow, what: &str, text: &str, reason: &str) {
-        let subject = format!("Your plugin {} {} {what}", row.manifest.name, row.manifest.version);
-        let text = if reason.is_empty() { text.to_owned() } else { format!("{reason}\n\n{text}") };
-        if let Err(e) = self.notify(&row.account, &subject, &text, &format!("/p/{}", row.id)).await {
-            tracing::error!("the author of plugin {} could not be told that it {what}: {e}", row.id);
+    /// Tells the author that the check of their plugin was given up. That it was is more than that it was told: a fault goes to
+    /// the log.
+    pub async fn tell_check(&self, row: &SubmissionRow) {
+        if let Err(e) = self.notify(&row.account, &of_check(row, row.state, &row.reason)).await {
+            tracing::error!("the author of plugin {} could not be told that its check is given up: {e}", row.id);
         }
     }
 }
 
-/// What the author of a plugin hears of a step; nothing of the steps that are the author's own.
+/// What the author of a plugin is told of a curator's decision; nothing of the steps that are the author's own.
+pub(super) fn of_decision(row: &SubmissionRow, action: Action, reason: &str) -> Option<NoticeInfo> {
+    decided(action).map(|(what, text)| to_author(row, what, text, reason))
+}
+
+/// What they are told when its check has ended.
+pub fn of_check(row: &SubmissionRow, state: PluginState, reason: &str) -> NoticeInfo {
+    let (what, text) = match state {
+        PluginState::Validated => {
+            ("passed its check", "You may benchmark it now, and offer it to the curators on its page.")
+        }
+        _ => ("failed its check", "Its page shows the report line by line."),
+    };
+    to_author(row, what, text, reason)
+}
+
+/// A notice of a plugin, with the words that are the reason in front.
+pub(super) fn to_author(row: &SubmissionRow, what: &str, text: &str, reason: &str) -> NoticeInfo {
+    let subject = format!("Your plugin {} {} {what}", row.manifest.name, row.manifest.version);
+    let text = if reason.is_empty() { text.to_owned() } else { format!("{reason}\n\n{text}") };
+    notice(&subject, &text, &format!("/p/{}", row.id))
+}
+
+/// What has become of the plugin, and what that means.
 fn decided(action: Action) -> Option<(&'static str, &'static str)> {
     match action {
         Action::Offer | Action::Answer | Action::Withdraw => None,

@@ -5,6 +5,7 @@ use std::collections::hash_map::Entry;
 
 use super::Engine;
 use super::people::said;
+use super::plugin_notices::of_decision;
 use crate::blobs::sha256_hex;
 use crate::boxed;
 use crate::model::{
@@ -245,16 +246,18 @@ impl Engine {
         }
         let store = &self.inner.store;
         let note = Note { actor: &by.name, action: step.word, subject: id, detail: &reason };
-        if !store.move_submission(id, row.state, step.to, &reason, Some(note)).await? {
+        let notice = of_decision(&row, action, &reason);
+        let telling = notice.as_ref().map(|notice| self.inner.telling(&row.account, notice));
+        if !store.move_submission(id, row.state, step.to, &reason, telling, Some(note)).await? {
             return Err(EngineError::Busy("Somebody else has just decided about this plugin; look again.".into()));
         }
+        self.inner.post_soon();
         self.inner.renew_plugins().await?;
         if step.to == PluginState::Public {
             self.measure_brought(row.algorithms.iter()).await?;
         } else if row.state == PluginState::Public {
             self.inner.forget_waiting().await?;
         }
-        self.inner.tell_decision(&row, action, &reason).await;
         self.plugin(id, Some(by)).await
     }
 

@@ -1,5 +1,7 @@
 //! What accounts are told.
 
+use sqlx::AnyConnection;
+
 use super::{Store, now_us};
 use crate::Result;
 use crate::model::{Cursor, NoticeInfo};
@@ -11,46 +13,65 @@ fn notice((id, subject, text, link, created_us, read_us): NoticeRow) -> NoticeIn
     NoticeInfo { id, subject, text, link, created_us, read_us }
 }
 
-impl Store {
-    /// Adds a notice and forgets the oldest beyond `most`; with `mailing`, also a mail that waits, when the account wants such mails
-    /// and its address is confirmed. False when there is no such account.
-    pub async fn add_notice(&self, account: &str, notice: &NoticeInfo, most: usize, mailing: bool) -> Result<bool> {
-        let mut transaction = self.pool.begin().await?;
-        let added = sqlx::query(
-            "INSERT INTO notices (id, account, subject, text, link, created_us) \
-             SELECT $1, id, $2, $3, $4, $5 FROM accounts WHERE id = $6",
+/// A notice to come. With what it tells of in one transaction, a crash leaves both or neither.
+#[derive(Clone, Copy, Debug)]
+pub struct Telling<'a> {
+    /// Id of the account.
+    pub account: &'a str,
+    /// What it is told.
+    pub notice: &'a NoticeInfo,
+    /// How many it keeps: the oldest beyond them are forgotten.
+    pub most: usize,
+    /// Also a mail that waits, when the account wants such mails and its address is confirmed.
+    pub mailing: bool,
+}
+
+/// Adds a notice; false when there is no such account.
+pub(super) async fn tell(connection: &mut AnyConnection, telling: Telling<'_>) -> Result<bool> {
+    let Telling { account, notice, most, mailing } = telling;
+    let added = sqlx::query(
+        "INSERT INTO notices (id, account, subject, text, link, created_us) \
+         SELECT $1, id, $2, $3, $4, $5 FROM accounts WHERE id = $6",
+    )
+    .bind(&notice.id)
+    .bind(&notice.subject)
+    .bind(&notice.text)
+    .bind(&notice.link)
+    .bind(notice.created_us)
+    .bind(account)
+    .execute(&mut *connection)
+    .await?;
+    sqlx::query(
+        "DELETE FROM notices WHERE account = $1 AND id NOT IN \
+         (SELECT id FROM notices WHERE account = $1 ORDER BY created_us DESC, id DESC LIMIT $2)",
+    )
+    .bind(account)
+    .bind(most as i64)
+    .execute(&mut *connection)
+    .await?;
+    if mailing {
+        sqlx::query(
+            "INSERT INTO mails (id, account, address, notice, created_us, due_us, tries) \
+             SELECT $1, id, address, $2, $3, $3, 0 FROM accounts \
+             WHERE id = $4 AND mail_notices = 1 AND address IS NOT NULL AND confirmed_us IS NOT NULL",
         )
+        .bind(uuid::Uuid::now_v7().to_string())
         .bind(&notice.id)
-        .bind(&notice.subject)
-        .bind(&notice.text)
-        .bind(&notice.link)
         .bind(notice.created_us)
         .bind(account)
-        .execute(&mut *transaction)
+        .execute(&mut *connection)
         .await?;
-        sqlx::query(
-            "DELETE FROM notices WHERE account = $1 AND id NOT IN \
-             (SELECT id FROM notices WHERE account = $1 ORDER BY created_us DESC, id DESC LIMIT $2)",
-        )
-        .bind(account)
-        .bind(most as i64)
-        .execute(&mut *transaction)
-        .await?;
-        if mailing {
-            sqlx::query(
-                "INSERT INTO mails (id, account, address, notice, created_us, due_us, tries) \
-                 SELECT $1, id, address, $2, $3, $3, 0 FROM accounts \
-                 WHERE id = $4 AND mail_notices = 1 AND address IS NOT NULL AND confirmed_us IS NOT NULL",
-            )
-            .bind(uuid::Uuid::now_v7().to_string())
-            .bind(&notice.id)
-            .bind(notice.created_us)
-            .bind(account)
-            .execute(&mut *transaction)
-            .await?;
-        }
+    }
+    Ok(added.rows_affected() == 1)
+}
+
+impl Store {
+    /// Adds a notice; false when there is no such account.
+    pub async fn add_notice(&self, telling: Telling<'_>) -> Result<bool> {
+        let mut transaction = self.pool.begin().await?;
+        let told = tell(&mut transaction, telling).await?;
         transaction.commit().await?;
-        Ok(added.rows_affected() == 1)
+        Ok(told)
     }
 
     /// The account's notices from this place on, newest first, at most `limit`.

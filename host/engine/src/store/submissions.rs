@@ -4,7 +4,8 @@ use sqlx::Row;
 use sqlx::any::AnyRow;
 
 use super::audit::append;
-use super::{Note, Store, from_json, now_us, to_json};
+use super::notices::tell;
+use super::{Note, Store, Telling, from_json, now_us, to_json};
 use crate::model::{AlgorithmInfo, CheckLine, Manifest, PluginState};
 use crate::{EngineError, Result};
 
@@ -121,13 +122,14 @@ impl Store {
         rows.iter().map(read_submission).collect()
     }
 
-    /// Moves a submission from one state to another, and notes it; false when it was not in the first.
+    /// Moves a submission from one state to another, tells its author and notes it; false when it was not in the first.
     pub async fn move_submission(
         &self,
         id: &str,
         from: PluginState,
         to: PluginState,
         reason: &str,
+        telling: Option<Telling<'_>>,
         note: Option<Note<'_>>,
     ) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
@@ -143,6 +145,9 @@ impl Store {
         .execute(&mut *transaction)
         .await?;
         let moved = done.rows_affected() == 1;
+        if let Some(telling) = telling.filter(|_| moved) {
+            tell(&mut transaction, telling).await?;
+        }
         if let Some(note) = note.filter(|_| moved) {
             append(&mut transaction, note).await?;
         }
@@ -150,9 +155,16 @@ impl Store {
         Ok(moved)
     }
 
-    /// Takes a public submission out on this hardware class, and notes it; false when it is not public any more, or has changed
-    /// since it failed.
-    pub async fn exclude_submission(&self, id: &str, class: &str, failed_us: i64, note: Note<'_>) -> Result<bool> {
+    /// Takes a public submission out on this hardware class, tells its author and notes it; false when it is not public any more,
+    /// or has changed since it failed.
+    pub async fn exclude_submission(
+        &self,
+        id: &str,
+        class: &str,
+        failed_us: i64,
+        telling: Option<Telling<'_>>,
+        note: Note<'_>,
+    ) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
         let done = sqlx::query(
             "UPDATE submissions SET state = 'excluded', reason = $1, changed_us = $2, excluded_on = $3 \
@@ -166,6 +178,9 @@ impl Store {
         .execute(&mut *transaction)
         .await?;
         let moved = done.rows_affected() == 1;
+        if let Some(telling) = telling.filter(|_| moved) {
+            tell(&mut transaction, telling).await?;
+        }
         if moved {
             append(&mut transaction, note).await?;
         }

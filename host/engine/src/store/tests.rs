@@ -102,6 +102,7 @@ on_both!(
     a_suites_runs_are_apart_from_those_of_people,
     a_campaign_repeats_a_run_once_and_takes_nobodys_turn,
     only_runs_of_those_who_agree_are_measured_again,
+    a_decision_and_its_notice_stand_or_fall_together,
 );
 
 fn object(id: &str) -> ObjectInfo {

@@ -3,6 +3,7 @@
 use crate::Result;
 use crate::board;
 use crate::engine::Inner;
+use crate::engine::plugin_notices::to_author;
 use crate::model::{AlgorithmResult, PluginState, RunSpec, State};
 use crate::runlog::{fresh_stages, plain_event};
 use crate::store::{CampaignRow, Note, RunRow, SubmissionRow, THE_SERVICE};
@@ -37,15 +38,16 @@ impl Inner {
     ) -> Result<()> {
         let (id, class) = (plugin.id.as_str(), campaign.hardware_class.as_str());
         let note = Note { actor: THE_SERVICE, action: "excluded", subject: id, detail: report };
-        if !self.store.exclude_submission(id, class, failed_us, note).await? {
-            return Ok(());
-        }
-        self.renew_plugins().await?;
-        self.forget_waiting().await?;
         let told =
             "It is measured no more on this hardware class until a curator brings it back; its results on others stay.";
-        self.tell_author(plugin, &format!("is excluded on the hardware class {class}"), told, report).await;
-        Ok(())
+        let notice = to_author(plugin, &format!("is excluded on the hardware class {class}"), told, report);
+        let telling = self.telling(&plugin.account, &notice);
+        if !self.store.exclude_submission(id, class, failed_us, Some(telling), note).await? {
+            return Ok(());
+        }
+        self.post_soon();
+        self.renew_plugins().await?;
+        self.forget_waiting().await
     }
 
     /// Runs of suites and campaigns that wait ask no more for what may not be asked for any more.

@@ -18,6 +18,10 @@ async fn two_accounts(store: &Store) {
     }
 }
 
+async fn tell(store: &Store, account: &str, notice: &NoticeInfo, most: usize, mailing: bool) -> bool {
+    store.add_notice(Telling { account, notice, most, mailing }).await.unwrap()
+}
+
 async fn ids(store: &Store, account: &str) -> Vec<String> {
     let all = store.notices(account, &Cursor::start(), 9).await.unwrap();
     all.into_iter().map(|notice| notice.id).collect()
@@ -26,10 +30,10 @@ async fn ids(store: &Store, account: &str) -> Vec<String> {
 pub async fn notices_belong_to_their_account_and_go_with_it(store: Store) {
     two_accounts(&store).await;
     for (id, us) in [("a", 1), ("c", 2), ("b", 2), ("d", 3)] {
-        assert!(store.add_notice("1", &notice(id, us), 3, true).await.unwrap());
+        assert!(tell(&store, "1", &notice(id, us), 3, true).await);
     }
-    assert!(store.add_notice("2", &notice("e", 9), 3, true).await.unwrap());
-    assert!(!store.add_notice("9", &notice("f", 9), 3, true).await.unwrap(), "there is no such account");
+    assert!(tell(&store, "2", &notice("e", 9), 3, true).await);
+    assert!(!tell(&store, "9", &notice("f", 9), 3, true).await, "there is no such account");
     assert_eq!(ids(&store, "1").await, ["d", "c", "b"], "the oldest beyond three is forgotten");
     let from = Cursor::behind(2, "c");
     assert_eq!(store.notices("1", &from, 9).await.unwrap(), [notice("b", 2)]);
@@ -50,14 +54,14 @@ pub async fn mails_wait_for_those_who_want_them(store: Store) {
         store.choose(account, &both).await.unwrap();
         store.set_address(account, "ada@example.org", false, NOTE).await.unwrap();
         // Nobody has opened a link.
-        store.add_notice(account, &notice(id, 1), 9, true).await.unwrap();
+        tell(&store, account, &notice(id, 1), 9, true).await;
     }
     assert_eq!((store.due_mail(i64::MAX).await.unwrap(), store.next_mail_us().await.unwrap()), (None, None));
     confirmed(&store, "1", "ada@example.org").await;
-    store.add_notice("1", &notice("c", 20), 9, false).await.unwrap();
+    tell(&store, "1", &notice("c", 20), 9, false).await;
     assert_eq!(store.next_mail_us().await.unwrap(), None, "no mail is to be sent");
-    store.add_notice("1", &notice("d", 30), 9, true).await.unwrap();
-    store.add_notice("1", &notice("e", 40), 9, true).await.unwrap();
+    tell(&store, "1", &notice("d", 30), 9, true).await;
+    tell(&store, "1", &notice("e", 40), 9, true).await;
     assert_eq!(store.next_mail_us().await.unwrap(), Some(30));
     assert_eq!(store.due_mail(29).await.unwrap(), None);
     let due = store.due_mail(50).await.unwrap().unwrap();
@@ -153,7 +157,7 @@ pub async fn a_link_turns_off_the_mails_of_its_account_alone(store: Store) {
         store.choose(account, &wants).await.unwrap();
         store.set_address(account, "both@example.org", false, NOTE).await.unwrap();
         confirmed(&store, account, "both@example.org").await;
-        store.add_notice(account, &notice(id, 1), 9, true).await.unwrap();
+        tell(&store, account, &notice(id, 1), 9, true).await;
     }
     let now = now_us();
     let later = now + 1_000_000_000;
