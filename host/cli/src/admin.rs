@@ -4,18 +4,20 @@ use std::io::{BufRead, IsTerminal};
 use std::process::ExitCode;
 
 use ocb_engine::Engine;
-use ocb_engine::model::{InvitationInfo, InvitationRequest, InvitationState, Page, Role};
+use ocb_engine::model::{InvitationInfo, InvitationRequest, InvitationState, LeavingCounts, Page, Role};
 
 use crate::args::{AdminCommand, Store};
 use crate::failure::{Failure, Result};
 use crate::open::{self, Purpose};
 use crate::output;
+use crate::things::agreed;
 
-/// Makes an account of any role, invites developers, or looks whether the audit log is whole.
+/// Makes an account of any role or deletes one, invites developers, or looks whether the audit log is whole.
 pub async fn admin(store: &Store, command: &AdminCommand, json: bool) -> Result<ExitCode> {
     let engine = open::open(store, Purpose::Look).await?;
     let done = match command {
         AdminCommand::Create { name, role } => create(&engine, name, role, json).await,
+        AdminCommand::Delete { name, yes } => delete(&engine, name, *yes, json).await,
         AdminCommand::Invite { recipient, days, server } => invite(&engine, recipient, *days, server, json).await,
         AdminCommand::Invitations => invitations(&engine, json).await,
         AdminCommand::Revoke { id } => revoke(&engine, id, json).await,
@@ -32,6 +34,31 @@ async fn create(engine: &Engine, name: &str, role: &str, json: bool) -> Result<(
         return output::print_json(&account);
     }
     output::print(&format!("{} is now {}.", account.name, role.name()))
+}
+
+async fn delete(engine: &Engine, name: &str, yes: bool, json: bool) -> Result<()> {
+    if !yes {
+        let told = engine.leaving(&engine.account_named(name).await?).await?;
+        eprintln!("{}\n{}", said("goes ", &told.goes), said("stays", &told.stays));
+        if !agreed()? {
+            return Err(Failure::Input("Nothing was deleted; add --yes to delete it.".to_owned()));
+        }
+    }
+    let told = engine.delete_account_named(name).await?;
+    if json {
+        return output::print_json(&told);
+    }
+    output::print(&format!(
+        "The account {} is deleted.\n{}\n{}",
+        name.trim(),
+        said("gone ", &told.goes),
+        said("stays", &told.stays)
+    ))
+}
+
+fn said(what: &str, counts: &LeavingCounts) -> String {
+    let LeavingCounts { runs, objects, advice, plugins } = counts;
+    format!("{what}  runs: {runs}, objects: {objects}, pieces of advice: {advice}, plugins: {plugins}")
 }
 
 async fn invite(engine: &Engine, recipient: &str, days: u32, server: &str, json: bool) -> Result<()> {

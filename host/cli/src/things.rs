@@ -140,7 +140,7 @@ fn request(service: &ServiceArgs, method: Method, path: &str) -> (String, Reques
 }
 
 /// Asks on the terminal; without one nobody can say yes.
-fn agreed() -> Result<bool> {
+pub fn agreed() -> Result<bool> {
     if !std::io::stdin().is_terminal() {
         return Ok(false);
     }

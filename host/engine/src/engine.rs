@@ -6,6 +6,7 @@ mod campaigns;
 mod charts;
 mod choices;
 mod citations;
+mod farewells;
 mod featured;
 mod follow;
 mod invitations;

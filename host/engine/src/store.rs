@@ -9,6 +9,7 @@ mod audit;
 mod blobs;
 mod campaigns;
 mod choices;
+mod farewells;
 mod invitations;
 mod mails;
 mod notices;
@@ -42,6 +43,7 @@ use crate::{EngineError, Result};
 pub use advice::{AdviceRow, StoredPaper};
 pub use audit::Note;
 pub use campaigns::CampaignRow;
+pub use farewells::A_FORMER_ACCOUNT;
 pub use mails::{MailLink, WaitingMail};
 pub use notices::Telling;
 pub use requests::Request;
@@ -119,6 +121,7 @@ fn migrations() -> Migrator {
         one(16, "campaigns", include_str!("../migrations/0016_campaigns.sql")),
         one(17, "plugin lists", include_str!("../migrations/0017_plugin_lists.sql")),
         one(18, "off links", include_str!("../migrations/0018_off_links.sql")),
+        one(19, "farewells", include_str!("../migrations/0019_farewells.sql")),
     ])
 }
 

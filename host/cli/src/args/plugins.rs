@@ -60,6 +60,14 @@ pub enum AdminCommand {
         #[arg(long, default_value = "administrator", value_name = "ROLE")]
         role: String,
     },
+    /// Show what goes and what stays with an account, then delete it for good; people delete theirs on the account page.
+    Delete {
+        /// Its name.
+        name: String,
+        /// Do not ask.
+        #[arg(long)]
+        yes: bool,
+    },
     /// Invite somebody to be a developer: prints a link that one account may accept once, in a browser. Curators invite on
     /// the page of curators.
     Invite {

@@ -2,6 +2,7 @@
 //!
 //! It starts the runner and asks plugins, so `cargo build --release` must have built them before; `make test` does so.
 
+mod admin;
 mod advise;
 mod bench;
 mod campaign;

@@ -12,7 +12,7 @@ use crate::model::{
     AccountInfo, Action, CheckLine, CheckVerdict, Cursor, Decision, Manifest, Page, Part, PluginInfo, PluginState, Role,
 };
 use crate::registry::{brought, check_manifest, is_free};
-use crate::store::{Note, SubmissionRow, now_us};
+use crate::store::{A_FORMER_ACCOUNT, Note, SubmissionRow, now_us};
 use crate::{EngineError, Result, signature};
 
 /// Largest plugin file that may be sent, and bytes of all that one account keeps.
@@ -194,7 +194,7 @@ impl Engine {
             sha256: row.blob.clone(),
             bytes: row.bytes,
             file: row.file.clone(),
-            owner: owner.as_ref().map_or_else(String::new, |account| account.name.clone()),
+            owner: owner.as_ref().map_or_else(|| A_FORMER_ACCOUNT.to_owned(), |account| account.name.clone()),
             mine,
             manifest: row.manifest.clone(),
             signed_by: row.signed_by.clone(),

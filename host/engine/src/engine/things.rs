@@ -63,6 +63,14 @@ impl Engine {
     }
 
     async fn remove(&self, owner: &str, what: Belongings) -> Result<Things> {
+        self.end_all(owner, &what).await?;
+        let told = self.inner.told(owner, what.clone()).await?;
+        self.inner.take_away(&what).await?;
+        Ok(told)
+    }
+
+    /// Ends what waits or is at work of these, which are the owner's.
+    pub(super) async fn end_all(&self, owner: &str, what: &Belongings) -> Result<()> {
         for run in &what.runs {
             let now = self.cancel(&run.id, Some(owner)).await?;
             if matches!(now.state, State::Queued | State::Running) {
@@ -72,9 +80,7 @@ impl Engine {
         for advice in &what.advice {
             self.cancel_advice(advice, Some(owner)).await?;
         }
-        let told = self.inner.told(owner, what.clone()).await?;
-        self.inner.take_away(&what).await?;
-        Ok(told)
+        Ok(())
     }
 
     /// Takes away what guests have left behind, now and every hour.
@@ -93,12 +99,17 @@ impl Engine {
         }
     }
 
-    /// Takes away everything of guests whose time is over; gives how many they were.
+    /// Takes away everything of guests whose time is over, and what was being made while its account was deleted; gives how many
+    /// they were.
     #[boxed]
     pub async fn sweep_once(&self, now_us: i64) -> Result<u32> {
         let mut swept = 0;
         for owner in self.inner.store.owners().await? {
-            if self.inner.kept_until(&owner).await?.is_some_and(|until| until < now_us) {
+            let over = match owner.strip_prefix("account:") {
+                Some(account) => self.inner.store.is_former(account).await?,
+                None => self.inner.kept_until(&owner).await?.is_some_and(|until| until < now_us),
+            };
+            if over {
                 self.remove_things(&owner).await?;
                 swept += 1;
             }

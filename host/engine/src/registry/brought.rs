@@ -56,7 +56,7 @@ fn one(row: &SubmissionRow, info: &AlgorithmInfo, file: &Path, public: bool, new
 /// The file of a plugin on this disk, under its hash; the jail needs a path.
 pub async fn plugin_file(blobs: &Blobs, data: &Path, sha256: &str) -> Result<PathBuf> {
     let folder = data.join("plugins");
-    let file = folder.join(format!("{sha256}.so"));
+    let file = cached(data, sha256);
     if !file.is_file() {
         let bytes = blobs.get(sha256).await?;
         let fault = |e: std::io::Error| EngineError::fault("Writing a plugin file failed", e);
@@ -72,4 +72,18 @@ pub async fn plugin_file(blobs: &Blobs, data: &Path, sha256: &str) -> Result<Pat
         write().map_err(fault)?;
     }
     Ok(file)
+}
+
+/// Takes the file of a plugin that is gone off this disk.
+pub fn forget_file(data: &Path, sha256: &str) -> Result<()> {
+    match std::fs::remove_file(cached(data, sha256)) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
+            Err(EngineError::fault("Removing a plugin file failed", e))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn cached(data: &Path, sha256: &str) -> PathBuf {
+    data.join("plugins").join(format!("{sha256}.so"))
 }

@@ -14,7 +14,7 @@ fn account((id, name, role, wish, signing_key, created_us): AccountRow) -> Resul
 }
 
 impl Store {
-    /// Adds an account; false when the name is taken.
+    /// Adds an account; false when the name is taken, or was before its account was deleted.
     pub async fn add_account(&self, account: &AccountInfo, password: &str) -> Result<bool> {
         let added = sqlx::query(
             "INSERT INTO accounts (id, name, folded, password, role, created_us) VALUES ($1, $2, $3, $4, $5, $6) \
@@ -34,8 +34,8 @@ impl Store {
     /// Accounts from this place on, newest first, at most `limit`.
     pub async fn accounts(&self, from: &Cursor, limit: usize) -> Result<Vec<AccountInfo>> {
         let rows: Vec<AccountRow> = sqlx::query_as(
-            "SELECT id, name, role, wish, signing_key, created_us FROM accounts WHERE (created_us, id) < ($1, $2) \
-             ORDER BY created_us DESC, id DESC LIMIT $3",
+            "SELECT id, name, role, wish, signing_key, created_us FROM accounts \
+             WHERE (created_us, id) < ($1, $2) AND deleted_us IS NULL ORDER BY created_us DESC, id DESC LIMIT $3",
         )
         .bind(from.created_us)
         .bind(&from.id)
@@ -47,17 +47,15 @@ impl Store {
 
     /// The account with this id.
     pub async fn account(&self, id: &str) -> Result<Option<AccountInfo>> {
-        let row: Option<AccountRow> =
-            sqlx::query_as("SELECT id, name, role, wish, signing_key, created_us FROM accounts WHERE id = $1")
-                .bind(id)
-                .fetch_optional(&self.pool)
-                .await?;
+        let text = "SELECT id, name, role, wish, signing_key, created_us FROM accounts \
+                    WHERE id = $1 AND deleted_us IS NULL";
+        let row: Option<AccountRow> = sqlx::query_as(text).bind(id).fetch_optional(&self.pool).await?;
         row.map(account).transpose()
     }
 
     /// Id and hashed password of the account with this name.
     pub async fn password_of(&self, name: &str) -> Result<Option<(String, String)>> {
-        Ok(sqlx::query_as("SELECT id, password FROM accounts WHERE folded = $1")
+        Ok(sqlx::query_as("SELECT id, password FROM accounts WHERE folded = $1 AND deleted_us IS NULL")
             .bind(name.to_lowercase())
             .fetch_optional(&self.pool)
             .await?)
@@ -76,7 +74,7 @@ impl Store {
     /// Gives the account a role, settles its wish, and notes it; false when there is no such account.
     pub async fn set_role(&self, id: &str, role: Role, note: Note<'_>) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
-        let done = sqlx::query("UPDATE accounts SET role = $1, wish = NULL WHERE id = $2")
+        let done = sqlx::query("UPDATE accounts SET role = $1, wish = NULL WHERE id = $2 AND deleted_us IS NULL")
             .bind(role.name())
             .bind(id)
             .execute(&mut *transaction)
@@ -104,7 +102,11 @@ impl Store {
 
     /// Notes why the account's owner wants to be a developer.
     pub async fn set_wish(&self, id: &str, wish: &str) -> Result<()> {
-        sqlx::query("UPDATE accounts SET wish = $1 WHERE id = $2").bind(wish).bind(id).execute(&self.pool).await?;
+        sqlx::query("UPDATE accounts SET wish = $1 WHERE id = $2 AND deleted_us IS NULL")
+            .bind(wish)
+            .bind(id)
+            .execute(&self.pool)
+            .await?;
         Ok(())
     }
 
@@ -112,15 +114,15 @@ impl Store {
     pub async fn add_key(&self, sha256: &str, account: &str, key: &TokenInfo, session: bool) -> Result<()> {
         sqlx::query(
             "INSERT INTO keys (sha256, id, account, name, scopes, created_us, expires_us) \
-             VALUES ($1, $2, $3, $4, $5, $6, $7)",
+             SELECT $1, $2, id, $3, $4, $5, $6 FROM accounts WHERE id = $7 AND deleted_us IS NULL",
         )
         .bind(sha256)
         .bind(&key.id)
-        .bind(account)
         .bind(Some(&key.name).filter(|_| !session))
         .bind(to_json(&key.scopes)?)
         .bind(key.created_us)
         .bind(key.expires_us)
+        .bind(account)
         .execute(&self.pool)
         .await?;
         Ok(())

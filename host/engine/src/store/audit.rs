@@ -2,7 +2,7 @@
 
 use sqlx::AnyConnection;
 
-use super::{Store, now_us};
+use super::{A_FORMER_ACCOUNT, Store, now_us};
 use crate::Result;
 use crate::blobs::sha256_hex;
 use crate::model::AuditEntry;
@@ -65,11 +65,14 @@ impl Store {
         append(&mut connection, Note { actor, action, subject, detail }).await
     }
 
-    /// What was done to this subject, oldest first.
+    /// What was done to this subject, oldest first. The log keeps the names of accounts that were deleted; nobody is shown them.
     pub async fn notes_on(&self, subject: &str) -> Result<Vec<AuditEntry>> {
         let rows: Vec<AuditRow> = sqlx::query_as(
-            "SELECT seq, at_us, actor, action, subject, detail, chain FROM audit WHERE subject = $1 ORDER BY seq",
+            "SELECT seq, at_us, CASE WHEN EXISTS (SELECT 1 FROM accounts \
+             WHERE folded = LOWER(audit.actor) AND deleted_us IS NOT NULL) THEN $1 ELSE actor END, \
+             action, subject, detail, chain FROM audit WHERE subject = $2 ORDER BY seq",
         )
+        .bind(A_FORMER_ACCOUNT)
         .bind(subject)
         .fetch_all(&self.pool)
         .await?;

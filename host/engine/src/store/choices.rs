@@ -57,7 +57,7 @@ impl Store {
         let now = now_us();
         sqlx::query(
             "UPDATE accounts SET confirmed_us = CASE WHEN address = $1 THEN confirmed_us ELSE NULL END, address = $1 \
-             WHERE id = $2",
+             WHERE id = $2 AND deleted_us IS NULL",
         )
         .bind(address)
         .bind(account)

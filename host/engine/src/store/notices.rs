@@ -31,7 +31,7 @@ pub(super) async fn tell(connection: &mut AnyConnection, telling: Telling<'_>) -
     let Telling { account, notice, most, mailing } = telling;
     let added = sqlx::query(
         "INSERT INTO notices (id, account, subject, text, link, created_us) \
-         SELECT $1, id, $2, $3, $4, $5 FROM accounts WHERE id = $6",
+         SELECT $1, id, $2, $3, $4, $5 FROM accounts WHERE id = $6 AND deleted_us IS NULL",
     )
     .bind(&notice.id)
     .bind(&notice.subject)

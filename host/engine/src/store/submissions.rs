@@ -62,11 +62,10 @@ impl Store {
         let mut transaction = self.pool.begin().await?;
         let added = sqlx::query(
             "INSERT INTO submissions (id, account, blob, file, bytes, manifest, state, reason, algorithms, attempts, \
-             created_us, changed_us, signed_by) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, 0, $10, $11, $12) \
-             ON CONFLICT (account, blob) DO NOTHING",
+             created_us, changed_us, signed_by) SELECT $1, id, $2, $3, $4, $5, $6, $7, $8, 0, $9, $10, $11 FROM accounts \
+             WHERE id = $12 AND deleted_us IS NULL ON CONFLICT (account, blob) DO NOTHING",
         )
         .bind(&row.id)
-        .bind(&row.account)
         .bind(&row.blob)
         .bind(&row.file)
         .bind(row.bytes as i64)
@@ -77,6 +76,7 @@ impl Store {
         .bind(row.created_us)
         .bind(row.changed_us)
         .bind(row.signed_by.as_deref())
+        .bind(&row.account)
         .execute(&mut *transaction)
         .await?;
         let new = added.rows_affected() == 1;

@@ -4,6 +4,7 @@ use ocb_core::configuration::Class;
 use ocb_core::query::Query;
 
 mod campaigns;
+mod farewells;
 mod lists;
 mod mails;
 mod people;
@@ -102,6 +103,9 @@ on_both!(
     a_suites_runs_are_apart_from_those_of_people,
     a_campaign_repeats_a_run_once_and_takes_nobodys_turn,
     only_runs_of_those_who_agree_are_measured_again,
+    an_account_goes_at_once_and_what_is_public_is_nobodys,
+    somebody_who_decides_is_always_left,
+    a_plugin_that_became_public_meanwhile_stays,
     a_decision_and_its_notice_stand_or_fall_together,
 );
 
@@ -222,6 +226,7 @@ async fn add(store: &Store, run: RunRow) {
 
 mod contract {
     pub use super::campaigns::*;
+    pub use super::farewells::*;
     pub use super::lists::*;
     pub use super::mails::*;
     pub use super::people::*;

@@ -6,7 +6,7 @@ use super::{Store, StoredPaper, from_json, now_us};
 use crate::Result;
 use crate::model::Thing;
 
-/// Runs, objects and advice of one owner.
+/// Runs, objects, advice and plugins of one owner.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Belongings {
     /// Newest first.
@@ -15,6 +15,8 @@ pub struct Belongings {
     pub objects: Vec<Thing>,
     /// Their ids.
     pub advice: Vec<String>,
+    /// Theirs, too; only an account that is deleted takes plugins along.
+    pub plugins: Vec<String>,
 }
 
 /// A stored file that nobody uses any more.
@@ -27,7 +29,7 @@ pub struct Unused {
 }
 
 impl Store {
-    /// Everything that this owner has; with an object, only that and what was made with it.
+    /// Everything but plugins that this owner has; with an object, only that and what was made with it.
     pub async fn belongings(&self, owner: &str, object: Option<&str>) -> Result<Belongings> {
         // Ids stand in requests as JSON texts, and hold nothing that LIKE would read otherwise.
         let named = object.map_or_else(|| "%".to_owned(), |id| format!("%\"{id}\"%"));
@@ -58,40 +60,14 @@ impl Store {
             runs: runs.into_iter().map(run).collect(),
             objects: objects.into_iter().map(object).collect::<Result<_>>()?,
             advice,
+            plugins: Vec::new(),
         })
     }
 
     /// Takes these away and tells which files nobody uses any more; unless `really`, everything stays as it is.
     pub async fn take_away(&self, what: &Belongings, really: bool) -> Result<Vec<Unused>> {
-        // Every statement writes, also the first: a transaction that has read cannot write any more on SQLite when somebody
-        // else has written since.
         let mut transaction = self.pool.begin().await?;
-        let mut files = Vec::new();
-        for Thing { id, .. } in &what.runs {
-            for text in ["DELETE FROM run_events WHERE run_id = $1", "DELETE FROM run_stages WHERE run_id = $1"] {
-                sqlx::query(text).bind(id).execute(&mut *transaction).await?;
-            }
-            let records = "DELETE FROM results WHERE run_id = $1 RETURNING records";
-            files.extend(column(&mut transaction, records, id).await?);
-            files.extend(column(&mut transaction, "DELETE FROM runs WHERE id = $1 RETURNING set_blob", id).await?);
-        }
-        for Thing { id, .. } in &what.objects {
-            files.extend(column(&mut transaction, "DELETE FROM objects WHERE id = $1 RETURNING blob", id).await?);
-        }
-        for id in &what.advice {
-            for papers in column(&mut transaction, "DELETE FROM advice WHERE id = $1 RETURNING papers", id).await? {
-                let papers: [Vec<StoredPaper>; 2] = from_json(&papers)?;
-                files.extend(papers.into_iter().flatten().flat_map(|paper| [paper.mesh, paper.certificate]));
-            }
-        }
-        files.sort();
-        files.dedup();
-        let mut unused = Vec::new();
-        for sha256 in files {
-            if let Some(bytes) = forget(&mut transaction, &sha256).await? {
-                unused.push(Unused { sha256, bytes });
-            }
-        }
+        let unused = take(&mut transaction, what).await?;
         if really {
             transaction.commit().await?;
         } else {
@@ -128,6 +104,52 @@ impl Store {
                     UNION SELECT owner FROM advice WHERE owner IS NOT NULL";
         Ok(sqlx::query_scalar(text).fetch_all(&self.pool).await?)
     }
+}
+
+/// Takes these away within a transaction and tells which files nobody uses any more.
+pub(super) async fn take(connection: &mut AnyConnection, what: &Belongings) -> Result<Vec<Unused>> {
+    // Every statement writes, also the first: a transaction that has read cannot write any more on SQLite when somebody
+    // else has written since.
+    let mut files = Vec::new();
+    for Thing { id, .. } in &what.runs {
+        for text in ["DELETE FROM run_events WHERE run_id = $1", "DELETE FROM run_stages WHERE run_id = $1"] {
+            sqlx::query(text).bind(id).execute(&mut *connection).await?;
+        }
+        let records = "DELETE FROM results WHERE run_id = $1 RETURNING records";
+        files.extend(column(&mut *connection, records, id).await?);
+        files.extend(column(&mut *connection, "DELETE FROM runs WHERE id = $1 RETURNING set_blob", id).await?);
+    }
+    for Thing { id, .. } in &what.objects {
+        files.extend(column(&mut *connection, "DELETE FROM objects WHERE id = $1 RETURNING blob", id).await?);
+    }
+    for id in &what.advice {
+        for papers in column(&mut *connection, "DELETE FROM advice WHERE id = $1 RETURNING papers", id).await? {
+            let papers: [Vec<StoredPaper>; 2] = from_json(&papers)?;
+            files.extend(papers.into_iter().flatten().flat_map(|paper| [paper.mesh, paper.certificate]));
+        }
+    }
+    for id in &what.plugins {
+        // One that was made public meanwhile stays.
+        let text = "UPDATE submissions SET attempts = attempts WHERE id = $1 \
+                    AND state NOT IN ('public', 'suspended', 'excluded', 'withdrawn') RETURNING blob";
+        let blobs = column(&mut *connection, text, id).await?;
+        if blobs.is_empty() {
+            continue;
+        }
+        files.extend(blobs);
+        for text in ["DELETE FROM submission_lines WHERE submission = $1", "DELETE FROM submissions WHERE id = $1"] {
+            sqlx::query(text).bind(id).execute(&mut *connection).await?;
+        }
+    }
+    files.sort();
+    files.dedup();
+    let mut unused = Vec::new();
+    for sha256 in files {
+        if let Some(bytes) = forget(&mut *connection, &sha256).await? {
+            unused.push(Unused { sha256, bytes });
+        }
+    }
+    Ok(unused)
 }
 
 async fn column(connection: &mut AnyConnection, text: &'static str, id: &str) -> Result<Vec<String>> {

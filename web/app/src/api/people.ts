@@ -1,6 +1,6 @@
 import { answer, http, nothing, part, whole, type Part } from './client'
 import type {
-  AccountInfo, Choices, Credentials, Decision, Identity, InvitationInfo, NewChoices, NewInvitation, NewToken, NoticeInfo, PluginInfo, Role, Scope,
+  AccountInfo, Choices, Credentials, Decision, Identity, InvitationInfo, Leaving, NewChoices, NewInvitation, NewToken, NoticeInfo, PluginInfo, Role, Scope,
   TokenInfo,
 } from './types'
 
@@ -16,6 +16,11 @@ export const logOutEverywhere = (): Promise<void> => nothing(http.POST('/api/v1/
 
 export const changePassword = (body: { old: string; new: string }): Promise<void> =>
   nothing(http.POST('/api/v1/account/password', { body }))
+
+/** What would go with the account and what would stay. */
+export const getLeaving = (): Promise<Leaving> => answer(http.GET('/api/v1/account/leaving'))
+
+export const deleteAccount = (password: string): Promise<Leaving> => answer(http.DELETE('/api/v1/account', { body: { password } }))
 
 export const askToDevelop = (reason: string): Promise<void> =>
   nothing(http.POST('/api/v1/account/developer', { body: { reason } }))

@@ -12,7 +12,12 @@ export interface paths {
         put?: never;
         /** Makes an account and enters it. A name that is taken gets 409: names stand beside plugins, so they are no secret. */
         post: operations["make_account"];
-        delete?: never;
+        /**
+         * Deletes the account for good: how it is entered, what it was told and has chosen, its tokens, and whatever of its things is
+         *     not public. What is public stays, because it is cited, and belongs to a former account without a name. Nobody gets the name
+         *     again. `GET /things.tar` takes everything along first.
+         */
+        delete: operations["delete_account"];
         options?: never;
         head?: never;
         patch?: never;
@@ -102,6 +107,23 @@ export interface paths {
         put?: never;
         /** Accepts an invitation for the account that is logged in, which is a developer from then on. */
         post: operations["accept_invitation"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/account/leaving": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** What would go with the account and what would stay, and why it cannot be deleted, if so. */
+        get: operations["show_leaving"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -2544,6 +2566,16 @@ export interface components {
             thresholds: components["schemas"]["ThresholdInfo"][];
         };
         /**
+         * @description Deleting one's account.
+         * @example {
+         *       "password": "correct horse battery staple"
+         *     }
+         */
+        Farewell: {
+            /** @description The password, once more. */
+            password: string;
+        };
+        /**
          * @description How a series is drawn.
          * @enum {string}
          */
@@ -2644,6 +2676,61 @@ export interface components {
          * @enum {string}
          */
         InvitationState: "open" | "accepted" | "revoked" | "expired";
+        /**
+         * @description What becomes of an account's things when it is deleted.
+         * @example {
+         *       "bytes": 7340032,
+         *       "goes": {
+         *         "advice": 1,
+         *         "objects": 3,
+         *         "plugins": 1,
+         *         "runs": 12
+         *       },
+         *       "hindrance": null,
+         *       "stays": {
+         *         "advice": 0,
+         *         "objects": 1,
+         *         "plugins": 1,
+         *         "runs": 2
+         *       }
+         *     }
+         */
+        Leaving: {
+            /**
+             * Format: int64
+             * @description Bytes of the stored files that go: those that nobody else uses.
+             */
+            bytes: number;
+            /** @description What is not public is deleted, with everything that the account was told and has chosen. */
+            goes: components["schemas"]["LeavingCounts"];
+            /** @description Why the account cannot be deleted now, and how to mend that. */
+            hindrance?: string | null;
+            /** @description What is public stays, because it is cited, and belongs to a former account without a name. A plugin stays once it was public. */
+            stays: components["schemas"]["LeavingCounts"];
+        };
+        /** @description How many of each. */
+        LeavingCounts: {
+            /**
+             * Format: int32
+             * @description Pieces of advice.
+             */
+            advice: number;
+            /**
+             * Format: int32
+             * @description Objects.
+             */
+            objects: number;
+            /**
+             * Format: int32
+             * @description Plugins, each version by itself.
+             */
+            plugins: number;
+            /**
+             * Format: int32
+             * @description Runs with their results.
+             */
+            runs: number;
+        };
         /** @description One level of one object. */
         LevelFacts: {
             /**
@@ -4343,6 +4430,111 @@ export interface operations {
             };
         };
     };
+    delete_account: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Farewell"];
+            };
+        };
+        responses: {
+            /** @description What has gone and what stays; nobody is logged in any more */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Leaving"];
+                };
+            };
+            /** @description The body or the address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The password is another one */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body came too slowly */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nobody else could decide in its place, or a run is just ending */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body does not say that it is JSON */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No password */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many tries */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     give_address: {
         parameters: {
             query?: never;
@@ -4905,6 +5097,43 @@ export interface operations {
             };
             /** @description Too many tries */
             429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_leaving: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Leaving"];
+                };
+            };
+            /** @description Nobody is logged in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };

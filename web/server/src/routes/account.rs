@@ -1,4 +1,4 @@
-//! One's own account: making, entering and leaving it; tokens for programs.
+//! One's own account: making, entering, leaving and deleting it; tokens for programs.
 
 use axum::Json as Answer;
 use axum::extract::State;
@@ -6,7 +6,8 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{AppendHeaders, IntoResponse, Response};
 use axum_extra::extract::CookieJar;
 use ocb_engine::model::{
-    AccountInfo, Credentials, Identity, NewPassword, NewToken, Role, SigningKey, TokenInfo, TokenRequest, Wish,
+    AccountInfo, Credentials, Farewell, Identity, Leaving, NewPassword, NewToken, Role, SigningKey, TokenInfo,
+    TokenRequest, Wish,
 };
 
 use crate::App;
@@ -120,6 +121,40 @@ pub(crate) async fn change_password(
     app.limits.count(LOG_IN, &account.name)?;
     app.engine.change_password(&account, &asked.old, &asked.new).await?;
     Ok(left(&headers))
+}
+
+/// What would go with the account and what would stay, and why it cannot be deleted, if so.
+#[utoipa::path(get, path = "/account/leaving", tag = "account",
+    responses(
+        (status = 200, body = Leaving),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn show_leaving(State(app): State<App>, Member(account): Member) -> Result<Answer<Leaving>> {
+    Ok(Answer(app.engine.leaving(&account).await?))
+}
+
+/// Deletes the account for good: how it is entered, what it was told and has chosen, its tokens, and whatever of its things is
+/// not public. What is public stays, because it is cited, and belongs to a former account without a name. Nobody gets the name
+/// again. `GET /things.tar` takes everything along first.
+#[utoipa::path(delete, path = "/account", tag = "account", request_body = Farewell,
+    responses(
+        (status = 200, description = "What has gone and what stays; nobody is logged in any more", body = Leaving),
+        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "The password is another one", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Nobody else could decide in its place, or a run is just ending", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No password", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many tries", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn delete_account(
+    State(app): State<App>,
+    Member(account): Member,
+    headers: HeaderMap,
+    Json(asked): Json<Farewell>,
+) -> Result<Response> {
+    app.limits.count(LOG_IN, &account.name)?;
+    let told = app.engine.delete_account(&account, &asked.password).await?;
+    let gone = cookie(SESSION, "", 0, is_secure(&headers));
+    Ok((AppendHeaders([(header::SET_COOKIE, gone)]), Answer(told)).into_response())
 }
 
 /// Asks the curators to be made a developer, who submits plugins.

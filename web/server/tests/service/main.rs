@@ -8,6 +8,7 @@ mod authority;
 mod campaigns;
 mod citations;
 mod errors;
+mod farewells;
 mod invitations;
 mod lists;
 mod mail;

@@ -210,6 +210,8 @@ const DOORS: &[(&str, &[&str])] = &[
     (
         "logged in",
         &[
+            "delete /account",
+            "get /account/leaving",
             "put /account/address",
             "delete /account/address",
             "post /account/address/confirmation",

@@ -8,7 +8,7 @@ use crate::suite::Suite;
 
 const NOTE: Note<'static> = Note { actor: "ada", action: "did", subject: "campaign:c", detail: "" };
 
-fn campaign(id: &str, created_us: i64, suite: &Suite) -> CampaignRow {
+pub(super) fn campaign(id: &str, created_us: i64, suite: &Suite) -> CampaignRow {
     CampaignRow {
         id: id.into(),
         reason: "why".into(),

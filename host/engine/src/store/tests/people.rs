@@ -15,7 +15,7 @@ fn key(id: &str, expires_us: i64) -> TokenInfo {
     TokenInfo { id: id.into(), name: "n".into(), scopes: vec![Scope::Plugins], created_us: 1, expires_us }
 }
 
-fn submission(id: &str, account: &str, blob: &str) -> SubmissionRow {
+pub(super) fn submission(id: &str, account: &str, blob: &str) -> SubmissionRow {
     let manifest = serde_json::from_value(serde_json::json!({
         "name": "n", "version": "1", "authors": "a", "license": "MIT", "queries": ["proximity"]
     }));
