@@ -1,17 +1,24 @@
-import type { Things } from '../api/types'
+import type { LeavingCounts, Things } from '../api/types'
 import { bytes, count } from '../ui/format'
 
 const several = (n: number, one: string, more: string): string[] => (n === 0 ? [] : [`${count(n)} ${n === 1 ? one : more}`])
 
-/** What goes, as a sentence. */
-export function inWords({ runs, objects, advice, bytes: size }: Pick<Things, 'runs' | 'objects' | 'advice' | 'bytes'>): string {
+/** How many of each, as the part of a sentence; null when there is nothing. */
+export function counted({ runs, objects, advice, plugins }: LeavingCounts): string | null {
   const parts = [
-    ...several(runs.length, 'run', 'runs'),
-    ...several(objects.length, 'object', 'objects'),
+    ...several(runs, 'run', 'runs'),
+    ...several(objects, 'object', 'objects'),
     ...several(advice, 'piece of advice', 'pieces of advice'),
+    ...several(plugins, 'plugin', 'plugins'),
   ]
   const last = parts.pop()
-  if (last === undefined) return 'There is nothing to delete.'
-  const all = parts.length > 0 ? `${parts.join(', ')} and ${last}` : last
+  if (last === undefined) return null
+  return parts.length > 0 ? `${parts.join(', ')} and ${last}` : last
+}
+
+/** What goes, as a sentence. */
+export function inWords({ runs, objects, advice, bytes: size }: Pick<Things, 'runs' | 'objects' | 'advice' | 'bytes'>): string {
+  const all = counted({ runs: runs.length, objects: objects.length, advice, plugins: 0 })
+  if (all === null) return 'There is nothing to delete.'
   return `${all} will be gone for good${size > 0 ? `, with ${bytes(size)} of files that nobody else uses` : ''}.`
 }

@@ -1,0 +1,15 @@
+import { describe, expect, it } from 'vitest'
+import { goesInWords, staysInWords } from './farewell'
+
+describe('a farewell in words', () => {
+  const none = { runs: 0, objects: 0, advice: 0, plugins: 0 }
+  it('says what goes, things or not', () => {
+    expect(goesInWords({ goes: none })).toBe('For good go your password, sessions, tokens, address, choices and notices.')
+    expect(goesInWords({ goes: { runs: 2, objects: 0, advice: 1, plugins: 1 } })).toMatch(/^For good go 2 runs, 1 piece of advice and 1 plugin, and your password/)
+  })
+  it('says what stays, and how to have something stay', () => {
+    expect(staysInWords({ stays: { ...none, runs: 2 } })).not.toContain('plugin')
+    expect(staysInWords({ stays: none })).toContain('make public first')
+    expect(staysInWords({ stays: { ...none, runs: 1, plugins: 2 } })).toMatch(/^Because it is public and may be cited, 1 run and 2 plugins will stay, and name nobody. What you wrote about a plugin/)
+  })
+})
