@@ -115,7 +115,9 @@ fn text(table: &StabilityTable) -> String {
         }
         blocks.extend(method.search.as_ref().map(searched));
         if let Some([low, high]) = method.unit_safe {
-            blocks.push(format!("The unit of length may change from 2^{low} to 2^{high}, where triangles are about one unit long."));
+            blocks.push(format!(
+                "The unit of length may change from 2^{low} to 2^{high}, where triangles are about one unit long."
+            ));
         }
         if let Some(offset) = method.offset_safe {
             blocks.push(format!("Right up to {offset} lengths from the origin."));
