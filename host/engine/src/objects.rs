@@ -74,7 +74,7 @@ impl Objects {
         Ok(id.starts_with("stock:") || self.store.object(id).await?.is_none_or(|row| row.is_for(viewer)))
     }
 
-    /// Who sees the object; what is not there any more hides nothing.
+    /// Who sees the object; what is not there any more hides nothing: its runs have taken over what it hid.
     pub async fn visibility(&self, id: &str) -> Result<Visibility> {
         if id.starts_with("stock:") {
             return Ok(Visibility::Public);

@@ -1,10 +1,10 @@
 //! The contract of the store: every function, on SQLite and on PostgreSQL.
 
-use ocb_core::configuration::Class;
 use ocb_core::query::Query;
 
 mod campaigns;
 mod farewells;
+mod fixtures;
 mod lists;
 mod mails;
 mod people;
@@ -12,12 +12,12 @@ mod suites;
 mod things;
 mod visibility;
 
+pub(crate) use fixtures::run;
+use fixtures::{add, advice_info, object, result, set_info, spec};
+
 use super::*;
 use crate::blobs::tests::from_harness;
-use crate::model::{
-    AdviceInfo, Agreement, AlgorithmInfo, AlgorithmResult, ClassCount, Cursor, Draw, Environment, Estimated,
-    ObjectInfo, OutcomeInfo, Reference, RunSpec, SetInfo, Stability, State, Visibility,
-};
+use crate::model::{AlgorithmInfo, Cursor, Draw, Environment, Estimated, ObjectInfo, Reference, Stability, State};
 use crate::runlog::{fresh_stages, plain_event};
 
 /// How many rows there are of blobs, objects, sets, runs and results.
@@ -97,6 +97,7 @@ on_both!(
     a_link_turns_off_the_mails_of_its_account_alone,
     a_submission_is_checked_three_times_at_most,
     only_what_is_public_is_in_the_lists_of_others,
+    what_an_object_hid_stays_hidden_without_it,
     lists_go_on_where_they_were_left,
     lists_of_plugins_are_whole_and_in_order,
     what_is_taken_away_takes_the_files_that_nobody_else_uses,
@@ -108,121 +109,6 @@ on_both!(
     a_plugin_that_became_public_meanwhile_stays,
     a_decision_and_its_notice_stand_or_fall_together,
 );
-
-fn object(id: &str) -> ObjectInfo {
-    ObjectInfo {
-        id: id.into(),
-        name: "ünïcode 'quoted'".into(),
-        triangles: 12,
-        vertices: 8,
-        bounds: [-0.1, 0.0, 1.0 / 3.0, 1.0, 2.0, 3.0],
-        sha256: format!("mesh of {id}"),
-        terms: String::new(),
-        stock: false,
-        closed: true,
-        warnings: vec!["one".into()],
-        created_us: now_us(),
-        visibility: Visibility::Unlisted,
-        mine: false,
-    }
-}
-
-fn spec() -> RunSpec {
-    serde_json::from_value(serde_json::json!({
-        "object_a": "stock:box@500", "query": "proximity", "algorithms": ["a", "b"], "relative_distance": 0.1,
-        "method": {"kind": "sphere", "sampling": {"kind": "count", "count": 5}},
-    }))
-    .unwrap()
-}
-
-pub(crate) fn run(id: &str, owner: Option<&str>, priority: i64, created_us: i64) -> RunRow {
-    RunRow {
-        id: id.into(),
-        owner: owner.map(str::to_owned),
-        featured: false,
-        private: false,
-        visibility: Visibility::Unlisted,
-        priority,
-        suite: None,
-        campaign: None,
-        rerun_of: None,
-        state: State::Queued,
-        attempts: 0,
-        message: None,
-        spec: spec(),
-        object_a_name: "box".into(),
-        object_b_name: "box".into(),
-        set: None,
-        set_blob: None,
-        environment: None,
-        preview: None,
-        secret: Some("s".into()),
-        expected_seconds: 1.5,
-        created_us,
-        finished_us: None,
-    }
-}
-
-fn set_info() -> SetInfo {
-    SetInfo {
-        sha256: "s".into(),
-        configurations: 4,
-        missed_rays: 1,
-        longest_side: 0.5,
-        classes: vec![ClassCount { class: Class::Clear, count: 4 }],
-        coverage_a: 0.1,
-        coverage_b: 0.2,
-        exact: 1,
-        further_roots: 0,
-        evenness_a: 0.3,
-        evenness_b: 0.4,
-        spacing: None,
-        box_side: Some(1.5),
-        oracle: Some(4),
-    }
-}
-
-fn advice_info(id: &str) -> AdviceInfo {
-    serde_json::from_value(serde_json::json!({
-        "id": id, "spec": {"object_a": "stock:box@500", "question": {"kind": "distance", "tolerance": 0.01}},
-        "names": ["box", "box"], "state": "queued", "step": "", "done": 0, "total": 0, "message": null, "advice": null,
-    }))
-    .unwrap()
-}
-
-fn result(algorithm: &str, n: u32) -> StoredResult {
-    StoredResult {
-        result: AlgorithmResult {
-            algorithm: algorithm.into(),
-            name: algorithm.to_uppercase(),
-            outcome: OutcomeInfo { name: "Completed".into(), message: "All.".into(), ours: false },
-            n,
-            of: 5,
-            budget_limited: n < 5,
-            time: None,
-            ratio: Some(Estimated { value: 1.0, lo: 0.5, hi: 2.0 }),
-            class: None,
-            rank: Some(1),
-            timing: None,
-            verdicts: Vec::new(),
-            wrong: 0,
-            grazing: Agreement::default(),
-            resolution: None,
-            contacts: None,
-            bv_tests_mean: Some(1.25),
-            primitive_tests_mean: None,
-            build_ms: None,
-            memory_bytes: Some(u64::from(u32::MAX) + 1),
-        },
-        records: None,
-        plugin_sha256: "p".into(),
-        seconds_per_query: Some(1e-6),
-    }
-}
-
-async fn add(store: &Store, run: RunRow) {
-    assert!(store.add_run(&run, &fresh_stages(&run.spec.algorithms), None).await.unwrap());
-}
 
 mod contract {
     pub use super::campaigns::*;

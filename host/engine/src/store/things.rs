@@ -120,6 +120,7 @@ pub(super) async fn take(connection: &mut AnyConnection, what: &Belongings) -> R
         files.extend(column(&mut *connection, "DELETE FROM runs WHERE id = $1 RETURNING set_blob", id).await?);
     }
     for Thing { id, .. } in &what.objects {
+        leave_hidden(&mut *connection, id).await?;
         files.extend(column(&mut *connection, "DELETE FROM objects WHERE id = $1 RETURNING blob", id).await?);
     }
     for id in &what.advice {
@@ -150,6 +151,16 @@ pub(super) async fn take(connection: &mut AnyConnection, what: &Belongings) -> R
         }
     }
     Ok(unused)
+}
+
+/// What an object hid stays hidden without it: a run with it that more people would see takes over who sees the object.
+async fn leave_hidden(connection: &mut AnyConnection, object: &str) -> Result<()> {
+    let text = "UPDATE runs SET visibility = (SELECT visibility FROM objects WHERE id = $1) WHERE spec LIKE $2 \
+                AND EXISTS (SELECT 1 FROM objects o WHERE o.id = $3 AND (runs.visibility = 'public' AND o.visibility <> 'public' \
+                OR runs.visibility = 'unlisted' AND o.visibility = 'private'))";
+    let named = format!("%\"{object}\"%");
+    sqlx::query(text).bind(object).bind(named).bind(object).execute(connection).await?;
+    Ok(())
 }
 
 async fn column(connection: &mut AnyConnection, text: &'static str, id: &str) -> Result<Vec<String>> {

@@ -1,0 +1,125 @@
+//! Rows to store, all fields set.
+
+use ocb_core::configuration::Class;
+
+use super::super::*;
+use crate::model::{
+    AdviceInfo, Agreement, AlgorithmResult, ClassCount, Estimated, ObjectInfo, OutcomeInfo, RunSpec, SetInfo, State,
+    Visibility,
+};
+use crate::runlog::fresh_stages;
+
+pub(crate) fn object(id: &str) -> ObjectInfo {
+    ObjectInfo {
+        id: id.into(),
+        name: "ünïcode 'quoted'".into(),
+        triangles: 12,
+        vertices: 8,
+        bounds: [-0.1, 0.0, 1.0 / 3.0, 1.0, 2.0, 3.0],
+        sha256: format!("mesh of {id}"),
+        terms: String::new(),
+        stock: false,
+        closed: true,
+        warnings: vec!["one".into()],
+        created_us: now_us(),
+        visibility: Visibility::Unlisted,
+        mine: false,
+    }
+}
+
+pub(crate) fn spec() -> RunSpec {
+    serde_json::from_value(serde_json::json!({
+        "object_a": "stock:box@500", "query": "proximity", "algorithms": ["a", "b"], "relative_distance": 0.1,
+        "method": {"kind": "sphere", "sampling": {"kind": "count", "count": 5}},
+    }))
+    .unwrap()
+}
+
+pub(crate) fn run(id: &str, owner: Option<&str>, priority: i64, created_us: i64) -> RunRow {
+    RunRow {
+        id: id.into(),
+        owner: owner.map(str::to_owned),
+        featured: false,
+        private: false,
+        visibility: Visibility::Unlisted,
+        priority,
+        suite: None,
+        campaign: None,
+        rerun_of: None,
+        state: State::Queued,
+        attempts: 0,
+        message: None,
+        spec: spec(),
+        object_a_name: "box".into(),
+        object_b_name: "box".into(),
+        set: None,
+        set_blob: None,
+        environment: None,
+        preview: None,
+        secret: Some("s".into()),
+        expected_seconds: 1.5,
+        created_us,
+        finished_us: None,
+    }
+}
+
+pub(crate) fn set_info() -> SetInfo {
+    SetInfo {
+        sha256: "s".into(),
+        configurations: 4,
+        missed_rays: 1,
+        longest_side: 0.5,
+        classes: vec![ClassCount { class: Class::Clear, count: 4 }],
+        coverage_a: 0.1,
+        coverage_b: 0.2,
+        exact: 1,
+        further_roots: 0,
+        evenness_a: 0.3,
+        evenness_b: 0.4,
+        spacing: None,
+        box_side: Some(1.5),
+        oracle: Some(4),
+    }
+}
+
+pub(crate) fn advice_info(id: &str) -> AdviceInfo {
+    serde_json::from_value(serde_json::json!({
+        "id": id, "spec": {"object_a": "stock:box@500", "question": {"kind": "distance", "tolerance": 0.01}},
+        "names": ["box", "box"], "state": "queued", "step": "", "done": 0, "total": 0, "message": null, "advice": null,
+    }))
+    .unwrap()
+}
+
+pub(crate) fn result(algorithm: &str, n: u32) -> StoredResult {
+    StoredResult {
+        result: AlgorithmResult {
+            algorithm: algorithm.into(),
+            name: algorithm.to_uppercase(),
+            outcome: OutcomeInfo { name: "Completed".into(), message: "All.".into(), ours: false },
+            n,
+            of: 5,
+            budget_limited: n < 5,
+            time: None,
+            ratio: Some(Estimated { value: 1.0, lo: 0.5, hi: 2.0 }),
+            class: None,
+            rank: Some(1),
+            timing: None,
+            verdicts: Vec::new(),
+            wrong: 0,
+            grazing: Agreement::default(),
+            resolution: None,
+            contacts: None,
+            bv_tests_mean: Some(1.25),
+            primitive_tests_mean: None,
+            build_ms: None,
+            memory_bytes: Some(u64::from(u32::MAX) + 1),
+        },
+        records: None,
+        plugin_sha256: "p".into(),
+        seconds_per_query: Some(1e-6),
+    }
+}
+
+pub(crate) async fn add(store: &Store, run: RunRow) {
+    assert!(store.add_run(&run, &fresh_stages(&run.spec.algorithms), None).await.unwrap());
+}
