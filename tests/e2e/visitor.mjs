@@ -53,6 +53,16 @@ export async function visitor(t, { scheme = 'light', width = 1280, height = 900,
   }
 }
 
+/** Logs in on the account page, or makes the account when it is `fresh`. */
+export async function enter(v, name, password, fresh = false) {
+  await v.go('/account')
+  if (fresh) await v.at('account-switch').click()
+  await v.at('account-name').fill(name)
+  await v.at('account-password').fill(password)
+  await v.at('account-enter').click()
+  await v.at('account-who').waitFor()
+}
+
 /** No axe violation in the page, or in parts of one that is long, and nothing that scrolls sideways. */
 async function accessible(page, what, parts = []) {
   const axe = parts.reduce((all, part) => all.include(part), new AxeBuilder({ page }))

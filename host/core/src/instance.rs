@@ -7,8 +7,9 @@
 //!
 //! Renumbering and scaling belong to a [`Presentation`], which lasts as long as a process; the first two processes see the
 //! smallest and the largest scale, so that no luck decides whether a tolerance is met that is a length in nobody's unit. The
-//! rotation differs from question to question, unless the order of the questions is part of what is measured. Only questions
-//! whose time does not count are swapped: a method may be faster one way round, and the time shall be that of the question as it was asked.
+//! rotation differs from question to question, unless the order of the questions is part of what is measured. Only
+//! questions whose time does not count are swapped: a method may be faster one way round, and the time shall be that of
+//! the question as it was asked.
 
 use nalgebra::{Matrix3, Point3};
 use serde::{Deserialize, Serialize};

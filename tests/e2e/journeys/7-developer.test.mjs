@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os'
 import { dirname, join, resolve } from 'node:path'
 import { test } from 'node:test'
 import { fileURLToPath } from 'node:url'
-import { runId, until, visitor } from '../visitor.mjs'
+import { enter, runId, until, visitor } from '../visitor.mjs'
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), '../../..')
 const PASSWORD = 'a long enough password'
@@ -20,15 +20,6 @@ function plugin(folder, name, lie = '') {
   execFileSync('cc', ['-std=c11', '-O2', '-fPIC', '-shared', '-fvisibility=hidden', '-ffp-contract=off',
     '-I', join(root, 'plugin-api/include'), source, '-o', library])
   return library
-}
-
-async function enter(v, name, password, fresh = false) {
-  await v.go('/account')
-  if (fresh) await v.at('account-switch').click()
-  await v.at('account-name').fill(name)
-  await v.at('account-password').fill(password)
-  await v.at('account-enter').click()
-  await v.at('account-who').waitFor()
 }
 
 async function submit(v, file, version) {

@@ -2,18 +2,9 @@
 import assert from 'node:assert/strict'
 import { readFile } from 'node:fs/promises'
 import { test } from 'node:test'
-import { until, url, visitor } from '../visitor.mjs'
+import { enter, until, url, visitor } from '../visitor.mjs'
 
 const PASSWORD = 'a long enough password'
-
-async function enter(v, name, password, fresh) {
-  await v.go('/account')
-  if (fresh) await v.at('account-switch').click()
-  await v.at('account-name').fill(name)
-  await v.at('account-password').fill(password)
-  await v.at('account-enter').click()
-  await v.at('account-who').waitFor()
-}
 
 test('an account is deleted, and what was public stays without a name', async (t) => {
   const [owner, other] = [await visitor(t), await visitor(t, { scheme: 'dark' })]

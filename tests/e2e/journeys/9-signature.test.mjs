@@ -2,18 +2,9 @@
 import assert from 'node:assert/strict'
 import { test } from 'node:test'
 import { newKey } from '../minisign.mjs'
-import { visitor } from '../visitor.mjs'
+import { enter, visitor } from '../visitor.mjs'
 
 const PASSWORD = 'a long enough password'
-
-async function enter(v, name, password, fresh) {
-  await v.go('/account')
-  if (fresh) await v.at('account-switch').click()
-  await v.at('account-name').fill(name)
-  await v.at('account-password').fill(password)
-  await v.at('account-enter').click()
-  await v.at('account-who').waitFor()
-}
 
 test('a signed plugin says so, and a foreign signature is refused', async (t) => {
   const password = process.env.OCB_E2E_CURATOR

@@ -26,6 +26,12 @@ fn told(page: &str) -> String {
     headings.chain(bold).collect::<Vec<_>>().join("; ").to_lowercase()
 }
 
+/// Numbers with points between them, like `5.5.1`.
+fn is_version(word: &str) -> bool {
+    let mut numbers = word.trim_end_matches(['.', ':']).split('.');
+    word.contains('.') && numbers.all(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
+}
+
 #[test]
 fn the_page_of_every_plugin_tells_what_it_is_good_and_bad_at_and_where_it_is_wrong() {
     let mut untold = Vec::new();
@@ -36,11 +42,10 @@ fn the_page_of_every_plugin_tells_what_it_is_good_and_bad_at_and_where_it_is_wro
         }
         count += 1;
         let text = text_of(page).expect("a text");
-        let (told, mut words) = (told(&text), text.split(|c: char| c.is_whitespace() || ",;()".contains(c)));
-        let version = words.any(|word| {
-            let mut numbers = word.trim_end_matches(['.', ':']).split('.');
-            word.contains('.') && numbers.all(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
-        });
+        let told = told(&text);
+        // Of a library that is wrapped, its first sentence says it; numbers further down are something else.
+        let first = text.split("\n* ").next().unwrap_or_default();
+        let version = told.contains("version") || first.split([' ', ',', '\n']).any(is_version);
         let missing = TOLD.into_iter().chain(["bad at"]).filter(|topic| !told.contains(topic));
         untold.extend(missing.map(|topic| format!("{}: {topic}", page.display())));
         untold.extend((!version).then(|| format!("{}: version", page.display())));

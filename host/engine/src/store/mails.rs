@@ -97,35 +97,30 @@ impl Store {
 
     /// Adds a link that confirms an address, and forgets those whose time is over.
     pub async fn add_confirmation(&self, new: MailLink<'_>) -> Result<()> {
-        sqlx::query("DELETE FROM confirmations WHERE expires_us <= $1").bind(now_us()).execute(&self.pool).await?;
-        // Whose address it is no more has nothing to confirm.
-        sqlx::query(
-            "INSERT INTO confirmations (sha256, account, address, expires_us) \
-             SELECT $1, id, address, $2 FROM accounts WHERE id = $3 AND address = $4",
-        )
-        .bind(new.sha256)
-        .bind(new.expires_us)
-        .bind(new.account)
-        .bind(new.address)
-        .execute(&self.pool)
-        .await?;
-        Ok(())
+        let over = "DELETE FROM confirmations WHERE expires_us <= $1";
+        let add = "INSERT INTO confirmations (sha256, account, address, expires_us) \
+                   SELECT $1, id, address, $2 FROM accounts WHERE id = $3 AND address = $4";
+        self.add_link(over, add, new).await
     }
 
     /// Adds a link that turns mails off, and forgets those whose time is over.
     pub async fn add_off_link(&self, new: MailLink<'_>) -> Result<()> {
-        sqlx::query("DELETE FROM off_links WHERE expires_us <= $1").bind(now_us()).execute(&self.pool).await?;
-        // Nobody's mails are to be turned off where nobody has the address any more.
-        sqlx::query(
-            "INSERT INTO off_links (sha256, account, address, expires_us) \
-             SELECT $1, id, address, $2 FROM accounts WHERE id = $3 AND address = $4",
-        )
-        .bind(new.sha256)
-        .bind(new.expires_us)
-        .bind(new.account)
-        .bind(new.address)
-        .execute(&self.pool)
-        .await?;
+        let over = "DELETE FROM off_links WHERE expires_us <= $1";
+        let add = "INSERT INTO off_links (sha256, account, address, expires_us) \
+                   SELECT $1, id, address, $2 FROM accounts WHERE id = $3 AND address = $4";
+        self.add_link(over, add, new).await
+    }
+
+    /// A link is for an account that still has the address.
+    async fn add_link(&self, over: &'static str, add: &'static str, new: MailLink<'_>) -> Result<()> {
+        sqlx::query(over).bind(now_us()).execute(&self.pool).await?;
+        sqlx::query(add)
+            .bind(new.sha256)
+            .bind(new.expires_us)
+            .bind(new.account)
+            .bind(new.address)
+            .execute(&self.pool)
+            .await?;
         Ok(())
     }
 
