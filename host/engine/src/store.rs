@@ -56,6 +56,8 @@ pub use things::Belongings;
 #[derive(Clone)]
 pub struct Store {
     pool: AnyPool,
+    /// Begins a transaction whose reads all see the same moment.
+    one_moment: &'static str,
 }
 
 impl Store {
@@ -88,7 +90,9 @@ impl Store {
             .await
             .map_err(|e| EngineError::fault("Opening the database failed", e))?;
         migrations().run(&pool).await.map_err(|e| EngineError::fault("Migrating the database failed", e))?;
-        Ok(Self { pool })
+        // SQLite's transactions see one moment anyway, PostgreSQL's have to ask for it.
+        let one_moment = if sqlite { "BEGIN" } else { "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY" };
+        Ok(Self { pool, one_moment })
     }
 
     /// Closes all connections; what was written is on disk.

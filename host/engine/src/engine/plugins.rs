@@ -151,20 +151,15 @@ impl Engine {
     /// One plugin with its report. To who may not see it, it is not there.
     #[boxed]
     pub async fn plugin(&self, id: &str, viewer: Option<&AccountInfo>) -> Result<PluginInfo> {
-        let row = self.visible(id, viewer).await?;
+        let whole = self.inner.store.whole_submission(id).await?.filter(|(row, ..)| may_see(row, viewer));
+        let (row, lines, history) = whole.ok_or_else(|| no_plugin(id))?;
         let published = self.inner.store.published_by(&row.account).await?;
-        let lines = self.inner.store.lines(id).await?;
-        let mut info = self.shown(&row, lines, &published, viewer).await?;
-        info.history = self.inner.store.notes_on(id).await?;
-        Ok(info)
+        Ok(PluginInfo { history, ..self.shown(&row, lines, &published, viewer).await? })
     }
 
     async fn visible(&self, id: &str, viewer: Option<&AccountInfo>) -> Result<SubmissionRow> {
-        let may = |row: &SubmissionRow| {
-            row.state.is_shown() || viewer.is_some_and(|v| v.id == row.account || v.role >= Role::Curator)
-        };
-        let row = self.inner.store.submission(id).await?.filter(may);
-        row.ok_or_else(|| EngineError::NotFound(format!("There is no plugin {id:?}; check the link.")))
+        let row = self.inner.store.submission(id).await?.filter(|row| may_see(row, viewer));
+        row.ok_or_else(|| no_plugin(id))
     }
 
     /// With what its author has published, newest first.
@@ -279,6 +274,14 @@ impl super::Inner {
         self.registry.offer(all);
         Ok(())
     }
+}
+
+fn may_see(row: &SubmissionRow, viewer: Option<&AccountInfo>) -> bool {
+    row.state.is_shown() || viewer.is_some_and(|viewer| viewer.id == row.account || viewer.role >= Role::Curator)
+}
+
+fn no_plugin(id: &str) -> EngineError {
+    EngineError::NotFound(format!("There is no plugin {id:?}; check the link."))
 }
 
 /// The key of the account, when the signature is that of this file by it.

@@ -1,6 +1,6 @@
 //! The audit log: rows are added and read, never changed.
 
-use sqlx::AnyConnection;
+use sqlx::{Any, AnyConnection, Executor};
 
 use super::{A_FORMER_ACCOUNT, Store, now_us};
 use crate::Result;
@@ -58,6 +58,20 @@ pub(super) async fn append(connection: &mut AnyConnection, note: Note<'_>) -> Re
     }
 }
 
+/// What was done to this subject, oldest first, without the names of accounts that were deleted.
+pub(super) async fn notes_on(from: impl Executor<'_, Database = Any>, subject: &str) -> Result<Vec<AuditEntry>> {
+    let rows: Vec<AuditRow> = sqlx::query_as(
+        "SELECT seq, at_us, CASE WHEN EXISTS (SELECT 1 FROM accounts \
+         WHERE folded = LOWER(audit.actor) AND deleted_us IS NOT NULL) THEN $1 ELSE actor END, \
+         action, subject, detail, chain FROM audit WHERE subject = $2 ORDER BY seq",
+    )
+    .bind(A_FORMER_ACCOUNT)
+    .bind(subject)
+    .fetch_all(from)
+    .await?;
+    Ok(rows.into_iter().map(|row| entry(row).0).collect())
+}
+
 impl Store {
     /// Adds an entry at the end.
     pub async fn note(&self, actor: &str, action: &str, subject: &str, detail: &str) -> Result<()> {
@@ -67,16 +81,7 @@ impl Store {
 
     /// What was done to this subject, oldest first. The log keeps the names of accounts that were deleted; nobody is shown them.
     pub async fn notes_on(&self, subject: &str) -> Result<Vec<AuditEntry>> {
-        let rows: Vec<AuditRow> = sqlx::query_as(
-            "SELECT seq, at_us, CASE WHEN EXISTS (SELECT 1 FROM accounts \
-             WHERE folded = LOWER(audit.actor) AND deleted_us IS NOT NULL) THEN $1 ELSE actor END, \
-             action, subject, detail, chain FROM audit WHERE subject = $2 ORDER BY seq",
-        )
-        .bind(A_FORMER_ACCOUNT)
-        .bind(subject)
-        .fetch_all(&self.pool)
-        .await?;
-        Ok(rows.into_iter().map(|row| entry(row).0).collect())
+        notes_on(&self.pool, subject).await
     }
 
     /// The number of the first entry that does not follow from those before it.

@@ -1,12 +1,12 @@
 //! Plugins that developers bring, and their reports.
 
-use sqlx::Row;
 use sqlx::any::AnyRow;
+use sqlx::{Any, Executor, Row};
 
-use super::audit::append;
+use super::audit::{append, notes_on};
 use super::notices::tell;
 use super::{Note, Store, Telling, from_json, now_us, to_json};
-use crate::model::{AlgorithmInfo, CheckLine, Manifest, PluginState};
+use crate::model::{AlgorithmInfo, AuditEntry, CheckLine, Manifest, PluginState};
 use crate::{EngineError, Result};
 
 /// Who acts when nobody does.
@@ -102,8 +102,18 @@ impl Store {
 
     /// One submission.
     pub async fn submission(&self, id: &str) -> Result<Option<SubmissionRow>> {
-        let row = sqlx::query(select_submissions!("WHERE id = $1")).bind(id).fetch_optional(&self.pool).await?;
-        row.as_ref().map(read_submission).transpose()
+        submission(&self.pool, id).await
+    }
+
+    /// One submission with its report and its history, all of one moment: a state that its history does not tell of yet, or
+    /// no longer, would look half done.
+    pub async fn whole_submission(&self, id: &str) -> Result<Option<(SubmissionRow, Vec<CheckLine>, Vec<AuditEntry>)>> {
+        let mut moment = self.pool.begin_with(self.one_moment).await?;
+        let row = submission(&mut *moment, id).await?;
+        let lines = lines(&mut *moment, id).await?;
+        let history = notes_on(&mut *moment, id).await?;
+        moment.commit().await?;
+        Ok(row.map(|row| (row, lines, history)))
     }
 
     /// The account's submission of these bytes.
@@ -260,13 +270,21 @@ impl Store {
 
     /// The report so far.
     pub async fn lines(&self, id: &str) -> Result<Vec<CheckLine>> {
-        let rows: Vec<String> =
-            sqlx::query_scalar("SELECT line FROM submission_lines WHERE submission = $1 ORDER BY seq")
-                .bind(id)
-                .fetch_all(&self.pool)
-                .await?;
-        rows.iter().map(|line| from_json(line)).collect()
+        lines(&self.pool, id).await
     }
+}
+
+async fn submission(from: impl Executor<'_, Database = Any>, id: &str) -> Result<Option<SubmissionRow>> {
+    let row = sqlx::query(select_submissions!("WHERE id = $1")).bind(id).fetch_optional(from).await?;
+    row.as_ref().map(read_submission).transpose()
+}
+
+async fn lines(from: impl Executor<'_, Database = Any>, id: &str) -> Result<Vec<CheckLine>> {
+    let rows: Vec<String> = sqlx::query_scalar("SELECT line FROM submission_lines WHERE submission = $1 ORDER BY seq")
+        .bind(id)
+        .fetch_all(from)
+        .await?;
+    rows.iter().map(|line| from_json(line)).collect()
 }
 
 pub(super) fn read_submission(row: &AnyRow) -> Result<SubmissionRow> {

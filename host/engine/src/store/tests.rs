@@ -8,6 +8,7 @@ mod fixtures;
 mod lists;
 mod mails;
 mod people;
+mod submissions;
 mod suites;
 mod things;
 mod visibility;
@@ -108,6 +109,7 @@ on_both!(
     somebody_who_decides_is_always_left,
     a_plugin_that_became_public_meanwhile_stays,
     a_decision_and_its_notice_stand_or_fall_together,
+    a_state_and_its_history_are_of_one_moment,
 );
 
 mod contract {
@@ -116,6 +118,7 @@ mod contract {
     pub use super::lists::*;
     pub use super::mails::*;
     pub use super::people::*;
+    pub use super::submissions::*;
     pub use super::suites::*;
     pub use super::things::*;
     pub use super::visibility::*;

@@ -2,7 +2,8 @@
 
 use super::super::things::Unused;
 use super::super::*;
-use super::people::{account, submission};
+use super::people::account;
+use super::submissions::submission;
 use super::{add, object, run};
 use crate::model::{
     AccountInfo, CheckLine, CheckVerdict, Cursor, InvitationInfo, InvitationState, NewChoices, NoticeInfo, PluginState,
