@@ -95,27 +95,33 @@ async fn settle(inner: &Inner, row: &SubmissionRow, report: PluginReport) -> Res
         None if !report.passed => Some("The check did not come to its end.".to_owned()),
         None => conflict(&described, &all, |id| inner.registry.contestant(id).is_some()),
     };
-    let (state, word, reason) = match reason {
-        Some(reason) => (PluginState::Failed, "failed the check", reason),
-        None => (PluginState::Validated, "validated", format!("Passed on hardware class {class}.")),
-    };
-    let notice = of_check(row, state, &reason);
-    for from in [PluginState::Uploaded, PluginState::Vetted] {
-        let note = Note { actor: THE_SERVICE, action: word, subject: &row.id, detail: &reason };
-        let telling = inner.telling(&row.account, &notice);
-        if store.move_submission(&row.id, from, state, &reason, Some(telling), Some(note)).await? {
-            inner.post_soon();
-        }
+    match reason {
+        Some(reason) => end(inner, row, PluginState::Failed, &reason).await?,
+        None => end(inner, row, PluginState::Validated, &format!("Passed on hardware class {class}.")).await?,
     }
     inner.renew_plugins().await
 }
 
+/// Where the plugin stands after its check, and what its author is told of that.
+async fn end(inner: &Inner, row: &SubmissionRow, state: PluginState, reason: &str) -> Result<()> {
+    let action = if state == PluginState::Validated { "validated" } else { "failed the check" };
+    let note = Note { actor: THE_SERVICE, action, subject: &row.id, detail: reason };
+    let notice = of_check(row, state, reason);
+    for from in [PluginState::Uploaded, PluginState::Vetted] {
+        let telling = inner.telling(&row.account, &notice);
+        if inner.store.move_submission(&row.id, from, state, reason, Some(telling), Some(note)).await? {
+            inner.post_soon();
+        }
+    }
+    Ok(())
+}
+
 /// Checks that did not come to their end wait again; those begun too often fail, and their authors are told.
 pub async fn recover(inner: &Inner) -> Result<()> {
-    for id in inner.store.recover_checks(MAX_ATTEMPTS).await? {
-        if let Some(row) = inner.store.submission(&id).await? {
-            inner.tell_check(&row).await;
-        }
+    for row in inner.store.recover_checks(MAX_ATTEMPTS).await? {
+        let reason =
+            format!("The service ended {MAX_ATTEMPTS} times in the middle of this check, so it is not tried again.");
+        end(inner, &row, PluginState::Failed, &reason).await?;
     }
     Ok(())
 }

@@ -7,15 +7,17 @@ mod common;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::time::Duration;
 
 use futures::StreamExt;
 use ocb_engine::Engine;
-use ocb_engine::model::{AlgorithmResult, Page, RunSpec, StageKind, State};
+use ocb_engine::model::{AccountInfo, AlgorithmResult, Page, PluginState, Role, RunSpec, StageKind, State};
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
     match arguments.get(1).map(String::as_str) {
         Some("--service") => service(Path::new(&arguments[2])),
+        Some("--check") => check(Path::new(&arguments[2])),
         // Cargo asks for the list of tests with this flag.
         Some("--list") => println!("killed_service: test"),
         _ => {
@@ -25,6 +27,8 @@ fn main() {
             }
             killed_too_often();
             println!("killed three times: the run is given up ... ok");
+            checked_too_often();
+            println!("killed three times: the check is given up, and its author is told once ... ok");
         }
     }
 }
@@ -60,10 +64,44 @@ async fn service(data: &Path) {
     engine.shutdown().await;
 }
 
+/// The author of the plugin that is checked.
+async fn author(engine: &Engine) -> AccountInfo {
+    let (name, password) = ("author", "a long enough password");
+    match engine.account_with(name, password).await {
+        Ok(author) => author,
+        Err(_) => engine.add_account(name, password, Role::Developer).await.expect("an account"),
+    }
+}
+
+/// A service with a plugin to check, which prints its state over and over.
+#[tokio::main]
+async fn check(data: &Path) {
+    let engine = Engine::open(common::config(data)).await.expect("the folder opens");
+    let author = author(&engine).await;
+    let plugins = engine.plugins(Some(&author), &Page::default()).await.expect("the plugins can be read").entries;
+    let id = match plugins.into_iter().next() {
+        Some(plugin) => plugin.id,
+        None => {
+            let file = common::config(data).runner.with_file_name("libocb_sphere_tree.so");
+            let manifest = serde_json::from_value(serde_json::json!({
+                "name": "Tree", "version": "1", "authors": "Somebody", "license": "MIT", "queries": ["proximity"],
+            }));
+            let bytes = std::fs::read(file).expect("a plugin");
+            let sent = engine.submit_plugin(&author, "tree.so", bytes, manifest.expect("a manifest"), None).await;
+            sent.expect("it is taken").0.id
+        }
+    };
+    loop {
+        let plugin = engine.plugin(&id, Some(&author)).await.expect("the plugin is there");
+        println!("{}", plugin.state.name());
+        tokio::time::sleep(Duration::from_millis(5)).await;
+    }
+}
+
 #[expect(clippy::disallowed_methods, reason = "the test starts itself as the service that it kills")]
-fn start(data: &Path) -> (Child, impl Iterator<Item = String>) {
+fn start(how: &str, data: &Path) -> (Child, impl Iterator<Item = String>) {
     let mut child = Command::new(std::env::current_exe().expect("own file"))
-        .arg("--service")
+        .arg(how)
         .arg(data)
         .stdout(Stdio::piped())
         .spawn()
@@ -74,18 +112,23 @@ fn start(data: &Path) -> (Child, impl Iterator<Item = String>) {
 
 /// Kills the service as soon as it prints that it is in this stage.
 fn kill_in(stage: StageKind, data: &Path) {
-    let (mut child, mut lines) = start(data);
+    let (child, lines) = start("--service", data);
     let wanted = format!("{stage:?} Running");
     // Measuring has begun only when an answer has come.
     let there = |line: &String| line.starts_with(&wanted) && !(stage == StageKind::Measuring && line.ends_with(" 0"));
+    assert!(kill_at(child, lines, there), "the service never came to the stage {stage:?}");
+}
+
+/// Kills the service as soon as it prints such a line; false when it never did.
+fn kill_at(mut child: Child, mut lines: impl Iterator<Item = String>, there: impl Fn(&String) -> bool) -> bool {
     let met = lines.find(there);
     child.kill().expect("SIGKILL");
     child.wait().expect("reaped");
-    assert!(met.is_some(), "the service never came to the stage {stage:?}");
+    met.is_some()
 }
 
 fn run_to_the_end(data: &Path) -> ocb_engine::model::RunInfo {
-    let (mut child, lines) = start(data);
+    let (mut child, lines) = start("--service", data);
     let end = lines.filter_map(|line| line.strip_prefix("end ").map(str::to_owned)).last();
     assert!(child.wait().expect("reaped").success());
     serde_json::from_str(&end.expect("the service tells the end")).expect("JSON")
@@ -120,4 +163,27 @@ fn killed_too_often() {
     let run = run_to_the_end(data.path());
     assert_eq!((run.state, run.attempts), (State::Failed, 3));
     assert!(run.message.as_deref().is_some_and(|m| m.contains("3 times")), "{:?}", run.message);
+}
+
+#[tokio::main]
+async fn checked_too_often() {
+    let data = tempfile::tempdir().expect("a folder");
+    for _ in 0..3 {
+        let (child, lines) = start("--check", data.path());
+        // A state that only a check that began in this service has.
+        assert!(kill_at(child, lines, |state| state == "vetted"), "the check never began");
+    }
+    // What became of it is there before anything else begins, and once.
+    for _ in 0..2 {
+        let engine = Engine::open(common::config(data.path())).await.expect("the folder opens");
+        let author = author(&engine).await;
+        let plugins = engine.plugins(Some(&author), &Page::default()).await.expect("the plugins can be read").entries;
+        let plugin = engine.plugin(&plugins[0].id, Some(&author)).await.expect("the plugin is there");
+        assert!(plugin.state == PluginState::Failed && plugin.reason.contains("3 times"), "{plugin:?}");
+        let noted: Vec<&str> = plugin.history.iter().map(|entry| entry.action.as_str()).collect();
+        assert_eq!(noted, ["submitted", "failed the check"]);
+        let told = engine.notices(&author, &Page::default()).await.expect("notices").entries;
+        assert!(matches!(&told[..], [one] if one.text.contains("3 times")), "{told:?}");
+        engine.shutdown().await;
+    }
 }

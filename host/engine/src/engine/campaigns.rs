@@ -114,10 +114,10 @@ impl Engine {
     /// One campaign with the results that the viewer may see.
     #[boxed]
     pub async fn campaign(&self, id: &str, viewer: Option<&str>) -> Result<CampaignInfo> {
-        let row = self.inner.campaign_row(id).await?;
+        // The state before the results: where it is the end, they are all of them.
+        let info = self.inner.campaign_info(self.inner.campaign_row(id).await?).await?;
         let runs = self.inner.store.campaign_runs(id).await?;
-        let results = self.inner.compared(&runs, viewer).await?;
-        Ok(CampaignInfo { results, ..self.inner.campaign_info(row).await? })
+        Ok(CampaignInfo { results: self.inner.compared(&runs, viewer).await?, ..info })
     }
 
     /// Ends what waits of a campaign; the run at work comes to its end. One that has ended stays as it is.

@@ -1,19 +1,8 @@
 //! What authors are told of their plugins.
 
-use super::Inner;
 use super::notices::notice;
 use crate::model::{Action, NoticeInfo, PluginState};
 use crate::store::SubmissionRow;
-
-impl Inner {
-    /// Tells the author that the check of their plugin was given up. That it was is more than that it was told: a fault goes to
-    /// the log.
-    pub async fn tell_check(&self, row: &SubmissionRow) {
-        if let Err(e) = self.notify(&row.account, &of_check(row, row.state, &row.reason)).await {
-            tracing::error!("the author of plugin {} could not be told that its check is given up: {e}", row.id);
-        }
-    }
-}
 
 /// What the author of a plugin is told of a curator's decision; nothing of the steps that are the author's own.
 pub(super) fn of_decision(row: &SubmissionRow, action: Action, reason: &str) -> Option<NoticeInfo> {

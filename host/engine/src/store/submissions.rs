@@ -224,28 +224,14 @@ impl Store {
         self.submission(&id).await
     }
 
-    /// Checks that an ended process left behind wait again; those begun `most` times fail, which is noted, and are given.
-    pub async fn recover_checks(&self, most: i64) -> Result<Vec<String>> {
-        let reason = format!("The service ended {most} times in the middle of this check, so it is not tried again.");
-        let mut transaction = self.pool.begin().await?;
-        sqlx::query("UPDATE submissions SET state = 'uploaded' WHERE state = 'vetted'")
-            .execute(&mut *transaction)
+    /// Checks that an ended process left behind wait again; those begun `most` times already are given.
+    pub async fn recover_checks(&self, most: i64) -> Result<Vec<SubmissionRow>> {
+        sqlx::query("UPDATE submissions SET state = 'uploaded' WHERE state = 'vetted'").execute(&self.pool).await?;
+        let rows = sqlx::query(select_submissions!("WHERE state = 'uploaded' AND attempts >= $1"))
+            .bind(most)
+            .fetch_all(&self.pool)
             .await?;
-        let failed: Vec<String> = sqlx::query_scalar(
-            "UPDATE submissions SET state = 'failed', reason = $1, changed_us = $2 \
-             WHERE state = 'uploaded' AND attempts >= $3 RETURNING id",
-        )
-        .bind(&reason)
-        .bind(now_us())
-        .bind(most)
-        .fetch_all(&mut *transaction)
-        .await?;
-        for id in &failed {
-            let note = Note { actor: THE_SERVICE, action: "failed the check", subject: id, detail: &reason };
-            append(&mut transaction, note).await?;
-        }
-        transaction.commit().await?;
-        Ok(failed)
+        rows.iter().map(read_submission).collect()
     }
 
     /// A check that was stopped with the service counts as no attempt.
