@@ -76,7 +76,12 @@ async fn watch(engine: &Engine, id: &str) -> Result<()> {
         let runs = campaign.runs;
         let ended = runs.done + runs.failed + runs.cancelled;
         if ended > told {
-            eprintln!("{ended} of {} runs have ended", ended + runs.waiting + runs.running);
+            let left = if campaign.state == State::Running {
+                format!("; the others take about {}", units::wait(runs.expected_seconds))
+            } else {
+                String::new()
+            };
+            eprintln!("{ended} of {} runs have ended{left}", ended + runs.waiting + runs.running);
             told = ended;
         }
         if campaign.state != State::Running {
@@ -89,13 +94,14 @@ async fn watch(engine: &Engine, id: &str) -> Result<()> {
 fn would_queue(preview: &CampaignPreview) -> String {
     format!(
         "{} runs of suite {} ({} of them repeat one that was measured before) and {} public runs of people would be queued, on the \
-         hardware class {} by oracle {}.",
+         hardware class {} by oracle {}. Measuring them is expected to take {}.",
         preview.suite_runs,
         preview.suite_version,
         preview.suite_repeats,
         preview.peoples_runs,
         preview.hardware_class,
-        preview.oracle
+        preview.oracle,
+        units::wait(preview.expected_seconds)
     )
 }
 

@@ -229,12 +229,17 @@ async fn cancelling_ends_what_waits_and_so_does_another_machine() {
     assert!(matches!(engine.create_campaign(None, silent, None).await, Err(EngineError::Invalid(_))));
 
     // What was cancelled is due again. On a third machine it would be measured under a wrong name.
+    let preview = engine.preview_campaign(true, true).await.unwrap();
     let (second, _) = engine.create_campaign(None, asked(), None).await.unwrap();
     assert_eq!(second.runs.waiting, 3);
+    // Foretold is what the runs are then expected to take, their configurations being there.
+    let told = (preview.expected_seconds, second.runs.expected_seconds);
+    assert!(told.0 > 3.0 * 0.5 && (told.0 - told.1).abs() < 1e-9, "{told:?}");
     engine.shutdown().await;
     let engine = Engine::open(config(data.path(), "third")).await.unwrap();
     let cancelled = engine.campaign(&second.id, None).await.unwrap();
     assert_eq!((cancelled.state, cancelled.runs.cancelled), (State::Cancelled, 3));
+    assert_eq!(cancelled.runs.expected_seconds, 0.0);
     engine.shutdown().await;
 }
 

@@ -39,6 +39,7 @@ test('a curator has stored results measured again and watches them stand side by
   await until('the preview to count two runs', async () =>
     (await curator.at('campaign-preview').count()) && (await curator.at('campaign-preview').getAttribute('data-runs')) === '2')
   await curator.at('campaign-preview').getByText('2 runs of suite 9 (2 of them measured before)').waitFor()
+  await curator.at('campaign-preview').getByText('of measuring').waitFor()
   await curator.at('campaign-reason').fill('Turbo is off now.')
   await curator.accessible('the button that measures again')
   await curator.picture('campaign-begin')

@@ -33,6 +33,7 @@ impl Engine {
             suite_runs: of_suite().count() as u32,
             suite_repeats: of_suite().filter(|due| due.repeats.is_some()).count() as u32,
             peoples_runs: due.iter().filter(|due| !due.of_suite).count() as u32,
+            expected_seconds: self.seconds_for(&due).await?,
             hardware_class: inner.machine.hardware_class.clone(),
             oracle: ocb_core::oracle::VERSION,
             suite_version: inner.suite.document.version,
@@ -145,16 +146,15 @@ impl Engine {
                     break;
                 }
                 let asking = Asking {
-                    owner: due.repeats.as_ref().and_then(|run| run.owner.as_deref()).filter(|_| !due.of_suite),
+                    owner: due.owner(),
                     priority: BACKGROUND,
                     suite: Some(inner.suite.sha256.as_str()).filter(|_| due.of_suite),
                     campaign: Some(id),
                     rerun_of: due.repeats.as_ref().map(|run| run.id.as_str()),
                     ..Asking::default()
                 };
-                match self.enqueue(due.spec, asking).await {
-                    // An object that was taken away, say; the others can be measured all the same.
-                    Err(e @ (EngineError::Invalid(_) | EngineError::NotFound(_))) if !due.of_suite => {
+                match self.enqueue(due.spec.clone(), asking).await {
+                    Err(e) if due.can_be_left_out(&e) => {
                         tracing::warn!("campaign {id}: a run cannot be repeated: {e}");
                     }
                     queued => drop(queued?),

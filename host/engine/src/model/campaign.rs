@@ -27,7 +27,7 @@ fn yes() -> bool {
 }
 
 /// What a campaign would queue now.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct CampaignPreview {
     /// Runs of the suite.
     pub suite_runs: u32,
@@ -35,6 +35,8 @@ pub struct CampaignPreview {
     pub suite_repeats: u32,
     /// Public runs of people.
     pub peoples_runs: u32,
+    /// How long measuring all of it is expected to take, in seconds.
+    pub expected_seconds: f64,
     /// The hardware class of this machine.
     pub hardware_class: String,
     /// Version of the oracle that judges.
@@ -77,7 +79,7 @@ pub struct CampaignInfo {
 }
 
 /// The runs of a campaign by state.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct CampaignRuns {
     /// In the queue.
     pub waiting: u32,
@@ -89,6 +91,8 @@ pub struct CampaignRuns {
     pub failed: u32,
     /// Ended by somebody.
     pub cancelled: u32,
+    /// How long those in the queue and at work are expected to take together, in seconds.
+    pub expected_seconds: f64,
 }
 
 /// One algorithm in one scenario, before and in a campaign.

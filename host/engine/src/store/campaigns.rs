@@ -144,11 +144,15 @@ impl Store {
 
     /// How many of its runs are in which state.
     pub async fn campaign_counts(&self, id: &str) -> Result<CampaignRuns> {
-        let text = "SELECT state, COUNT(*) FROM runs WHERE campaign = $1 GROUP BY state";
-        let rows: Vec<(String, i64)> = sqlx::query_as(text).bind(id).fetch_all(&self.pool).await?;
+        let text = "SELECT state, COUNT(*), SUM(expected_seconds) FROM runs WHERE campaign = $1 GROUP BY state";
+        let rows: Vec<(String, i64, f64)> = sqlx::query_as(text).bind(id).fetch_all(&self.pool).await?;
         let mut counts = CampaignRuns::default();
-        for (state, count) in rows {
-            let counted = match named_state(&state)? {
+        for (state, count, seconds) in rows {
+            let state = named_state(&state)?;
+            if matches!(state, State::Queued | State::Running) {
+                counts.expected_seconds += seconds;
+            }
+            let counted = match state {
                 State::Queued => &mut counts.waiting,
                 State::Running => &mut counts.running,
                 State::Done => &mut counts.done,

@@ -452,7 +452,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** How many runs a campaign would queue now. Nothing is queued. */
+        /** How many runs a campaign would queue now, and how long they take. Nothing is queued. */
         get: operations["preview_campaign"];
         put?: never;
         post?: never;
@@ -2026,6 +2026,11 @@ export interface components {
         };
         /** @description What a campaign would queue now. */
         CampaignPreview: {
+            /**
+             * Format: double
+             * @description How long measuring all of it is expected to take, in seconds.
+             */
+            expected_seconds: number;
             /** @description The hardware class of this machine. */
             hardware_class: string;
             /**
@@ -2088,6 +2093,11 @@ export interface components {
              * @description With results.
              */
             done: number;
+            /**
+             * Format: double
+             * @description How long those in the queue and at work are expected to take together, in seconds.
+             */
+            expected_seconds: number;
             /**
              * Format: int32
              * @description Ended by a fault.
@@ -6567,6 +6577,7 @@ export interface operations {
                 content: {
                     /**
                      * @example {
+                     *       "expected_seconds": 5400,
                      *       "hardware_class": "0d52c1f3b7a96e48",
                      *       "oracle": 5,
                      *       "peoples_runs": 12,

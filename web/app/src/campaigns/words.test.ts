@@ -2,21 +2,24 @@ import { describe, expect, it } from 'vitest'
 import type { CampaignInfo, CampaignPreview, Compared, ComparedResult } from '../api/types'
 import { describePreview, describeProgress, places, ratio } from './words'
 
-const preview: CampaignPreview = { suite_runs: 150, suite_repeats: 144, peoples_runs: 1, hardware_class: 'h', oracle: 5, suite_version: 2 }
+const preview: CampaignPreview = { suite_runs: 150, suite_repeats: 144, peoples_runs: 1, expected_seconds: 4500, hardware_class: 'h', oracle: 5, suite_version: 2 }
+
+/** With ordinary spaces. */
+const plain = (text: string) => text.replace(/\s/g, ' ')
 
 describe('a campaign in words', () => {
   it('says what would be queued', () => {
-    expect(describePreview(preview)).toBe('It queues 150 runs of suite 2 (144 of them measured before) and 1 run of people who agree.')
+    expect(plain(describePreview(preview))).toBe('It queues 150 runs of suite 2 (144 of them measured before) and 1 run of people who agree: about 75 min of measuring.')
     expect(describePreview({ ...preview, peoples_runs: 0 })).not.toContain('people')
     expect(describePreview({ ...preview, suite_runs: 0, peoples_runs: 0 })).toContain('Nothing')
   })
 
   it('counts its runs', () => {
     const of = (runs: Partial<CampaignInfo['runs']>) =>
-      describeProgress({ runs: { waiting: 0, running: 0, done: 0, failed: 0, cancelled: 0, ...runs } } as CampaignInfo)
-    expect(of({ waiting: 3 })).toBe('0 done, 3 waiting of 3 runs')
+      plain(describeProgress({ runs: { waiting: 0, running: 0, done: 0, failed: 0, cancelled: 0, expected_seconds: 90, ...runs } } as CampaignInfo))
+    expect(of({ waiting: 3 })).toBe('0 done, 3 waiting of 3 runs, about 2 min left')
     expect(of({ done: 1 })).toBe('1 done of 1 run')
-    expect(of({ done: 2, failed: 1, running: 1, cancelled: 4 })).toBe('2 done, 1 failed, 1 at work, 4 cancelled of 8 runs')
+    expect(of({ done: 2, failed: 1, running: 1, cancelled: 4 })).toBe('2 done, 1 failed, 1 at work, 4 cancelled of 8 runs, about 2 min left')
   })
 
   it('names every machine and oracle once', () => {

@@ -1,5 +1,5 @@
 import type { CampaignInfo, CampaignPreview, Compared, Estimated } from '../api/types'
-import { count, significant } from '../ui/format'
+import { count, seconds, significant } from '../ui/format'
 
 const runs = (n: number) => `${count(n)} ${n === 1 ? 'run' : 'runs'}`
 
@@ -11,14 +11,15 @@ export function describePreview(preview: CampaignPreview): string {
     suite > 0 && `${runs(suite)} of suite ${preview.suite_version} (${count(repeats)} of them measured before)`,
     people > 0 && `${runs(people)} of people who agree`,
   ]
-  return `It queues ${parts.filter(Boolean).join(' and ')}.`
+  return `It queues ${parts.filter(Boolean).join(' and ')}: about ${seconds(preview.expected_seconds)} of measuring.`
 }
 
 /** How far a campaign is. */
-export function describeProgress({ runs: { waiting, running, done, failed, cancelled } }: CampaignInfo): string {
+export function describeProgress({ runs: { waiting, running, done, failed, cancelled, expected_seconds: expected } }: CampaignInfo): string {
   const parts: [number, string][] = [[done, 'done'], [failed, 'failed'], [running, 'at work'], [waiting, 'waiting'], [cancelled, 'cancelled']]
   const told = parts.filter(([n], i) => n > 0 || i === 0).map(([n, word]) => `${count(n)} ${word}`)
-  return `${told.join(', ')} of ${runs(waiting + running + done + failed + cancelled)}`
+  const left = waiting + running > 0 ? `, about ${seconds(expected)} left` : ''
+  return `${told.join(', ')} of ${runs(waiting + running + done + failed + cancelled)}${left}`
 }
 
 /** Of which two places the results are; an empty text where there is none yet. */

@@ -33,10 +33,10 @@ fn yes() -> bool {
     true
 }
 
-/// How many runs a campaign would queue now. Nothing is queued.
+/// How many runs a campaign would queue now, and how long they take. Nothing is queued.
 #[utoipa::path(get, path = "/campaigns/preview", tag = "curation", params(What),
     responses(
-        (status = 200, body = CampaignPreview, example = json!({ "suite_runs": 150, "suite_repeats": 144, "peoples_runs": 12, "hardware_class": "0d52c1f3b7a96e48", "oracle": 5, "suite_version": 1 })),
+        (status = 200, body = CampaignPreview, example = json!({ "suite_runs": 150, "suite_repeats": 144, "peoples_runs": 12, "expected_seconds": 5400.0, "hardware_class": "0d52c1f3b7a96e48", "oracle": 5, "suite_version": 1 })),
         (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
         (status = 403, description = "No curator", body = Problem, content_type = "application/problem+json"),
     ))]

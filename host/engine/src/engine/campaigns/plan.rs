@@ -1,12 +1,12 @@
 //! What a campaign measures: what of the suite is missing here and now, and public runs that are of another machine or oracle.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::super::suite::{AT_ONCE, Known, scenario};
-use crate::Result;
-use crate::engine::Inner;
+use crate::engine::{Engine, Inner};
 use crate::model::{RunSpec, State, Visibility};
 use crate::store::RunRow;
+use crate::{EngineError, Result};
 
 /// A run to come.
 pub struct Due {
@@ -16,6 +16,39 @@ pub struct Due {
     pub repeats: Option<RunRow>,
     /// It belongs to the suite.
     pub of_suite: bool,
+}
+
+impl Due {
+    /// Whose run it will be; the service's own belong to nobody.
+    pub fn owner(&self) -> Option<&str> {
+        self.repeats.as_ref().and_then(|run| run.owner.as_deref()).filter(|_| !self.of_suite)
+    }
+
+    /// Whether the others can be measured all the same without it: an object was taken away, say.
+    pub fn can_be_left_out(&self, because: &EngineError) -> bool {
+        !self.of_suite && matches!(because, EngineError::Invalid(_) | EngineError::NotFound(_))
+    }
+}
+
+impl Engine {
+    /// How long measuring all of it is expected to take on this machine, in seconds.
+    pub(in crate::engine) async fn seconds_for(&self, due: &[Due]) -> Result<f64> {
+        let (mut seconds, mut found) = (0.0, HashSet::new());
+        for due in due {
+            match self.estimate(&due.spec, due.owner()).await {
+                Ok(expected) => {
+                    seconds += expected.total_seconds;
+                    // Runs of one scenario share its configurations.
+                    if !found.insert(scenario(&due.spec)?) {
+                        seconds -= expected.configuration_seconds;
+                    }
+                }
+                Err(e) if due.can_be_left_out(&e) => {}
+                Err(e) => return Err(e),
+            }
+        }
+        Ok(seconds)
+    }
 }
 
 impl Inner {

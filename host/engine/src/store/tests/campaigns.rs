@@ -67,13 +67,13 @@ pub async fn a_campaign_repeats_a_run_once_and_takes_nobodys_turn(store: Store) 
     assert_eq!(store.waiting_of_the_service().await.unwrap().len(), 4);
 
     assert!(store.end_run("3", State::Queued, State::Failed, Some("m")).await.unwrap());
-    let counts = CampaignRuns { waiting: 2, running: 1, failed: 1, ..CampaignRuns::default() };
+    let counts = CampaignRuns { waiting: 2, running: 1, failed: 1, expected_seconds: 4.5, ..CampaignRuns::default() };
     assert_eq!(store.campaign_counts("c").await.unwrap(), counts);
     assert!(store.cancel_campaign("c", NOTE).await.unwrap() && !store.cancel_campaign("c", NOTE).await.unwrap());
     let mut ended = store.end_waiting_of_campaign("c").await.unwrap();
     ended.sort();
     assert_eq!(ended, ["2", "4"]);
-    let counts = CampaignRuns { running: 1, failed: 1, cancelled: 2, ..CampaignRuns::default() };
+    let counts = CampaignRuns { running: 1, failed: 1, cancelled: 2, expected_seconds: 1.5, ..CampaignRuns::default() };
     assert_eq!(store.campaign_counts("c").await.unwrap(), counts);
     store.campaign_is_queued("d").await.unwrap();
     store.end_campaign("c").await.unwrap();
