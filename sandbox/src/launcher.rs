@@ -1,37 +1,23 @@
 //! From a plugin file to a session that can be asked, or to what the file says of itself.
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
-use ocb_core::configuration::Configuration;
-use ocb_core::instance::Presented;
 use ocb_core::mesh::Mesh;
-use ocb_core::pose::Pose;
 use ocb_core::query::Semantics;
 
-use crate::clock::{Clock, ClockFacts, Trips};
+use crate::clock::{Clock, ClockFacts};
 use crate::cpus::Places;
 use crate::descriptor::Descriptor;
 use crate::exchange::Exchange;
 use crate::gate::Inspection;
 use crate::launch::{Jail, Killer};
 use crate::layers::Profile;
+use crate::null;
 use crate::outcome::{Ending, Outcome, Phase};
 use crate::policy::Policy;
-use crate::protocol::{Command, MAX_BATCH, parse_descriptors, parse_inspection};
+use crate::protocol::{Command, parse_descriptors, parse_inspection};
 use crate::session::{Pinned, Session};
 use crate::trial::write_trial;
-
-/// Null round trips, null batches and calibration loops of a session; a tenth more before them does not count.
-const THOROUGH: [usize; 3] = [1000, 50, 50];
-/// The same where orders of magnitude are enough.
-const ROUGH: [usize; 3] = [20, 2, 2];
-/// Time for each of the three; so many are waited for on a busy machine, up to the longest time.
-const NULL_TIME: Duration = Duration::from_millis(50);
-const NULL_LEAST: usize = 100;
-const NULL_LONGEST: Duration = Duration::from_millis(500);
-/// A trip that took so many times the shortest one met something else than the clock: nothing foreign is in the runner.
-const NULL_STRAYED: f64 = 3.0;
 
 /// Starts runners under one policy.
 #[derive(Clone, Debug)]
@@ -118,7 +104,7 @@ impl Launcher {
         };
         let mut prepare = || -> Result<(f64, ClockFacts), Outcome> {
             let policy = &self.policy;
-            let clock = measure_null(&mut exchange, policy)?;
+            let clock = null::measure(&mut exchange, policy)?;
             self.load(&mut exchange)?;
             exchange.obeyed(Command::Prepare, Phase::Load, policy.load_seconds)?;
             let builds = &[Command::BuildA, Command::BuildB][..meshes.len()];
@@ -174,44 +160,3 @@ impl Launcher {
 /// Steps that fail where a machine forbids namespaces or what is done inside them.
 const NAMESPACE_STEPS: [&str; 9] =
     ["Namespaces", "IdMaps", "Groups", "Ids", "PrivateMounts", "EmptyRoot", "Library", "EnterRoot", "ReadOnlyRoot"];
-
-/// Asks the null plugin so often that the round trip and its spread are known. No foreign code is in the runner yet, so
-/// nobody can make this slow and have more subtracted than is right; what a busy machine does to some of the trips is left
-/// out, for it would hide every short time of the session behind the spread.
-fn measure_null(exchange: &mut Exchange, policy: &Policy) -> Result<ClockFacts, Outcome> {
-    let mut trips = Trips::default();
-    let nowhere = Configuration { pose_a: Pose::identity(), pose_b: Pose::identity() };
-    let question = Presented { configuration: nowhere, swapped: false };
-    let mut ask = |command, questions, times: usize, kept: &mut Vec<f64>| -> Result<(), Outcome> {
-        let begun = Instant::now();
-        let questions = vec![question; questions];
-        let mut trip = || {
-            // As before any question: the runner has to fetch the new poses from the supervisor's CPU.
-            exchange.place(&questions);
-            exchange.obeyed(command, Phase::Query, policy.query_seconds)
-        };
-        for _ in 0..times / 10 {
-            trip()?;
-        }
-        let mut shortest = f64::INFINITY;
-        let mut straight = 0;
-        while straight < times {
-            let raw_ns = trip()?.raw_ns;
-            kept.push(raw_ns);
-            shortest = shortest.min(raw_ns);
-            straight += usize::from(raw_ns <= NULL_STRAYED * shortest);
-            let passed = begun.elapsed();
-            if passed > NULL_LONGEST || (passed > NULL_TIME && straight >= NULL_LEAST.min(times)) {
-                break;
-            }
-        }
-        kept.retain(|trip| *trip <= NULL_STRAYED * shortest);
-        Ok(())
-    };
-    let [samples, batches, calibrations] = if policy.rough_clock { ROUGH } else { THOROUGH };
-    ask(Command::Null, 1, samples, &mut trips.null)?;
-    ask(Command::Null, MAX_BATCH, batches, &mut trips.null_batch)?;
-    ask(Command::Calibrate, 1, calibrations, &mut trips.calibration)?;
-    exchange.ask_for(1);
-    Ok(ClockFacts::of(exchange.kind(), trips))
-}

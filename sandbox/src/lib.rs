@@ -26,6 +26,7 @@ pub mod launch;
 pub mod launcher;
 pub mod layers;
 mod memory;
+mod null;
 pub mod outcome;
 pub mod pass;
 pub mod policy;

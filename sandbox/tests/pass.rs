@@ -87,16 +87,25 @@ fn a_pass_ends_when_it_shall() {
 #[test]
 fn remembering_is_seen_where_questions_come_again() {
     let order: Vec<u32> = (0..2 * QUESTIONS).collect();
-    let facts = pass(&["WORK=100000", "MEMOISES"], &plan(&order), usize::MAX).1;
-    let finding = integrity::violated(std::slice::from_ref(&facts));
-    // A machine too busy to measure has nothing to show.
-    let measured = integrity::measured(std::slice::from_ref(&facts));
-    let told: Vec<Check> = measured.iter().map(|finding| finding.check).collect();
-    if told.contains(&Check::Batches) || told.contains(&Check::Repeats) {
-        let check = finding.expect("questions that come again cost it nothing").check;
-        assert!(matches!(check, Check::Batches | Check::Repeats), "{check:?}");
-    } else {
-        assert!(2 * facts.blocks[1] > facts.blocks[0], "a quiet machine has batches and repeats: {facts:?}");
+    // Who is kept waiting may look like somebody who computes: one pass of a few has to show it.
+    let (mut told, mut seen) = (0, None);
+    for _ in 0..5 {
+        let facts = pass(&["WORK=100000", "MEMOISES"], &plan(&order), usize::MAX).1;
+        let measured = integrity::measured(std::slice::from_ref(&facts));
+        if measured.iter().any(|finding| matches!(finding.check, Check::Batches | Check::Repeats)) {
+            told += 1;
+        } else {
+            // A machine too busy to measure has nothing to show.
+            assert!(5 * facts.blocks[1] > facts.blocks[0], "a quiet machine has batches and repeats: {facts:?}");
+        }
+        seen = integrity::violated(std::slice::from_ref(&facts)).map(|finding| finding.check);
+        if seen.is_some() {
+            break;
+        }
+    }
+    match seen {
+        Some(check) => assert!(matches!(check, Check::Batches | Check::Repeats), "{check:?}"),
+        None => assert_eq!(told, 0, "questions that come again cost it nothing"),
     }
     let honest = pass(&["WORK=100000"], &plan(&order), usize::MAX).1;
     assert_eq!(integrity::violated(std::slice::from_ref(&honest)), None, "{honest:?}");
