@@ -79,7 +79,8 @@ fn raw_ns() -> u64 {
 pub struct ClockFacts {
     /// Which hand-off.
     pub kind: ClockKind,
-    /// Median round trip of a question to the null plugin, nanoseconds.
+    /// Median round trip of a question to the null plugin, nanoseconds; 0 where the machine was too busy to find it, so that
+    /// times are longer than they should be rather than shorter.
     pub null_median_ns: f64,
     /// Its 5th percentile.
     pub null_p05_ns: f64,
@@ -119,7 +120,12 @@ pub(crate) struct Trips {
     pub null_batch: Vec<f64>,
     /// Of the calibration loop.
     pub calibration: Vec<f64>,
+    /// Enough of the first, and of the second, to say what a question costs in which nothing is computed.
+    pub known: [bool; 2],
 }
+
+/// A trip that took so many times the shortest one met something else than the clock, while nothing foreign is in the runner.
+pub(crate) const STRAYED: f64 = 3.0;
 
 impl ClockFacts {
     /// From at least one round trip of each kind.
@@ -128,15 +134,16 @@ impl ClockFacts {
             all.sort_by(f64::total_cmp);
             &all[..]
         });
-        let null_median_ns = quantile(null, 0.5);
-        ClockFacts {
-            kind,
-            null_median_ns,
-            null_p05_ns: quantile(null, 0.05),
-            null_p95_ns: quantile(null, 0.95),
-            null_each_ns: ((quantile(batch, 0.5) - null_median_ns) / (MAX_BATCH - 1) as f64).max(0.0),
-            calibration_ns: quantile(calibration, 0.5),
-        }
+        let calibration_ns = quantile(calibration, 0.5);
+        let [null_median_ns, null_p05_ns, null_p95_ns] = match trips.known[0] {
+            true => [0.5, 0.05, 0.95].map(|p| quantile(null, p)),
+            false => [0.0, 0.0, STRAYED * null[0]],
+        };
+        let null_each_ns = match trips.known {
+            [true, true] => ((quantile(batch, 0.5) - null_median_ns) / (MAX_BATCH - 1) as f64).max(0.0),
+            _ => 0.0,
+        };
+        ClockFacts { kind, null_median_ns, null_p05_ns, null_p95_ns, null_each_ns, calibration_ns }
     }
 
     /// The shortest time that can be told from nothing: the spread of the null round trip, nanoseconds, at least 1.
@@ -162,6 +169,7 @@ mod tests {
             null: (200..=300).map(f64::from).collect(),
             null_batch: vec![250.0 + 63.0 * 20.0],
             calibration: vec![10_250.0],
+            known: [true; 2],
         };
         let facts = ClockFacts::of(ClockKind::Spin, trips);
         assert_eq!((facts.null_p05_ns, facts.null_median_ns, facts.null_p95_ns), (205.0, 250.0, 295.0));
@@ -170,6 +178,20 @@ mod tests {
         assert_eq!(facts.subtract(100.0, 1), (90.0, true));
         assert_eq!(facts.subtract(1250.0, 1), (1000.0, false));
         assert_eq!(facts.subtract(1250.0, 11), (800.0, false));
+    }
+
+    #[test]
+    fn where_too_little_is_known_nothing_is_subtracted() {
+        let trips = Trips { null: vec![50_000.0], null_batch: vec![9e6], calibration: vec![7e3], known: [false; 2] };
+        let facts = ClockFacts::of(ClockKind::Spin, trips);
+        // A question of 24 us, in which nothing but the clock took 0.4 us.
+        assert_eq!(facts.subtract(24_400.0, 1), (150_000.0, true));
+        assert_eq!(facts.subtract(151_000.0, 1), (151_000.0, false));
+        assert_eq!(facts.subtract(1_600_000.0, 64), (1_600_000.0, false));
+        // A few batches that met something say nothing against what is known of single questions.
+        let trips =
+            Trips { null: vec![400.0; 20], null_batch: vec![9e6], calibration: vec![7e3], known: [true, false] };
+        assert_eq!(ClockFacts::of(ClockKind::Spin, trips).subtract(24_400.0, 64), (24_000.0, false));
     }
 
     #[test]

@@ -7,7 +7,7 @@ use ocb_core::configuration::Configuration;
 use ocb_core::instance::Presented;
 use ocb_core::pose::Pose;
 
-use crate::clock::{ClockFacts, Trips};
+use crate::clock::{ClockFacts, STRAYED, Trips};
 use crate::exchange::Exchange;
 use crate::outcome::{Outcome, Phase};
 use crate::policy::Policy;
@@ -17,13 +17,12 @@ use crate::protocol::{Command, MAX_BATCH};
 const THOROUGH: [usize; 3] = [1000, 50, 50];
 /// The same where orders of magnitude are enough.
 const ROUGH: [usize; 3] = [20, 2, 2];
-/// A trip that took so many times the shortest one met something else than the clock: nothing foreign is in the runner.
-const STRAYED: f64 = 3.0;
-/// So many that did not will do on a busy machine after so long, later fewer. With fewer still nothing is known: a trip or
-/// two that met something would be subtracted from everything, with no spread to tell.
-const ENOUGH: [(Duration, usize); 2] = [(Duration::from_millis(50), 100), (Duration::from_millis(500), 20)];
-/// A machine that has not given as many by then cannot be measured on.
-const HOPELESS: Duration = Duration::from_secs(10);
+/// On a busy machine so many that did not will do after so long.
+const ENOUGH: (Duration, usize) = (Duration::from_millis(50), 100);
+/// Then it is left at what there is. Fewer than so many are nothing to go by: a trip or two that met something would be
+/// subtracted from everything, with no spread to tell.
+const LONGEST: Duration = Duration::from_millis(500);
+const FEWEST: usize = 20;
 
 /// Asks the null plugin so often that the round trip and its spread are known.
 pub(crate) fn measure(exchange: &mut Exchange, policy: &Policy) -> Result<ClockFacts, Outcome> {
@@ -43,13 +42,16 @@ pub(crate) fn measure(exchange: &mut Exchange, policy: &Policy) -> Result<ClockF
         straight(times, || Ok((trip()?.raw_ns, begun.elapsed())))
     };
     let [samples, batches, calibrations] = if policy.rough_clock { ROUGH } else { THOROUGH };
-    let trips = Trips {
-        null: ask(Command::Null, 1, samples)?,
-        null_batch: ask(Command::Null, MAX_BATCH, batches)?,
-        calibration: ask(Command::Calibrate, 1, calibrations)?,
-    };
+    let null = ask(Command::Null, 1, samples)?;
+    let null_batch = ask(Command::Null, MAX_BATCH, batches)?;
+    let calibration = ask(Command::Calibrate, 1, calibrations)?;
     exchange.ask_for(1);
-    Ok(ClockFacts::of(exchange.kind(), trips))
+    let known = [enough(&null, samples), enough(&null_batch, batches)];
+    Ok(ClockFacts::of(exchange.kind(), Trips { null, null_batch, calibration, known }))
+}
+
+fn enough(kept: &[f64], asked: usize) -> bool {
+    kept.len() >= FEWEST.min(asked)
 }
 
 /// So many round trips that met nothing, or as many as a busy machine has time for. What it does to the others is left out,
@@ -66,16 +68,9 @@ fn straight(times: usize, mut trip: impl FnMut() -> Result<(f64, Duration), Outc
         if raw_ns <= STRAYED * shortest {
             kept.push(raw_ns);
         }
-        let will_do = |(after, least): &(Duration, usize)| passed > *after && kept.len() >= *least.min(&times);
-        if kept.len() >= times || ENOUGH.iter().any(will_do) {
+        let will_do = passed > ENOUGH.0 && kept.len() >= ENOUGH.1;
+        if kept.len() >= times || will_do || passed > LONGEST {
             return Ok(kept);
-        }
-        if passed > HOPELESS {
-            return Err(Outcome::fault(
-                "Clock",
-                "this machine is too busy to measure: in ten seconds no twenty questions in which nothing is computed took \
-                 about as long as the shortest; end what else is at work",
-            ));
         }
     }
 }
@@ -85,60 +80,42 @@ mod tests {
     use super::*;
 
     /// What is kept of trips that take so long, one after the other.
-    fn kept(times: usize, mut next: impl FnMut(Duration) -> f64) -> Result<Vec<f64>, Outcome> {
+    fn kept(times: usize, mut next: impl FnMut() -> f64) -> Vec<f64> {
         let mut passed = Duration::ZERO;
-        straight(times, || {
-            let raw_ns = next(passed);
+        let trip = || {
+            let raw_ns = next();
             passed += Duration::from_nanos(raw_ns as u64);
             Ok((raw_ns, passed))
-        })
+        };
+        straight(times, trip).unwrap()
     }
 
     #[test]
     fn a_quiet_machine_gives_all_and_a_busy_one_what_it_has_time_for() {
-        assert_eq!(kept(1000, |_| 400.0).unwrap(), [400.0; 1000]);
+        assert_eq!(kept(1000, || 400.0), [400.0; 1000]);
         // Every second trip meets a time slice of something else.
         let mut turn = 0;
-        let busy = kept(1000, |_| {
+        let busy = kept(1000, || {
             turn += 1;
             [400.0, 4e6][turn % 2]
         });
-        let busy = busy.unwrap();
-        assert!(busy.len() >= 20 && busy.len() < 130 && busy.iter().all(|trip| *trip == 400.0), "{busy:?}");
+        assert!(enough(&busy, 1000) && busy.len() < 130 && busy.iter().all(|trip| *trip == 400.0), "{busy:?}");
     }
 
     #[test]
     fn slow_trips_are_no_clock_only_because_they_came_first() {
-        // For a second something is always in the way, now and then for less long.
         let mut turn = 0;
-        let late = kept(20, |passed| {
-            turn += 1;
-            if passed > Duration::from_secs(1) {
-                400.0
-            } else if turn % 20 == 0 {
-                5e4
-            } else {
-                4e6
-            }
-        });
-        assert_eq!(late.unwrap(), [400.0; 20]);
-        // Nineteen of them, then one that met nothing.
-        let mut turn = 0;
-        let one = kept(20, |_| {
+        let one = kept(20, || {
             turn += 1;
             if turn < 20 { 5e4 } else { 400.0 }
         });
-        assert_eq!(one.unwrap(), [400.0; 20]);
-    }
-
-    #[test]
-    fn a_machine_without_twenty_straight_trips_is_a_fault() {
+        assert_eq!(one, [400.0; 20]);
+        // Something is always in the way, now and then for less long: that is nothing to subtract.
         let mut turn = 0;
-        let hopeless = kept(1000, |_| {
+        let few = kept(1000, || {
             turn += 1;
-            if turn == 7 { 400.0 } else { 4e6 }
+            if turn % 20 == 0 { 5e4 } else { 4e6 }
         });
-        let Err(Outcome::SandboxFault { step, reason }) = hopeless else { panic!("{hopeless:?}") };
-        assert!(step == "Clock" && reason.contains("too busy"), "{step}: {reason}");
+        assert!(few == [5e4; 6] && !enough(&few, 1000) && !enough(&few, 20), "{few:?}");
     }
 }
