@@ -88,7 +88,7 @@ pub struct ClockFacts {
     pub null_p95_ns: f64,
     /// What each further question of a batch to the null plugin adds, nanoseconds.
     pub null_each_ns: f64,
-    /// Median time of the calibration loop on the runner's CPU, nanoseconds, with its round trip.
+    /// How long the calibration loop took on the runner's CPU before the plugin was loaded, nanoseconds.
     pub calibration_ns: f64,
 }
 
@@ -118,8 +118,8 @@ pub(crate) struct Trips {
     pub null: Vec<f64>,
     /// Of a batch of [`MAX_BATCH`].
     pub null_batch: Vec<f64>,
-    /// Of the calibration loop.
-    pub calibration: Vec<f64>,
+    /// Time of the calibration loop.
+    pub calibration_ns: f64,
     /// Enough of the first, and of the second, to say what a question costs in which nothing is computed.
     pub known: [bool; 2],
 }
@@ -130,11 +130,10 @@ pub(crate) const STRAYED: f64 = 3.0;
 impl ClockFacts {
     /// From at least one round trip of each kind.
     pub(crate) fn of(kind: ClockKind, mut trips: Trips) -> Self {
-        let [null, batch, calibration] = [&mut trips.null, &mut trips.null_batch, &mut trips.calibration].map(|all| {
+        let [null, batch] = [&mut trips.null, &mut trips.null_batch].map(|all| {
             all.sort_by(f64::total_cmp);
             &all[..]
         });
-        let calibration_ns = quantile(calibration, 0.5);
         let [null_median_ns, null_p05_ns, null_p95_ns] = match trips.known[0] {
             true => [0.5, 0.05, 0.95].map(|p| quantile(null, p)),
             false => [0.0, 0.0, STRAYED * null[0]],
@@ -143,6 +142,7 @@ impl ClockFacts {
             [true, true] => ((quantile(batch, 0.5) - null_median_ns) / (MAX_BATCH - 1) as f64).max(0.0),
             _ => 0.0,
         };
+        let calibration_ns = trips.calibration_ns;
         ClockFacts { kind, null_median_ns, null_p05_ns, null_p95_ns, null_each_ns, calibration_ns }
     }
 
@@ -168,7 +168,7 @@ mod tests {
         let trips = Trips {
             null: (200..=300).map(f64::from).collect(),
             null_batch: vec![250.0 + 63.0 * 20.0],
-            calibration: vec![10_250.0],
+            calibration_ns: 10_250.0,
             known: [true; 2],
         };
         let facts = ClockFacts::of(ClockKind::Spin, trips);
@@ -182,7 +182,7 @@ mod tests {
 
     #[test]
     fn where_too_little_is_known_nothing_is_subtracted() {
-        let trips = Trips { null: vec![50_000.0], null_batch: vec![9e6], calibration: vec![7e3], known: [false; 2] };
+        let trips = Trips { null: vec![50_000.0], null_batch: vec![9e6], calibration_ns: 7e3, known: [false; 2] };
         let facts = ClockFacts::of(ClockKind::Spin, trips);
         // A question of 24 us, in which nothing but the clock took 0.4 us.
         assert_eq!(facts.subtract(24_400.0, 1), (150_000.0, true));
@@ -190,7 +190,7 @@ mod tests {
         assert_eq!(facts.subtract(1_600_000.0, 64), (1_600_000.0, false));
         // A few batches that met something say nothing against what is known of single questions.
         let trips =
-            Trips { null: vec![400.0; 20], null_batch: vec![9e6], calibration: vec![7e3], known: [true, false] };
+            Trips { null: vec![400.0; 20], null_batch: vec![9e6], calibration_ns: 7e3, known: [true, false] };
         assert_eq!(ClockFacts::of(ClockKind::Spin, trips).subtract(24_400.0, 64), (24_000.0, false));
     }
 

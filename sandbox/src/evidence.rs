@@ -196,11 +196,16 @@ impl Messages {
     }
 }
 
+/// A line of /proc/PID/status.
+pub(crate) fn status_field(pid: i32, name: &str) -> Option<String> {
+    let status = std::fs::read_to_string(format!("/proc/{pid}/status")).ok()?;
+    // The first line is the name that the process gave itself, which cannot hold a line feed.
+    status.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(':')).map(|value| value.trim().to_owned())
+}
+
 /// A size from /proc/PID/status, bytes.
 pub(crate) fn status_kib(pid: i32, name: &str) -> Option<u64> {
-    let status = std::fs::read_to_string(format!("/proc/{pid}/status")).ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(':'))?;
-    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kib| kib << 10)
+    status_field(pid, name)?.strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kib| kib << 10)
 }
 
 /// The file whose mapping holds an address; `?` when there is none.

@@ -12,13 +12,20 @@ use crate::outcome::{Outcome, Phase};
 use crate::protocol::{
     Command, MAX_BATCH, SLOT_WORDS, Status, answer, clean_text, contacts_to_copy, parse_status, parse_text_len, request,
 };
+use crate::trial::Part;
+use crate::usage::Meter;
 
 /// The jail is looked at so often while an answer is awaited.
 const LOOK_NS: f64 = 1e6;
-/// After so long the supervisor sleeps between looks: what the wake-up adds is then less than a thousandth.
-const WATCH_NS: f64 = 50e6;
-/// A missed moment longer than this, and longer than a two-hundredth of the time, disturbs a sample.
-const MISSED_NS: f64 = 1000.0;
+/// After so long the supervisor sleeps between looks: what the wake-up adds is then less than a hundredth.
+const WATCH_NS: f64 = 5e6;
+/// Time of the supervisor's own that was lost, longer than this and than a hundredth of the whole, disturbs a sample.
+const MISSED_NS: f64 = 5000.0;
+/// Copying one contact takes no longer than this.
+const COPY_NS: f64 = 20.0;
+/// How long a runner may take to fall asleep when it is told to rest, and before it is asked by the sleeping clock.
+const REST: Duration = Duration::from_millis(5);
+const SETTLE: Duration = Duration::from_millis(100);
 /// A runner that was not asked for so long may have begun to sleep.
 const DROWSY: Duration = Duration::from_millis(1);
 
@@ -27,8 +34,12 @@ pub(crate) struct Exchange {
     pub jail: Jail,
     kind: ClockKind,
     clock: Clock,
+    meter: Meter,
     number: u32,
     slots: Vec<[u64; SLOT_WORDS]>,
+    contacts: Vec<u64>,
+    /// The runner was told to rest, or says that it sleeps: the next command has to wake it.
+    resting: bool,
     last: Instant,
     trial_seconds: f64,
     trial_ends: Instant,
@@ -37,21 +48,59 @@ pub(crate) struct Exchange {
 /// How long one command took.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Timed {
-    /// From release to seen answer.
+    /// From before the first word of the command could be seen until its whole answer was in the supervisor's own memory.
     pub raw_ns: f64,
-    /// The answer came at most so long before it was seen.
+    /// The supervisor lost so much of that to something else on its own CPU, at most.
     pub missed_ns: f64,
 }
 
+/// What a command shows the runner beside its number.
+#[derive(Clone, Copy)]
+enum Shown<'a> {
+    Nothing,
+    Poses(&'a [Poses]),
+    Mesh(&'a Part),
+}
+
+/// The words of one question: 16 numbers for each pose, and whether B stands first.
+pub(crate) struct Poses([u64; 32], bool);
+
+impl From<&Presented> for Poses {
+    fn from(Presented { configuration, swapped }: &Presented) -> Self {
+        let mut words = [0; 32];
+        let [a, b] = [configuration.pose_a, configuration.pose_b].map(|pose| pose.to_row_major().map(f64::to_bits));
+        words[..16].copy_from_slice(&a);
+        words[16..].copy_from_slice(&b);
+        Poses(words, *swapped)
+    }
+}
+
 impl Exchange {
-    pub fn new(jail: Jail, kind: ClockKind, clock: Clock, trial_seconds: f64) -> Self {
+    pub fn new(jail: Jail, kind: ClockKind, clock: Clock, trial_seconds: f64, threads: usize) -> Self {
         let now = Instant::now();
         let trial_ends = now + Duration::from_secs_f64(trial_seconds.clamp(0.0, 1e9));
-        Self { jail, kind, clock, number: 0, slots: vec![[0; SLOT_WORDS]], last: now, trial_seconds, trial_ends }
+        let meter = Meter::of(jail.pid, threads > 1);
+        Self {
+            jail,
+            kind,
+            clock,
+            meter,
+            number: 0,
+            slots: vec![[0; SLOT_WORDS]],
+            contacts: Vec::new(),
+            resting: false,
+            last: now,
+            trial_seconds,
+            trial_ends,
+        }
     }
 
     pub fn kind(&self) -> ClockKind {
         self.kind
+    }
+
+    pub fn meter(&self) -> &Meter {
+        &self.meter
     }
 
     /// The copies of the newest answers, one per question.
@@ -59,55 +108,76 @@ impl Exchange {
         &self.slots
     }
 
-    /// Writes the poses of the next questions, at most [`MAX_BATCH`].
-    pub fn place(&mut self, questions: &[Presented]) {
-        self.ask_for(questions.len());
-        let swapped = (0..).zip(questions).fold(0u64, |mask, (i, q)| mask | u64::from(q.swapped) << i);
-        self.jail.request.u64(request::SWAPPED).store(swapped, Ordering::Relaxed);
-        for (question, Presented { configuration, .. }) in questions.iter().enumerate() {
-            let poses = [configuration.pose_a.to_row_major(), configuration.pose_b.to_row_major()];
-            for (i, pose) in poses.iter().enumerate() {
-                let at = request::POSES + request::POSES_STRIDE * question + 128 * i;
-                self.jail.request.store(at, &pose.map(f64::to_bits));
-            }
-        }
+    /// The copies of the contacts beside the newest answer, as many as it announced and the buffer holds.
+    pub fn contacts(&self) -> &[u64] {
+        &self.contacts
     }
 
-    /// The next command asks so many questions.
-    pub fn ask_for(&mut self, questions: usize) {
-        assert!((1..=MAX_BATCH).contains(&questions), "a command asks 1 to {MAX_BATCH} questions");
-        self.jail.request.u64(request::QUESTIONS).store(questions as u64, Ordering::Relaxed);
-        self.slots.resize(questions, [0; SLOT_WORDS]);
-    }
-
-    /// Makes sure that a watching runner watches, so that the next question finds it as the null questions did.
-    pub fn wake(&mut self, limit_seconds: f64) -> Result<(), Outcome> {
-        let asleep = self.jail.answer.u32(answer::RUNNER_SLEEPS).load(Ordering::Relaxed) != 0;
-        if self.kind == ClockKind::Spin && (asleep || self.last.elapsed() > DROWSY) {
-            self.ask_for(1);
+    /// Makes sure that a watching runner watches, so that the next question finds it as the null questions did. True when it
+    /// had to be woken.
+    pub fn wake(&mut self, limit_seconds: f64) -> Result<bool, Outcome> {
+        let asleep = self.resting || self.jail.answer.u32(answer::RUNNER_SLEEPS).load(Ordering::Relaxed) != 0;
+        let drowsy = asleep || self.last.elapsed() > DROWSY;
+        if drowsy && self.kind == ClockKind::Spin {
+            self.resting = asleep;
             self.obeyed(Command::Null, Phase::Query, limit_seconds)?;
         }
+        Ok(drowsy)
+    }
+
+    /// Lets the runner sleep until the next command, and waits until it does, for some milliseconds at most: a runner that
+    /// goes on computing is told by the kernel's counters.
+    pub fn rest(&mut self, limit_seconds: f64) -> Result<(), Outcome> {
+        self.obeyed(Command::Rest, Phase::Query, limit_seconds)?;
+        self.resting = true;
+        self.settle(REST);
         Ok(())
     }
 
-    /// Was the moment of the answer missed by too much?
-    pub fn disturbed(&self, timed: &Timed) -> bool {
-        timed.missed_ns > MISSED_NS && timed.missed_ns > timed.raw_ns / 200.0
+    /// Waits until the runner sleeps in the kernel.
+    fn settle(&self, longest: Duration) {
+        let begun = Instant::now();
+        while self.meter.is_asleep() == Some(false) && begun.elapsed() < longest {
+            std::thread::yield_now();
+        }
     }
 
-    /// Gives a command, waits for its answers and copies each once. An error status becomes its outcome; "gave up" and
+    /// Gives a command, waits for its answer and copies it. An error status becomes its outcome; "gave up" and
     /// "unsupported" are answers.
     pub fn obeyed(&mut self, command: Command, phase: Phase, limit_seconds: f64) -> Result<Timed, Outcome> {
+        self.command(command, phase, limit_seconds, Shown::Nothing)
+    }
+
+    /// Asks up to [`MAX_BATCH`] questions at once.
+    pub fn asked(&mut self, command: Command, questions: &[Poses], limit_seconds: f64) -> Result<Timed, Outcome> {
+        assert!((1..=MAX_BATCH).contains(&questions.len()), "a command asks 1 to {MAX_BATCH} questions");
+        self.command(command, Phase::Query, limit_seconds, Shown::Poses(questions))
+    }
+
+    /// Shows a mesh and has its structure built.
+    pub fn built(&mut self, command: Command, mesh: &Part, limit_seconds: f64) -> Result<Timed, Outcome> {
+        self.command(command, Phase::Build, limit_seconds, Shown::Mesh(mesh))
+    }
+
+    fn command(
+        &mut self,
+        command: Command,
+        phase: Phase,
+        limit_seconds: f64,
+        shown: Shown<'_>,
+    ) -> Result<Timed, Outcome> {
         let before = self.jail.answer.u32(answer::NUMBER).load(Ordering::Acquire);
         if before != self.number {
             return Err(violation(phase, "it answered what had not been asked"));
         }
-        self.jail.request.u64(request::COMMAND).store(command as u64, Ordering::Relaxed);
-        let timed = self.round_trip(phase, limit_seconds)?;
-        self.last = Instant::now();
-        for (i, slot) in self.slots.iter_mut().enumerate() {
-            self.jail.answer.load(answer::SLOT + answer::SLOT_STRIDE * i, slot);
+        let questions = if let Shown::Poses(poses) = shown { poses.len() } else { 1 };
+        self.slots.resize(questions, [0; SLOT_WORDS]);
+        if self.kind == ClockKind::Futex && phase == Phase::Query {
+            // Whoever is found awake need not be woken, and would be quicker by that.
+            self.settle(SETTLE);
         }
+        let timed = self.round_trip(command, phase, limit_seconds, shown)?;
+        (self.last, self.resting) = (Instant::now(), false);
         for slot in &self.slots {
             match parse_status(slot).map_err(|rule| Outcome::ProtocolViolation { phase, rule })? {
                 Status::Ok | Status::GaveUp | Status::Unsupported => {}
@@ -118,17 +188,50 @@ impl Exchange {
         Ok(timed)
     }
 
-    fn round_trip(&mut self, phase: Phase, limit_seconds: f64) -> Result<Timed, Outcome> {
+    /// The words of a command, the number last.
+    #[inline]
+    fn show(&self, command: Command, shown: Shown<'_>, number: u32) {
+        let (request, mut questions, mut swapped) = (&self.jail.request, 1, 0);
+        match shown {
+            Shown::Nothing => {}
+            Shown::Mesh(mesh) => self.jail.trial.store_bytes(mesh.at, &mesh.bytes),
+            Shown::Poses(poses) => {
+                questions = poses.len() as u64;
+                for (i, Poses(words, turned)) in poses.iter().enumerate() {
+                    swapped |= u64::from(*turned) << i;
+                    request.store(request::POSES + request::POSES_STRIDE * i, words);
+                }
+            }
+        }
+        request.u64(request::COMMAND).store(command as u64, Ordering::Relaxed);
+        request.u64(request::QUESTIONS).store(questions, Ordering::Relaxed);
+        request.u64(request::SWAPPED).store(swapped, Ordering::Relaxed);
+        request.u32(request::NUMBER).store(number, Ordering::SeqCst);
+    }
+
+    /// The time begins before anything of the command can be seen, and ends when its whole answer has been copied: a number
+    /// that is written before the answer gains nothing.
+    fn round_trip(
+        &mut self,
+        command: Command,
+        phase: Phase,
+        limit_seconds: f64,
+        shown: Shown<'_>,
+    ) -> Result<Timed, Outcome> {
         let clock = self.clock;
         let (asked, answered) = (self.number, self.number.wrapping_add(1));
         let look = clock.in_ticks(LOOK_NS);
-        let released = clock.ticks();
-        self.jail.request.u32(request::NUMBER).store(answered, Ordering::SeqCst);
-        // While it is loaded nothing is timed, and the CPU that a watcher takes may be the runner's.
-        if self.kind == ClockKind::Futex || phase == Phase::Load {
+        // While it is loaded nothing is asked, and the CPU that a watcher takes may be the runner's.
+        let sleeps = self.kind == ClockKind::Futex || phase == Phase::Load;
+        let begun = clock.ticks();
+        if sleeps {
             self.jail.request.u32(request::SUPERVISOR_SLEEPS).store(1, Ordering::SeqCst);
+        }
+        self.show(command, shown, answered);
+        if sleeps || self.resting {
             futex_wake(self.jail.request.u32(request::NUMBER));
         }
+        let released = clock.ticks();
         let (mut polled, mut looked) = (released, released);
         let seen = loop {
             let word = self.jail.answer.u32(answer::NUMBER);
@@ -155,11 +258,33 @@ impl Exchange {
                 futex_wait(self.jail.answer.u32(answer::NUMBER), asked, Some(Duration::from_nanos(LOOK_NS as u64)));
             }
         };
+        self.copy(command);
+        let copied = clock.ticks();
         self.number = answered;
         let slept = self.jail.request.u32(request::SUPERVISOR_SLEEPS).swap(0, Ordering::SeqCst) != 0;
         // A sleeper is woken by the answer; only a watcher can miss the moment.
-        let missed_ns = if slept { 0.0 } else { clock.nanoseconds(polled, seen) };
-        Ok(Timed { raw_ns: clock.nanoseconds(released, seen), missed_ns })
+        let unseen = if slept { 0.0 } else { clock.nanoseconds(polled, seen) };
+        let copying = clock.nanoseconds(seen, copied) - COPY_NS * self.contacts.len() as f64;
+        let releasing = if matches!(shown, Shown::Mesh(_)) { 0.0 } else { clock.nanoseconds(begun, released) };
+        Ok(Timed { raw_ns: clock.nanoseconds(begun, copied), missed_ns: unseen.max(copying).max(releasing) })
+    }
+
+    /// Copies the answers once; what is read afterwards is the copy.
+    #[inline]
+    fn copy(&mut self, command: Command) {
+        for (i, slot) in self.slots.iter_mut().enumerate() {
+            self.jail.answer.load(answer::SLOT + answer::SLOT_STRIDE * i, slot);
+        }
+        self.contacts.clear();
+        if matches!(command, Command::CollisionAll | Command::CountCollisionAll) {
+            self.contacts.resize(contacts_to_copy(&self.slots[0]), 0);
+            self.jail.answer.load(answer::CONTACTS, &mut self.contacts);
+        }
+    }
+
+    /// Was so much of the time lost to something else that it says little of the plugin?
+    pub fn disturbed(&self, timed: &Timed) -> bool {
+        timed.missed_ns > MISSED_NS && timed.missed_ns > timed.raw_ns / 100.0
     }
 
     /// Evidence, limits, and a wake-up in case the runner had just gone to sleep.
@@ -186,13 +311,6 @@ impl Exchange {
     fn text_of(&self, slot: &[u64; SLOT_WORDS], phase: Phase) -> Result<Vec<u8>, Outcome> {
         let len = parse_text_len(slot).map_err(|rule| Outcome::ProtocolViolation { phase, rule })?;
         Ok(self.jail.answer.load_bytes(answer::TEXT, len))
-    }
-
-    /// The contacts beside the newest answer, as many as it announces and the buffer holds.
-    pub fn contacts(&self) -> Vec<u64> {
-        let mut words = vec![0; contacts_to_copy(&self.slots[0])];
-        self.jail.answer.load(answer::CONTACTS, &mut words);
-        words
     }
 
     /// The text as a reason for people: one line without its full stop.

@@ -25,13 +25,18 @@ use crate::outcome::{Ending, Outcome};
 use crate::policy::Policy;
 use crate::protocol::{answer, request};
 use crate::shared::{Segment, memory_file, seal};
+use crate::trial::Sheet;
 use crate::verify::{Expected, verify};
 
 /// How long our own part of the start may take; more means that the machine is broken.
 const START: Duration = Duration::from_secs(20);
+/// Bytes of a page of memory.
+const PAGE: usize = 4096;
 
 /// A jail with a waiting runner.
 pub(crate) struct Jail {
+    /// Head and meshes, written by us alone.
+    pub trial: Segment,
     /// Written by us alone.
     pub request: Segment,
     /// Written by the runner.
@@ -70,13 +75,13 @@ impl Killer {
 }
 
 impl Jail {
-    /// Starts a runner for a plugin file and a sealed trial, up to the moment before the plugin is loaded.
+    /// Starts a runner for a plugin file and a trial, up to the moment before the plugin is loaded.
     pub fn start(
         runner: &Path,
         policy: &Policy,
         killer: &Killer,
         plugin: &Path,
-        trial: &[u8],
+        sheet: &Sheet,
         places: &Places,
         namespaces: bool,
     ) -> Result<Jail, Ending> {
@@ -99,18 +104,19 @@ impl Jail {
             return Err(Outcome::LoadError { reason }.into());
         }
         let libraries = if policy.trusted { brought::beside(&plugin_path)? } else { Vec::new() };
-        let sheet = memory_file(c"ocb-trial", trial.len()).map_err(fault("SharedMemory"))?;
-        {
-            use std::os::unix::fs::FileExt;
-            let file = File::from(sheet.try_clone().map_err(fault("SharedMemory"))?);
-            file.write_all_at(trial, 0).map_err(fault("SharedMemory"))?;
-        }
         let whole = libc::F_SEAL_SHRINK | libc::F_SEAL_GROW | libc::F_SEAL_SEAL;
-        seal(sheet.as_fd(), whole | libc::F_SEAL_WRITE).map_err(fault("SharedMemory"))?;
-        let request_file = memory_file(c"ocb-request", request::BYTES).map_err(fault("SharedMemory"))?;
-        let request = Segment::map(request_file.as_fd(), request::BYTES, true).map_err(fault("SharedMemory"))?;
-        // From here on nobody can make another writable mapping.
-        seal(request_file.as_fd(), whole | libc::F_SEAL_FUTURE_WRITE).map_err(fault("SharedMemory"))?;
+        // What is sealed so has no other writable mapping than the one that is there: ours.
+        let ours = |name, len| -> io::Result<(OwnedFd, Segment)> {
+            let file = memory_file(name, len)?;
+            let segment = Segment::map(file.as_fd(), len, true)?;
+            seal(file.as_fd(), whole | libc::F_SEAL_FUTURE_WRITE)?;
+            Ok((file, segment))
+        };
+        let (trial_file, trial) = ours(c"ocb-trial", sheet.len).map_err(fault("SharedMemory"))?;
+        // Every page is there before it is needed; making it is none of the plugin's time.
+        (0..sheet.len / PAGE).for_each(|page| trial.u64(page * PAGE).store(0, Ordering::Relaxed));
+        trial.store_bytes(0, &sheet.head);
+        let (request_file, request) = ours(c"ocb-request", request::BYTES).map_err(fault("SharedMemory"))?;
         let answer_file = memory_file(c"ocb-answer", answer::BYTES).map_err(fault("SharedMemory"))?;
         seal(answer_file.as_fd(), whole).map_err(fault("SharedMemory"))?;
         let answer = Segment::map(answer_file.as_fd(), answer::BYTES, false).map_err(fault("SharedMemory"))?;
@@ -138,6 +144,7 @@ impl Jail {
         let handle = process_descriptor(pid).map_err(fault("Start"))?;
         let group = MemoryGroup::new(policy.memory_bytes).ok();
         let mut jail = Jail {
+            trial,
             request,
             answer,
             pid,
@@ -154,7 +161,7 @@ impl Jail {
             limits: policy.clone(),
         };
         // With a group the address space only has to stop absurd reservations; without one it is the memory limit.
-        let meshes = trial.len() as u64;
+        let meshes = sheet.len as u64;
         let startable_threads = policy.startable_threads();
         let address_space_bytes = match jail.group {
             // glibc reserves a stack and a heap for each thread, of which little is ever touched.
@@ -176,7 +183,7 @@ impl Jail {
         let mut started = || -> Result<(), Outcome> {
             let entrance = jail.group.as_ref().map(MemoryGroup::entrance).transpose();
             let entrance = entrance.map_err(|e| Outcome::fault("MemoryGroup", e))?;
-            let mut files = vec![sheet.as_fd(), request_file.as_fd(), answer_file.as_fd(), plugin_file.as_fd()];
+            let mut files = vec![trial_file.as_fd(), request_file.as_fd(), answer_file.as_fd(), plugin_file.as_fd()];
             files.extend(entrance.iter().map(OwnedFd::as_fd));
             jail.control.send(&order, &files).map_err(|e| Outcome::fault("Start", e))?;
             jail.admit()?;

@@ -8,6 +8,7 @@ use ocb_core::query::Semantics;
 use crate::clock::{Clock, ClockFacts};
 use crate::cpus::Places;
 use crate::descriptor::Descriptor;
+use crate::evidence::status_field;
 use crate::exchange::Exchange;
 use crate::gate::Inspection;
 use crate::launch::{Jail, Killer};
@@ -16,8 +17,8 @@ use crate::null;
 use crate::outcome::{Ending, Outcome, Phase};
 use crate::policy::Policy;
 use crate::protocol::{Command, parse_descriptors, parse_inspection};
-use crate::session::{Pinned, Session};
-use crate::trial::write_trial;
+use crate::session::{Pinned, Session, SetUp};
+use crate::trial::Sheet;
 
 /// Starts runners under one policy.
 #[derive(Clone, Debug)]
@@ -51,7 +52,7 @@ impl Launcher {
 
     /// Lists the algorithms of a plugin, from inside the jail.
     pub fn describe(&self, plugin: &Path) -> Result<Vec<Descriptor>, Ending> {
-        self.aside(plugin, |exchange| self.load(exchange))
+        self.aside(plugin, |exchange| self.load(exchange).map(|(_, descriptors)| descriptors))
     }
 
     /// Reads a plugin file as ELF, in a jail, without loading it.
@@ -71,7 +72,7 @@ impl Launcher {
     /// Does something in a jail of its own, without objects.
     fn aside<T>(&self, plugin: &Path, work: impl FnOnce(&mut Exchange) -> Result<T, Outcome>) -> Result<T, Ending> {
         let places = Places::here(&self.policy)?;
-        let sheet = write_trial("", &[], Semantics::Surface, &[]);
+        let sheet = Sheet::new("", &[], Semantics::Surface, &[]);
         let mut exchange = self.jail(plugin, &sheet, &Killer::default(), &places)?;
         match work(&mut exchange) {
             Ok(found) => {
@@ -94,7 +95,7 @@ impl Launcher {
     /// As [`Launcher::start`], with a handle that another thread may hold already while the plugin loads and builds.
     pub fn start_with(&self, trial: &Trial<'_>, killer: &Killer) -> Result<Session, Ending> {
         let meshes: Vec<&Mesh> = std::iter::once(trial.mesh_a).chain(trial.mesh_b).collect();
-        let sheet = write_trial(trial.algorithm, trial.parameters, trial.semantics, &meshes);
+        let sheet = Sheet::new(trial.algorithm, trial.parameters, trial.semantics, &meshes);
         let places = Places::here(&self.policy)?;
         let mut exchange = self.jail(trial.plugin, &sheet, killer, &places)?;
         // Not before the jail has started: it would inherit the choice.
@@ -102,32 +103,50 @@ impl Launcher {
             Ok(pinned) => pinned,
             Err(outcome) => return Err(exchange.jail.end(outcome)),
         };
-        let mut prepare = || -> Result<(f64, ClockFacts), Outcome> {
+        let mut prepare = || -> Result<(SetUp, ClockFacts), Outcome> {
             let policy = &self.policy;
-            let clock = null::measure(&mut exchange, policy)?;
-            self.load(&mut exchange)?;
-            exchange.obeyed(Command::Prepare, Phase::Load, policy.load_seconds)?;
-            let builds = &[Command::BuildA, Command::BuildB][..meshes.len()];
+            let clock = null::measure(&mut exchange, policy, places.runner.first().copied())?;
+            let (mut load_ns, _) = self.load(&mut exchange)?;
+            self.tighten(&mut exchange)?;
+            load_ns += exchange.obeyed(Command::Prepare, Phase::Load, policy.load_seconds)?.raw_ns;
             let mut build_ns = 0.0;
-            for build in builds {
-                build_ns += exchange.obeyed(*build, Phase::Build, policy.build_seconds)?.raw_ns;
+            for (build, mesh) in [Command::BuildA, Command::BuildB].into_iter().zip(&sheet.meshes) {
+                build_ns += exchange.built(build, mesh, policy.build_seconds)?.raw_ns;
             }
-            Ok(((build_ns - clock.null_median_ns * builds.len() as f64).max(clock.resolution_ns()), clock))
+            // What it does between its last structure and the first question is none of our time and must be nothing.
+            exchange.rest(policy.query_seconds)?;
+            let built = clock.null_median_ns * sheet.meshes.len() as f64;
+            Ok((SetUp { load_ns, build_ns: (build_ns - built).max(clock.resolution_ns()) }, clock))
         };
         match prepare() {
-            Ok((build_ns, clock)) => Ok(Session::new(self.policy.clone(), exchange, build_ns, clock, pinned)),
+            Ok((set_up, clock)) => Ok(Session::new(self.policy.clone(), exchange, set_up, clock, pinned)),
             Err(outcome) => Err(exchange.jail.end(outcome)),
         }
     }
 
-    fn load(&self, exchange: &mut Exchange) -> Result<Vec<Descriptor>, Outcome> {
-        exchange.obeyed(Command::Open, Phase::Load, self.policy.load_seconds)?;
-        parse_descriptors(&exchange.text(Phase::Load)?).map_err(|reason| Outcome::LoadError { reason })
+    /// Loads the file: how long that took, and what it says of itself.
+    fn load(&self, exchange: &mut Exchange) -> Result<(f64, Vec<Descriptor>), Outcome> {
+        let timed = exchange.obeyed(Command::Open, Phase::Load, self.policy.load_seconds)?;
+        let described = parse_descriptors(&exchange.text(Phase::Load)?);
+        Ok((timed.raw_ns, described.map_err(|reason| Outcome::LoadError { reason })?))
+    }
+
+    /// Has the runner put its second filter in force? By then the plugin may have taken it over, so that the kernel is asked.
+    fn tighten(&self, exchange: &mut Exchange) -> Result<(), Outcome> {
+        exchange.obeyed(Command::Tighten, Phase::Load, self.policy.load_seconds)?;
+        match status_field(exchange.jail.pid, "Seccomp_filters").and_then(|n| n.parse().ok()) {
+            // Kernels before 5.9 do not count.
+            None | Some(2u32..) => Ok(()),
+            Some(_) => Err(Outcome::ProtocolViolation {
+                phase: Phase::Load,
+                rule: "the tighter system call filter is not in force".into(),
+            }),
+        }
     }
 
     /// A jail that has been looked at. Where this machine forbids namespaces, a trusted plugin runs without, and a foreign
     /// one where the profile lets it.
-    fn jail(&self, plugin: &Path, trial: &[u8], killer: &Killer, places: &Places) -> Result<Exchange, Ending> {
+    fn jail(&self, plugin: &Path, trial: &Sheet, killer: &Killer, places: &Places) -> Result<Exchange, Ending> {
         match self.jail_in(plugin, trial, killer, places, true) {
             Err(Ending { outcome: Outcome::SandboxFault { step, .. }, .. })
                 if (self.policy.trusted || self.policy.profile == Profile::Dev)
@@ -142,13 +161,13 @@ impl Launcher {
     fn jail_in(
         &self,
         plugin: &Path,
-        trial: &[u8],
+        trial: &Sheet,
         killer: &Killer,
         places: &Places,
         namespaces: bool,
     ) -> Result<Exchange, Ending> {
         let jail = Jail::start(&self.runner, &self.policy, killer, plugin, trial, places, namespaces)?;
-        let mut exchange = Exchange::new(jail, places.kind, Clock::get(), self.policy.trial_seconds);
+        let mut exchange = Exchange::new(jail, places.kind, Clock::get(), self.policy.trial_seconds, self.policy.threads);
         let closed = exchange.obeyed(Command::CloseListener, Phase::Load, self.policy.load_seconds);
         match closed.and_then(|_| exchange.jail.verify(namespaces)) {
             Ok(()) => Ok(exchange),

@@ -37,6 +37,7 @@ pub mod seccomp;
 pub mod session;
 #[doc(hidden)]
 pub mod shared;
+mod speed;
 #[doc(hidden)]
 pub mod trial;
 mod usage;

@@ -8,15 +8,16 @@ use ocb_core::instance::Presented;
 use ocb_core::pose::Pose;
 
 use crate::clock::{ClockFacts, STRAYED, Trips};
-use crate::exchange::Exchange;
-use crate::outcome::{Outcome, Phase};
+use crate::exchange::{Exchange, Poses};
+use crate::outcome::Outcome;
 use crate::policy::Policy;
 use crate::protocol::{Command, MAX_BATCH};
+use crate::speed;
 
-/// Null round trips, null batches and calibration loops of a session; a tenth more before them does not count.
-const THOROUGH: [usize; 3] = [1000, 50, 50];
+/// Null round trips and null batches of a session; a tenth more before them does not count.
+const THOROUGH: [usize; 2] = [1000, 50];
 /// The same where orders of magnitude are enough.
-const ROUGH: [usize; 3] = [20, 2, 2];
+const ROUGH: [usize; 2] = [20, 2];
 /// On a busy machine so many that did not will do after so long.
 const ENOUGH: (Duration, usize) = (Duration::from_millis(50), 100);
 /// Then it is left at what there is. Fewer than so many are nothing to go by: a trip or two that met something would be
@@ -25,29 +26,25 @@ const LONGEST: Duration = Duration::from_millis(500);
 const FEWEST: usize = 20;
 
 /// Asks the null plugin so often that the round trip and its spread are known.
-pub(crate) fn measure(exchange: &mut Exchange, policy: &Policy) -> Result<ClockFacts, Outcome> {
+pub(crate) fn measure(exchange: &mut Exchange, policy: &Policy, runner_cpu: Option<usize>) -> Result<ClockFacts, Outcome> {
     let nowhere = Configuration { pose_a: Pose::identity(), pose_b: Pose::identity() };
     let question = Presented { configuration: nowhere, swapped: false };
-    let mut ask = |command, questions, times: usize| {
-        let questions = vec![question; questions];
-        let mut trip = || {
-            // As before any question: the runner has to fetch the new poses from the supervisor's CPU.
-            exchange.place(&questions);
-            exchange.obeyed(command, Phase::Query, policy.query_seconds)
-        };
+    let mut ask = |questions, times: usize| {
+        let questions: Vec<Poses> = (0..questions).map(|_| Poses::from(&question)).collect();
+        let mut trip = || exchange.asked(Command::Null, &questions, policy.query_seconds);
         for _ in 0..times / 10 {
             trip()?;
         }
         let begun = Instant::now();
         straight(times, || Ok((trip()?.raw_ns, begun.elapsed())))
     };
-    let [samples, batches, calibrations] = if policy.rough_clock { ROUGH } else { THOROUGH };
-    let null = ask(Command::Null, 1, samples)?;
-    let null_batch = ask(Command::Null, MAX_BATCH, batches)?;
-    let calibration = ask(Command::Calibrate, 1, calibrations)?;
-    exchange.ask_for(1);
+    let [samples, batches] = if policy.rough_clock { ROUGH } else { THOROUGH };
+    let null = ask(1, samples)?;
+    let null_batch = ask(MAX_BATCH, batches)?;
+    exchange.rest(policy.query_seconds)?;
+    let calibration_ns = speed::measure(runner_cpu)?;
     let known = [enough(&null, samples), enough(&null_batch, batches)];
-    Ok(ClockFacts::of(exchange.kind(), Trips { null, null_batch, calibration, known }))
+    Ok(ClockFacts::of(exchange.kind(), Trips { null, null_batch, calibration_ns, known }))
 }
 
 fn enough(kept: &[f64], asked: usize) -> bool {

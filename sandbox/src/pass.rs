@@ -1,13 +1,13 @@
 //! One pass: each question of an order once, in one fresh process, on a machine that has other things to do.
 //!
-//! Questions come in blocks of random size, each question alone (its *isolated latency*). Between blocks, at random, some
-//! of the questions come again: together in a batch of random size (the *warm* time), and now and then alone and exactly
-//! as before. Neither gives the official time of a question; they show whether the first answers were honest
-//! (`integrity.rs`). Sometimes nothing is asked for a while, and the runner must not compute then.
+//! No question that counts comes a second time in a process, so that a plugin gains nothing by remembering, and none is left
+//! out because something disturbed it, so that it gains nothing by being disturbed. What disturbs is met otherwise: time in
+//! which the runner certainly waited for its CPU is taken off, as the kernel counts it (`session.rs`); and the time of a
+//! question is the median over processes, in another order each.
 //!
-//! A block is disturbed when the runner had to wait for its CPU, when the CPU was not as fast as in the rest of the pass,
-//! or when the supervisor missed an answer. Its times are not mended: its questions are asked again later, as other
-//! instances, at most three times in all; what then stands is marked.
+//! Questions come in stretches, each question alone (its *isolated latency*). Between two stretches the runner sleeps, and
+//! what it computes meanwhile is seen. Behind the last one some questions come again, together: their *warm* time, which
+//! ranks nothing. It may show a plugin that remembers (`integrity.rs`).
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -15,35 +15,26 @@ use std::time::{Duration, Instant};
 use ocb_core::instance::{Instance, Presented};
 use ocb_core::numbers::Numbers;
 use ocb_core::query::{Answer, Query};
-use ocb_core::statistics::quantile;
 
+use crate::exchange::Poses;
 use crate::outcome::Outcome;
 use crate::protocol::MAX_BATCH;
 use crate::session::{Sample, Session};
-use crate::usage::{Steal, Usage};
+use crate::usage::Steal;
 
-/// Questions of a block, and of a batch: from, to.
-const BLOCK: [usize; 2] = [16, MAX_BATCH];
-/// A block of slow questions ends here, and so does the warm-up.
-const BLOCK_TIME: Duration = Duration::from_millis(5);
+/// A stretch has so many questions, and ends after so long.
+const STRETCH: usize = 256;
+const STRETCH_TIME: Duration = Duration::from_millis(20);
+/// A stretch is disturbed in which the runner waited for its CPU for more than this share of the time.
+const WAITED: f64 = 0.002;
+/// Questions of a batch: from, to.
+const BATCH: [usize; 2] = [16, MAX_BATCH];
+/// So many questions give one batch, up to so many batches.
+const BATCH_EVERY: usize = 300;
+const BATCHES: usize = 16;
 /// A batch takes no longer than this, by what its questions took alone; one of fewer than eight is left out.
 const BATCH_NS: f64 = 20e6;
 const SMALLEST_BATCH: usize = 8;
-/// After one block in so many comes a batch, and after one in so many some questions exactly as before.
-const BATCH_EVERY: usize = 8;
-const REPEAT_EVERY: usize = 8;
-const REPEATS: usize = 8;
-/// A repeat comes so many questions after the first time at least.
-const REPEAT_AFTER: usize = 64;
-/// So many times at most nothing is asked for so long.
-const PAUSES: usize = 4;
-const PAUSE: Duration = Duration::from_millis(4);
-/// A question is timed so often at most.
-const ATTEMPTS: u32 = 3;
-/// A runner that waited longer than this, and than a five-hundredth of its block, was disturbed.
-const WAITED_NS: f64 = 2000.0;
-/// So was one whose CPU's speed differs by more than this from its median.
-const SPEED: f64 = 0.01;
 
 /// What a pass asks.
 #[derive(Clone, Copy, Debug)]
@@ -52,11 +43,11 @@ pub struct PassPlan<'a> {
     pub query: Query,
     /// Numbers of the configurations.
     pub order: &'a [u32],
-    /// The order is part of the question: what is asked again comes in the order's own sequence.
+    /// The order is part of the question: what comes again does so in the order's own sequence.
     pub coherent: bool,
     /// Of everything that is random.
     pub seed: u64,
-    /// No new block begins after so long.
+    /// No new stretch begins after so long.
     pub allowance: Duration,
 }
 
@@ -69,7 +60,7 @@ pub struct Observation {
     pub instance: Instance,
     /// What the plugin answered.
     pub answer: Answer,
-    /// Its official time; absent for what only comes again, and for what will be asked again because it was disturbed.
+    /// Its official time; absent for what comes again.
     pub time: Option<Time>,
 }
 
@@ -80,7 +71,7 @@ pub struct Time {
     pub ns: f64,
     /// Only an upper bound: the clock's resolution.
     pub below_resolution: bool,
-    /// Disturbed at every attempt.
+    /// The supervisor was kept from looking, so that it is longer than the plugin took.
     pub disturbed: bool,
 }
 
@@ -100,27 +91,21 @@ pub struct Batched {
 pub struct PassFacts {
     /// The pass came so far in the order.
     pub reached: usize,
-    /// Questions with an undisturbed time.
-    pub timed: usize,
-    /// Blocks asked for the first time, and those of them that were disturbed.
+    /// Stretches asked, and those of them that were disturbed.
     pub blocks: [u32; 2],
-    /// Times that stand although disturbed.
+    /// Times that are longer than the plugin took, because the supervisor was kept from looking.
     pub disturbed: u32,
+    /// Time in which questions were open, and the part of it in which the runner waited for its CPU, nanoseconds.
+    pub asked_ns: [f64; 2],
     /// Undisturbed batches.
     pub batches: Vec<Batched>,
-    /// Questions asked exactly as before: the first time and the second, nanoseconds.
-    pub repeats: Vec<[f64; 2]>,
-    /// Time in which nothing was asked, and what the runner computed in it, nanoseconds.
-    pub pauses_ns: [f64; 2],
-    /// The rest of the pass, and what the runner computed or waited for its CPU in it, nanoseconds; absent where the
-    /// kernel does not count, and with several threads.
-    pub busy_ns: Option<[f64; 2]>,
+    /// Time in which the runner was to sleep, and what it computed in it, nanoseconds.
+    pub rests_ns: [f64; 2],
     /// Share of the time that the machine below took from the runner's CPU.
     pub steal: Option<f64>,
-    /// Calibration loop on the runner's CPU: 5th percentile, median, 95th percentile, nanoseconds.
+    /// The calibration loop on the runner's CPU, before the plugin was loaded, before its first question and after its last:
+    /// shortest, middle, longest, nanoseconds.
     pub calibration_ns: [f64; 3],
-    /// 10th percentile, median and 90th percentile of the official times, nanoseconds.
-    pub times_ns: [f64; 3],
 }
 
 impl Session {
@@ -132,25 +117,24 @@ impl Session {
         present: &dyn Fn(u32, Instance) -> Presented,
         each: &mut dyn FnMut(Observation) -> ControlFlow<()>,
     ) -> (PassFacts, Result<(), Outcome>) {
-        let cpu = self.policy.runner_cpu;
+        let steal = Steal::begin(self.policy.runner_cpu);
         let mut pass = Pass {
             speeds: vec![self.clock().calibration_ns],
             singles: Vec::new(),
             instances: 0,
             numbers: Numbers::new(plan.seed),
             facts: PassFacts::default(),
-            pauses: 0,
             session: self,
             plan,
             present,
             each,
         };
-        let (steal, begun, before) = (Steal::begin(cpu), Instant::now(), pass.session.usage());
-        let ended = match pass.run() {
-            Ok(_) => Ok(()),
-            Err(outcome) => Err(outcome),
-        };
-        let facts = pass.close(steal.share(), begun.elapsed(), before);
+        let ended = pass.run().map(drop);
+        let mut facts = pass.facts;
+        let mut speeds = pass.speeds;
+        speeds.sort_by(f64::total_cmp);
+        facts.calibration_ns = [speeds[0], speeds[speeds.len() / 2], speeds[speeds.len() - 1]];
+        facts.steal = steal.share();
         (facts, ended)
     }
 }
@@ -163,10 +147,9 @@ struct Pass<'a, 's> {
     numbers: Numbers,
     /// Calibrations so far.
     speeds: Vec<f64>,
-    /// Place in the order and official time of what was asked undisturbed, in the order of asking.
+    /// Place in the order and official time of what was asked.
     singles: Vec<(usize, f64)>,
     instances: u32,
-    pauses: usize,
     facts: PassFacts,
 }
 
@@ -175,140 +158,92 @@ type Flow = Result<ControlFlow<()>, Outcome>;
 impl Pass<'_, '_> {
     fn run(&mut self) -> Flow {
         let begun = Instant::now();
-        let len = self.plan.order.len();
-        if self.warm_up()?.is_break() {
-            return Ok(ControlFlow::Break(()));
-        }
-        let mut again: Vec<std::ops::Range<usize>> = Vec::new();
-        while self.facts.reached < len && begun.elapsed() < self.plan.allowance {
-            let from = self.facts.reached;
-            let to = len.min(from + self.size());
-            let (asked, disturbed, flow) = self.block(from..to, 0, false)?;
-            self.facts.reached = from + asked;
-            self.facts.blocks[0] += 1;
-            if disturbed {
-                self.facts.blocks[1] += 1;
-                again.push(from..from + asked);
-            }
-            if flow.is_break() || self.aside()?.is_break() {
+        self.session.rest()?;
+        self.speeds.push(self.session.speed_ns()?);
+        while self.facts.reached < self.plan.order.len() && begun.elapsed() < self.plan.allowance {
+            if self.stretch()?.is_break() {
                 return Ok(ControlFlow::Break(()));
             }
         }
-        for attempt in 1..ATTEMPTS {
-            for range in std::mem::take(&mut again) {
-                let mut from = range.start;
-                while from < range.end {
-                    let (asked, disturbed, flow) = self.block(from..range.end, attempt, attempt + 1 == ATTEMPTS)?;
-                    if disturbed && attempt + 1 < ATTEMPTS {
-                        again.push(from..from + asked);
-                    }
-                    from += asked;
-                    if flow.is_break() {
-                        return Ok(ControlFlow::Break(()));
-                    }
-                }
-            }
+        self.speeds.push(self.session.speed_ns()?);
+        self.resume();
+        if self.plan.query == Query::CollisionAll {
+            return Ok(ControlFlow::Continue(()));
         }
-        Ok(ControlFlow::Continue(()))
-    }
-
-    /// Some questions from the end of the order, untimed: the first ones meet cold caches, and so do all plugins' first
-    /// questions after another one's process.
-    fn warm_up(&mut self) -> Flow {
-        let begun = Instant::now();
-        let instance = self.next_instance(true);
-        for &configuration in self.plan.order.iter().rev().take(BLOCK[0]) {
-            let sample = self.session.put(self.plan.query, (self.present)(configuration, instance))?;
-            let seen = Observation { configuration, instance, answer: sample.answer, time: None };
-            if (self.each)(seen).is_break() {
-                return Ok(ControlFlow::Break(()));
-            }
-            if begun.elapsed() > BLOCK_TIME {
+        let asked = begun.elapsed();
+        for _ in 0..(self.facts.reached / BATCH_EVERY).clamp(1, BATCHES) {
+            // What ranks nothing may take a tenth as long again.
+            if self.batch()?.is_break() || (begun.elapsed() - asked) * 10 > asked {
                 break;
             }
         }
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Asks a stretch of the order, or the beginning of it when that takes long: how many, whether they were disturbed.
-    fn block(
-        &mut self,
-        places: std::ops::Range<usize>,
-        attempt: u32,
-        last: bool,
-    ) -> Result<(usize, bool, ControlFlow<()>), Outcome> {
-        let instance = if attempt == 0 { Instance::default() } else { self.next_instance(false) };
-        let (begun, before) = (Instant::now(), self.session.usage());
-        let mut samples: Vec<Sample> = Vec::with_capacity(places.len());
-        for place in places.clone() {
-            let question = (self.present)(self.plan.order[place], instance);
-            samples.push(self.session.put(self.plan.query, question)?);
-            if begun.elapsed() > BLOCK_TIME {
+    /// Asks the next stretch of the order, or the beginning of it when that takes long.
+    fn stretch(&mut self) -> Flow {
+        let first = self.facts.reached;
+        let places = first..self.plan.order.len().min(first + STRETCH);
+        let instance = Instance::default();
+        let words: Vec<Poses> =
+            places.clone().map(|place| Poses::from(&(self.present)(self.plan.order[place], instance))).collect();
+        self.resume();
+        let mut samples: Vec<Sample> = Vec::with_capacity(words.len());
+        let (begun, waited_before) = (Instant::now(), self.session.waited_ns());
+        let mut ended = Ok(());
+        for question in &words {
+            match self.session.put_words(self.plan.query, question) {
+                Ok(sample) => samples.push(sample),
+                Err(outcome) => ended = Err(outcome),
+            }
+            if ended.is_err() || begun.elapsed() > STRETCH_TIME {
                 break;
             }
         }
-        let disturbed = self.gate(begun, before)? || samples.iter().any(|sample| sample.disturbed);
-        let asked = samples.len();
+        if ended.is_ok() {
+            ended = self.session.rest().map(drop);
+        }
+        self.look(&samples, self.session.waited_ns() - waited_before);
         let mut flow = ControlFlow::Continue(());
         for (place, sample) in places.zip(samples) {
-            let time = Time { ns: sample.time_ns, below_resolution: sample.below_resolution, disturbed };
-            if !disturbed {
-                self.singles.push((place, sample.time_ns));
-            }
-            self.facts.disturbed += u32::from(disturbed && last);
-            let time = (!disturbed || last).then_some(time);
-            let configuration = self.plan.order[place];
-            flow = (self.each)(Observation { configuration, instance, answer: sample.answer, time });
+            self.facts.reached += 1;
+            self.singles.push((place, sample.time_ns));
+            let Sample { time_ns: ns, below_resolution, disturbed, answer, .. } = sample;
+            let time = Some(Time { ns, below_resolution, disturbed });
+            flow = (self.each)(Observation { configuration: self.plan.order[place], instance, answer, time });
             if flow.is_break() {
                 break;
             }
         }
-        Ok((asked, disturbed, flow))
+        ended.map(|()| flow)
     }
 
-    /// Was the runner disturbed since then?
-    fn gate(&mut self, begun: Instant, before: Option<Usage>) -> Result<bool, Outcome> {
-        let passed_ns = begun.elapsed().as_nanos() as f64;
-        let waited_ns = match (self.session.usage(), before) {
-            (Some(now), Some(before)) => now.since(before).delay_ns,
-            _ => 0.0,
-        };
-        let speed = self.session.calibrate()?;
-        let mut usual = self.speeds.iter().rev().take(64).copied().collect::<Vec<_>>();
-        usual.sort_by(f64::total_cmp);
-        let usual = quantile(&usual, 0.5);
-        self.speeds.push(speed);
-        Ok(waited_ns > WAITED_NS.max(passed_ns / 500.0) || (speed / usual - 1.0).abs() > SPEED)
+    /// How far was the stretch disturbed?
+    fn look(&mut self, samples: &[Sample], waited_ns: f64) {
+        let asked_ns: f64 = samples.iter().map(|sample| sample.raw_ns).sum();
+        let missed = samples.iter().filter(|sample| sample.disturbed).count() as u32;
+        self.facts.disturbed += missed;
+        self.facts.blocks[0] += 1;
+        self.facts.blocks[1] += u32::from(missed > 0 || waited_ns > WAITED * asked_ns);
+        self.facts.asked_ns[0] += asked_ns;
+        self.facts.asked_ns[1] += waited_ns;
     }
 
-    /// At random: a batch, some questions exactly as before, a pause.
-    fn aside(&mut self) -> Flow {
-        if self.below(BATCH_EVERY) == 0 && self.plan.query != Query::CollisionAll && self.batch()?.is_break() {
-            return Ok(ControlFlow::Break(()));
+    /// Ends a rest and notes what the runner computed in it. Threads of a library may go on looking for work for a while.
+    fn resume(&mut self) {
+        if let Some((rested, computed_ns)) = self.session.resume().filter(|_| self.session.policy.threads == 1) {
+            self.facts.rests_ns[0] += rested.as_nanos() as f64;
+            self.facts.rests_ns[1] += computed_ns;
         }
-        if self.below(REPEAT_EVERY) == 0 && self.repeat()?.is_break() {
-            return Ok(ControlFlow::Break(()));
-        }
-        // Threads of a library may go on looking for work for a while, which is nobody's answer.
-        let alone = self.session.policy.threads == 1;
-        if alone && self.pauses < PAUSES && self.below(REPEAT_EVERY) == 0 {
-            self.pauses += 1;
-            let begun = Instant::now();
-            if let Some(usage) = self.session.idle(PAUSE) {
-                self.facts.pauses_ns[0] += begun.elapsed().as_nanos() as f64;
-                self.facts.pauses_ns[1] += usage.run_ns;
-            }
-        }
-        Ok(ControlFlow::Continue(()))
     }
 
     /// Some of the questions asked so far, together, as another instance.
     fn batch(&mut self) -> Flow {
-        let size = self.size().min(self.singles.len());
-        let first = self.below(self.singles.len().saturating_sub(size) + 1);
+        let size = (BATCH[0] + self.numbers.below(BATCH[1] - BATCH[0] + 1)).min(self.singles.len());
+        let first = self.numbers.below(self.singles.len().saturating_sub(size) + 1);
         let mut members: Vec<(usize, f64)> = match self.plan.coherent {
             true => self.singles[first..first + size].to_vec(),
-            false => (0..size).map(|_| self.any(self.singles.len())).collect(),
+            false => (0..size).map(|_| self.singles[self.numbers.below(self.singles.len())]).collect(),
         };
         let mut sum = 0.0;
         members.retain(|(_, ns)| {
@@ -316,14 +251,16 @@ impl Pass<'_, '_> {
             sum <= BATCH_NS
         });
         if members.len() < SMALLEST_BATCH {
-            return Ok(ControlFlow::Continue(()));
+            return Ok(ControlFlow::Break(()));
         }
-        let instance = self.next_instance(true);
+        self.instances += 1;
+        let instance = Instance { number: self.instances, aside: true };
         let configurations: Vec<u32> = members.iter().map(|(place, _)| self.plan.order[*place]).collect();
         let asked: Vec<_> = configurations.iter().map(|&c| (self.present)(c, instance)).collect();
-        let (begun, before) = (Instant::now(), self.session.usage());
+        let before = self.session.usage();
         let batch = self.session.batch(self.plan.query, &asked)?;
-        if !self.gate(begun, before)? && !batch.disturbed {
+        let waited_ns = self.session.usage().zip(before).map_or(0.0, |(now, before)| now.since(before).delay_ns);
+        if waited_ns <= WAITED * batch.time_ns && !batch.disturbed {
             self.facts.batches.push(Batched {
                 questions: members.len() as u32,
                 alone_ns: members.iter().map(|(_, ns)| ns).sum(),
@@ -337,64 +274,5 @@ impl Pass<'_, '_> {
             }
         }
         Ok(ControlFlow::Continue(()))
-    }
-
-    /// Some of the questions asked long enough ago, exactly as they were.
-    fn repeat(&mut self) -> Flow {
-        let old = self.singles.len().saturating_sub(REPEAT_AFTER);
-        for _ in 0..REPEATS.min(old) {
-            let (place, first_ns) = self.any(old);
-            if first_ns > BATCH_NS {
-                continue;
-            }
-            let configuration = self.plan.order[place];
-            let (begun, before) = (Instant::now(), self.session.usage());
-            let sample = self.session.put(self.plan.query, (self.present)(configuration, Instance::default()))?;
-            if !self.gate(begun, before)? && !sample.disturbed {
-                self.facts.repeats.push([first_ns, sample.time_ns]);
-            }
-            let instance = Instance::default();
-            let flow = (self.each)(Observation { configuration, instance, answer: sample.answer, time: None });
-            if flow.is_break() {
-                return Ok(flow);
-            }
-        }
-        Ok(ControlFlow::Continue(()))
-    }
-
-    fn size(&mut self) -> usize {
-        BLOCK[0] + self.below(BLOCK[1] - BLOCK[0] + 1)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        self.numbers.below(n)
-    }
-
-    /// One of the first so many questions that were asked undisturbed.
-    fn any(&mut self, among: usize) -> (usize, f64) {
-        let i = self.below(among);
-        self.singles[i]
-    }
-
-    fn next_instance(&mut self, aside: bool) -> Instance {
-        self.instances += 1;
-        Instance { number: self.instances, aside }
-    }
-
-    fn close(mut self, steal: Option<f64>, passed: Duration, before: Option<Usage>) -> PassFacts {
-        let three = |mut values: Vec<f64>, at: [f64; 3]| {
-            values.sort_by(f64::total_cmp);
-            if values.is_empty() { [0.0; 3] } else { at.map(|q| quantile(&values, q)) }
-        };
-        self.facts.steal = steal;
-        self.facts.timed = self.singles.len();
-        self.facts.calibration_ns = three(self.speeds, [0.05, 0.5, 0.95]);
-        self.facts.times_ns = three(self.singles.iter().map(|(_, ns)| *ns).collect(), [0.1, 0.5, 0.9]);
-        let used = self.session.usage().zip(before).map(|(now, before)| now.since(before));
-        let used = used.filter(|_| self.session.policy.threads == 1);
-        let [paused, computed] = self.facts.pauses_ns;
-        let busy_ns = passed.as_nanos() as f64 - paused;
-        self.facts.busy_ns = used.map(|used| [busy_ns, used.run_ns + used.delay_ns - computed]);
-        self.facts
     }
 }

@@ -13,18 +13,19 @@ use ocb_core::query::{Answer, Counters, Query};
 use crate::descriptor::Descriptor;
 use crate::gate::Inspection;
 
-/// Byte offsets in the request file. Words that different sides poll lie on cache lines of their own.
+/// Byte offsets in the request file. Words that different sides poll lie on cache lines of their own; the number, which is
+/// written last, shares its line with what the runner reads first.
 pub mod request {
     /// u32: number of the newest command.
     pub const NUMBER: usize = 0;
+    /// u64: the command, a [`super::Command`].
+    pub const COMMAND: usize = 8;
+    /// u64: how many questions it asks, 1 to [`super::MAX_BATCH`].
+    pub const QUESTIONS: usize = 16;
+    /// u64: bit i is set when question i puts object B first, and then its poses as well.
+    pub const SWAPPED: usize = 24;
     /// u32: the supervisor sleeps on the answer's number.
     pub const SUPERVISOR_SLEEPS: usize = 128;
-    /// u64: the command, a [`super::Command`].
-    pub const COMMAND: usize = 256;
-    /// u64: how many questions it asks, 1 to [`super::MAX_BATCH`].
-    pub const QUESTIONS: usize = 264;
-    /// u64: bit i is set when question i puts object B first, and then its poses as well.
-    pub const SWAPPED: usize = 272;
     /// 16 + 16 u64 per question: bits of the row-major poses of A and B.
     pub const POSES: usize = 512;
     /// From one question's poses to the next one's.
@@ -66,14 +67,16 @@ pub mod answer {
 pub enum Command {
     /// The null plugin's answer, which is none: measures the round trip.
     Null = 0,
-    /// A fixed chain of dependent multiplications: measures the speed of the runner's CPU.
-    Calibrate = 7,
+    /// Sleep until the next command, without watching for it.
+    Rest = 7,
     /// Give up the listener's descriptor, which the supervisor has by now.
     CloseListener = 1,
     /// Load the plugin file, unless the gate refuses it, and describe it in the text.
     Open = 2,
     /// Read the plugin file as ELF, without loading it, and say in the text what the gate finds.
     Inspect = 6,
+    /// Put the tighter system call filter in force.
+    Tighten = 11,
     /// Choose the trial's algorithm, make an instance, set the parameters.
     Prepare = 3,
     /// Build object A.
@@ -96,12 +99,13 @@ pub enum Command {
 
 impl Command {
     /// All of them.
-    pub const ALL: [Command; 14] = [
+    pub const ALL: [Command; 15] = [
         Command::Null,
-        Command::Calibrate,
+        Command::Rest,
         Command::CloseListener,
         Command::Inspect,
         Command::Open,
+        Command::Tighten,
         Command::Prepare,
         Command::BuildA,
         Command::BuildB,
@@ -133,9 +137,6 @@ impl Command {
 
 /// Most questions that one command asks.
 pub const MAX_BATCH: usize = 64;
-
-/// Multiplications in [`Command::Calibrate`], each waiting for the one before: some 10 us on today's processors.
-pub const CALIBRATION_STEPS: u32 = 10_000;
 
 /// Number of 64-bit words in an answer's slot.
 pub const SLOT_WORDS: usize = 24;

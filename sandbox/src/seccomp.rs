@@ -46,6 +46,8 @@ pub enum FilterError {
 struct List {
     allow: Vec<Allowed>,
     quiet: Vec<Quiet>,
+    /// What fails once the plugin has been loaded.
+    after_loading: Vec<Refused>,
 }
 
 #[derive(Deserialize)]
@@ -76,6 +78,16 @@ struct Quiet {
     _because: String,
 }
 
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Refused {
+    call: String,
+    #[serde(default)]
+    when: Vec<BTreeMap<String, Value>>,
+    #[serde(rename = "because")]
+    _because: String,
+}
+
 /// Compiles the list for a process that calls itself `own_pid`, in the single- or in the multi-threaded track.
 pub fn compile(own_pid: i32, threads: bool) -> Result<BpfProgram, FilterError> {
     let list: List = serde_json::from_str(LIST)?;
@@ -83,13 +95,7 @@ pub fn compile(own_pid: i32, threads: bool) -> Result<BpfProgram, FilterError> {
     for allowed in list.allow.iter().filter(|allowed| allowed.track.is_none() || threads) {
         // A call may have a second line for one of the tracks.
         let alternatives = rules.entry(i64::from(number(&allowed.call)?)).or_default();
-        for when in &allowed.when {
-            let conditions = when
-                .iter()
-                .map(|(text, value)| condition(text, value, own_pid, &allowed.call))
-                .collect::<Result<Vec<_>, _>>()?;
-            alternatives.push(SeccompRule::new(conditions).map_err(|e| FilterError::Compile(e.to_string()))?);
-        }
+        alternatives.extend(alternatives_of(&allowed.call, &allowed.when, own_pid)?);
     }
     let filter =
         SeccompFilter::new(rules, SeccompAction::Trace(PLACEHOLDER.into()), SeccompAction::Allow, TargetArch::x86_64);
@@ -98,6 +104,32 @@ pub fn compile(own_pid: i32, threads: bool) -> Result<BpfProgram, FilterError> {
     notify_instead_of_trace(&mut program)?;
     insert_quiet(&mut program, &list.quiet)?;
     Ok(program)
+}
+
+/// One rule for each entry.
+fn alternatives_of(
+    call: &str,
+    when: &[BTreeMap<String, Value>],
+    own_pid: i32,
+) -> Result<Vec<SeccompRule>, FilterError> {
+    let rule = |when: &BTreeMap<String, Value>| {
+        let conditions = when.iter().map(|(text, value)| condition(text, value, own_pid, call));
+        SeccompRule::new(conditions.collect::<Result<Vec<_>, _>>()?).map_err(|e| FilterError::Compile(e.to_string()))
+    };
+    when.iter().map(rule).collect()
+}
+
+/// Compiles the second filter, which stands beside the first: the calls of its list fail with EPERM.
+pub fn compile_tighter() -> Result<BpfProgram, FilterError> {
+    let list: List = serde_json::from_str(LIST)?;
+    let mut rules: BTreeMap<i64, Vec<SeccompRule>> = BTreeMap::new();
+    for refused in &list.after_loading {
+        let alternatives = rules.entry(i64::from(number(&refused.call)?)).or_default();
+        alternatives.extend(alternatives_of(&refused.call, &refused.when, 0)?);
+    }
+    let filter =
+        SeccompFilter::new(rules, SeccompAction::Allow, SeccompAction::Errno(libc::EPERM as u32), TargetArch::x86_64);
+    filter.and_then(BpfProgram::try_from).map_err(|e| FilterError::Compile(e.to_string()))
 }
 
 fn notify_instead_of_trace(program: &mut BpfProgram) -> Result<(), FilterError> {
@@ -170,18 +202,21 @@ pub fn name_of(nr: i64) -> String {
 
 /// Puts the filter in force for this process, for good. Returns the listener's descriptor.
 pub fn install(program: &BpfProgram) -> io::Result<i32> {
+    set(program, libc::SECCOMP_FILTER_FLAG_NEW_LISTENER)
+}
+
+/// Puts the second filter in force: nothing is opened, and no file and no code mapped, any more. Installing it is allowed by
+/// the first one, and by itself not any more.
+pub fn tighten(program: &BpfProgram) -> io::Result<()> {
+    set(program, 0).map(drop)
+}
+
+fn set(program: &BpfProgram, flags: libc::c_ulong) -> io::Result<i32> {
     let prog =
         libc::sock_fprog { len: program.len() as u16, filter: program.as_ptr().cast_mut().cast::<libc::sock_filter>() };
     // SAFETY: the program outlives the call, which copies it; seccompiler's instruction has the kernel's layout.
-    let listener = unsafe {
-        libc::syscall(
-            libc::SYS_seccomp,
-            libc::SECCOMP_SET_MODE_FILTER,
-            libc::SECCOMP_FILTER_FLAG_NEW_LISTENER,
-            &raw const prog,
-        )
-    };
-    if listener < 0 { Err(io::Error::last_os_error()) } else { Ok(listener as i32) }
+    let done = unsafe { libc::syscall(libc::SYS_seccomp, libc::SECCOMP_SET_MODE_FILTER, flags, &raw const prog) };
+    if done < 0 { Err(io::Error::last_os_error()) } else { Ok(done as i32) }
 }
 
 #[cfg(test)]
@@ -197,6 +232,14 @@ mod tests {
     }
 
     #[test]
+    fn the_tighter_list_compiles_and_only_refuses() {
+        let program = compile_tighter().unwrap();
+        let returns: Vec<u32> = program.iter().filter(|i| i.code == RETURN).map(|i| i.k).collect();
+        let refused = libc::SECCOMP_RET_ERRNO | libc::EPERM as u32;
+        assert!(returns.contains(&refused) && returns.contains(&libc::SECCOMP_RET_ALLOW), "{returns:?}");
+    }
+
+    #[test]
     fn a_foreign_architecture_is_killed() {
         let program = compile(2, false).unwrap();
         assert!(program.iter().take(4).any(|i| i.code == RETURN && i.k == libc::SECCOMP_RET_KILL_PROCESS));
@@ -205,7 +248,8 @@ mod tests {
     #[test]
     fn every_line_has_a_reason() {
         let list: List = serde_json::from_str(LIST).unwrap();
-        assert!(list.allow.iter().all(|a| a._because.len() > 4) && list.quiet.iter().all(|q| q._because.len() > 4));
+        let reasons = list.allow.iter().map(|a| &a._because).chain(list.quiet.iter().map(|q| &q._because));
+        assert!(reasons.chain(list.after_loading.iter().map(|r| &r._because)).all(|reason| reason.len() > 4));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! One jailed runner, as its supervisor uses it: ask, time, end. A whole pass of questions: `pass.rs`.
 
 use std::marker::PhantomData;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use ocb_core::configuration::Configuration;
 use ocb_core::instance::Presented;
@@ -9,27 +9,55 @@ use ocb_core::query::{Answer, Counters, Query};
 
 use crate::clock::ClockFacts;
 use crate::confine::pin;
-use crate::exchange::{Exchange, Timed};
+use crate::exchange::{Exchange, Poses, Timed};
 use crate::launch::Killer;
 use crate::outcome::{Ending, Outcome, Phase};
 use crate::policy::Policy;
 use crate::protocol::{Command, parse_answer, parse_counters};
-use crate::usage::{Meter, Usage};
+use crate::speed;
+use crate::usage::Usage;
 
-/// A runner that is not asked for so long has fallen asleep.
-const ASLEEP: Duration = Duration::from_micros(2500);
+/// After questions that took so long together, the kernel is asked how long the runner waited for its CPU.
+const LOOK_NS: f64 = 20_000.0;
+/// Waits shorter than this stay in a time; so does this much of a longer one, which the null round trips had, too.
+const WAIT_NS: f64 = 10_000.0;
+const USUAL_WAIT_NS: f64 = 5_000.0;
 
 /// One running jail with a loaded plugin and built objects. Dropping it kills the jail.
 pub struct Session {
     pub(crate) policy: Policy,
     exchange: Exchange,
-    build_ns: f64,
+    set_up: SetUp,
     clock: ClockFacts,
-    meter: Meter,
+    waits: Waits,
+    /// Since when the runner is to sleep, and what it had computed by then.
+    resting: Option<(Instant, Usage)>,
     ended: Option<Outcome>,
     pinned: Pinned,
     /// The jail dies with the thread that started it, so the session stays there.
     _thread: PhantomData<*const ()>,
+}
+
+/// What was done before the first question, by the supervisor's clock.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SetUp {
+    /// Loading the file, which runs its constructors, its description, its instance and its parameters, nanoseconds. The
+    /// meshes cannot be seen yet.
+    pub load_ns: f64,
+    /// Building both structures, from the moment on at which the meshes can be seen, nanoseconds.
+    pub build_ns: f64,
+}
+
+/// How long the runner waited for its CPU while it was asked. Only what certainly fell into one question is told of it: the
+/// rest may have been in any of those before it.
+#[derive(Debug, Default)]
+struct Waits {
+    /// By the last look, since the runner began.
+    seen_ns: f64,
+    /// What the questions since the last look took.
+    unlooked_ns: f64,
+    /// Told so far.
+    told_ns: f64,
 }
 
 /// One timed answer.
@@ -37,7 +65,8 @@ pub struct Session {
 pub struct Sample {
     /// From the question's release to the seen answer, by the supervisor's clock.
     pub raw_ns: f64,
-    /// `raw_ns` minus the session's median null round trip; the clock's resolution when below it, never 0.
+    /// `raw_ns` without the time in which the runner waited for its CPU, minus the session's median null round trip; the
+    /// clock's resolution when below it, never 0.
     pub time_ns: f64,
     /// `time_ns` is only an upper bound.
     pub below_resolution: bool,
@@ -62,14 +91,15 @@ pub struct Batch {
 type Counted = (Answer, Option<Counters>);
 
 impl Session {
-    pub(crate) fn new(policy: Policy, exchange: Exchange, build_ns: f64, clock: ClockFacts, pinned: Pinned) -> Self {
-        let meter = Meter::of(exchange.jail.pid, policy.threads > 1);
-        Self { policy, exchange, build_ns, clock, meter, ended: None, pinned, _thread: PhantomData }
+    pub(crate) fn new(policy: Policy, exchange: Exchange, set_up: SetUp, clock: ClockFacts, pinned: Pinned) -> Self {
+        let waits = Waits::default();
+        let resting = exchange.meter().read().map(|usage| (Instant::now(), usage));
+        Self { policy, exchange, set_up, clock, waits, resting, ended: None, pinned, _thread: PhantomData }
     }
 
-    /// Time to build the objects, nanoseconds, by the supervisor's clock.
-    pub fn build_ns(&self) -> f64 {
-        self.build_ns
+    /// What was done before the first question.
+    pub fn set_up(&self) -> SetUp {
+        self.set_up
     }
 
     /// How the clock behaved.
@@ -94,8 +124,14 @@ impl Session {
 
     /// As [`Session::query`], with the objects in either order.
     pub fn put(&mut self, query: Query, question: Presented) -> Result<Sample, Outcome> {
-        let (timed, mut answers) = self.ask(query, &[question], false)?;
-        let (time_ns, below_resolution) = self.clock.subtract(timed.raw_ns, 1);
+        self.put_words(query, &Poses::from(&question))
+    }
+
+    /// As [`Session::put`]; what can be done before the clock runs has been done.
+    pub(crate) fn put_words(&mut self, query: Query, question: &Poses) -> Result<Sample, Outcome> {
+        let (timed, mut answers) = self.ask(query, std::slice::from_ref(question), false)?;
+        let waited_ns = self.waited(timed.raw_ns);
+        let (time_ns, below_resolution) = self.clock.subtract(timed.raw_ns - waited_ns, 1);
         let disturbed = self.exchange.disturbed(&timed);
         let answer = answers.remove(0).0;
         Ok(Sample { raw_ns: timed.raw_ns, time_ns, below_resolution, disturbed, answer })
@@ -104,7 +140,8 @@ impl Session {
     /// Releases up to [`MAX_BATCH`](crate::MAX_BATCH) questions together and times them as one. Lists of all contacts
     /// share one buffer, so they cannot be asked for in batches.
     pub fn batch(&mut self, query: Query, questions: &[Presented]) -> Result<Batch, Outcome> {
-        let (timed, answers) = self.ask(query, questions, false)?;
+        let words: Vec<Poses> = questions.iter().map(Poses::from).collect();
+        let (timed, answers) = self.ask(query, &words, false)?;
         let (time_ns, _) = self.clock.subtract(timed.raw_ns, questions.len());
         let answers = answers.into_iter().map(|(answer, _)| answer).collect();
         Ok(Batch { time_ns, disturbed: self.exchange.disturbed(&timed), answers })
@@ -117,45 +154,71 @@ impl Session {
         configuration: &Configuration,
     ) -> Result<(Answer, Option<Counters>), Outcome> {
         let question = Presented { configuration: *configuration, swapped: false };
-        self.ask(query, &[question], true).map(|(_, mut answers)| answers.remove(0))
+        self.ask(query, &[Poses::from(&question)], true).map(|(_, mut answers)| answers.remove(0))
     }
 
-    /// How long the calibration loop takes on the runner's CPU now: the shortest of three.
-    pub(crate) fn calibrate(&mut self) -> Result<f64, Outcome> {
-        let mut shortest = f64::INFINITY;
-        for _ in 0..3 {
-            let trip = self.guarded(|session| {
-                session.exchange.ask_for(1);
-                session.exchange.obeyed(Command::Calibrate, Phase::Query, session.policy.query_seconds)
-            })?;
-            shortest = shortest.min(trip.raw_ns);
+    /// From now on the runner is to sleep, until the next question.
+    pub(crate) fn rest(&mut self) -> Result<(), Outcome> {
+        if self.resting.is_none() {
+            self.guarded(|session| session.exchange.rest(session.policy.query_seconds))?;
+            self.resting = self.usage().map(|usage| (Instant::now(), usage));
         }
-        Ok(shortest)
+        Ok(())
     }
 
-    /// Asks nothing for so long, until the runner sleeps and then on; what it computes meanwhile is nobody's question.
-    /// Nothing where the kernel does not count.
-    pub(crate) fn idle(&mut self, time: Duration) -> Option<Usage> {
-        std::thread::sleep(ASLEEP);
-        let before = self.usage()?;
-        std::thread::sleep(time);
-        Some(self.usage()?.since(before))
+    /// Ends a rest: how long it was, and how much the runner has computed in it all the same, nanoseconds. Nothing where the
+    /// kernel does not count.
+    pub(crate) fn resume(&mut self) -> Option<(Duration, f64)> {
+        let (since, before) = self.resting.take()?;
+        Some((since.elapsed(), self.usage()?.since(before).run_ns))
     }
 
-    /// What the runner has computed so far.
+    /// How fast the runner's CPU is, which is only to be asked while the runner rests.
+    pub(crate) fn speed_ns(&self) -> Result<f64, Outcome> {
+        speed::measure(self.policy.runner_cpu)
+    }
+
+    /// What the runner has computed so far, where the kernel counts.
     pub(crate) fn usage(&self) -> Option<Usage> {
-        self.meter.read()
+        self.exchange.meter().read()
     }
 
-    fn ask(&mut self, query: Query, questions: &[Presented], counted: bool) -> Result<(Timed, Vec<Counted>), Outcome> {
+    /// How long the runner has waited for its CPU in questions, nanoseconds.
+    pub(crate) fn waited_ns(&self) -> f64 {
+        self.waits.told_ns
+    }
+
+    /// How much of a question's time the runner certainly waited for its CPU. With several threads one of them may wait while
+    /// others compute, so that nothing is said.
+    fn waited(&mut self, raw_ns: f64) -> f64 {
+        let unlooked_ns = self.waits.unlooked_ns;
+        self.waits.unlooked_ns += raw_ns;
+        if self.waits.unlooked_ns < LOOK_NS || self.policy.threads > 1 {
+            return 0.0;
+        }
+        let Some(usage) = self.usage() else { return 0.0 };
+        // The questions before may have waited for all of their time.
+        let waited_ns = (usage.delay_ns - self.waits.seen_ns - unlooked_ns).min(raw_ns);
+        (self.waits.seen_ns, self.waits.unlooked_ns) = (usage.delay_ns, 0.0);
+        if waited_ns < WAIT_NS {
+            return 0.0;
+        }
+        self.waits.told_ns += waited_ns - USUAL_WAIT_NS;
+        waited_ns - USUAL_WAIT_NS
+    }
+
+    fn ask(&mut self, query: Query, questions: &[Poses], counted: bool) -> Result<(Timed, Vec<Counted>), Outcome> {
         self.guarded(|session| {
-            let (exchange, limit) = (&mut session.exchange, session.policy.query_seconds);
-            exchange.wake(limit)?;
-            exchange.place(questions);
-            let timed = exchange.obeyed(Command::ask(query, counted), Phase::Query, limit)?;
-            let contacts = if query == Query::CollisionAll { exchange.contacts() } else { Vec::new() };
+            let limit = session.policy.query_seconds;
+            session.resting = None;
+            if session.exchange.wake(limit)? {
+                let delay_ns = session.usage().map_or(0.0, |usage| usage.delay_ns);
+                (session.waits.seen_ns, session.waits.unlooked_ns) = (delay_ns, 0.0);
+            }
+            let exchange = &mut session.exchange;
+            let timed = exchange.asked(Command::ask(query, counted), questions, limit)?;
             let read = |slot| {
-                let answer = parse_answer(query, slot, &contacts)
+                let answer = parse_answer(query, slot, exchange.contacts())
                     .map_err(|rule| Outcome::ProtocolViolation { phase: Phase::Query, rule })?;
                 Ok((answer, parse_counters(slot).filter(|_| counted)))
             };

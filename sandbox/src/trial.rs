@@ -1,4 +1,4 @@
-//! The trial file: what the runner is started for, sealed before it starts.
+//! The trial file: what the runner is started for, sealed against every writer but the supervisor before it starts.
 
 use ocb_core::mesh::Mesh;
 use ocb_core::query::Semantics;
@@ -30,43 +30,62 @@ pub struct MeshPlace {
     pub triangles_at: usize,
 }
 
-/// The trial file: length of the head, head, meshes, each part at a multiple of 64 bytes.
-pub fn write_trial(algorithm: &str, parameters: &[(String, f64)], semantics: Semantics, meshes: &[&Mesh]) -> Vec<u8> {
-    const HEAD_ROOM: usize = 1 << 10;
-    let align = |n: usize| n.next_multiple_of(64);
-    let named = algorithm.len() + parameters.iter().map(|(name, _)| name.len() + 64).sum::<usize>();
-    // JSON writes one byte in six at worst.
-    let mut at = align(8 + HEAD_ROOM + 6 * named);
-    let places: Vec<MeshPlace> = meshes
-        .iter()
-        .map(|mesh| {
+/// What the trial file holds: its head from the start, and each mesh from the moment on at which it is to be built, so that
+/// nothing can be prepared for it before.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    /// Length of the head, head.
+    pub head: Vec<u8>,
+    /// The meshes.
+    pub meshes: Vec<Part>,
+    /// Bytes of the whole file.
+    pub len: usize,
+}
+
+/// A stretch of the trial file that is not there from the start.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// Byte offset, a multiple of 64.
+    pub at: usize,
+    /// What comes there.
+    pub bytes: Vec<u8>,
+}
+
+impl Sheet {
+    /// The trial of these meshes, each part at a multiple of 64 bytes.
+    pub fn new(algorithm: &str, parameters: &[(String, f64)], semantics: Semantics, meshes: &[&Mesh]) -> Self {
+        const HEAD_ROOM: usize = 1 << 10;
+        let align = |n: usize| n.next_multiple_of(64);
+        let named = algorithm.len() + parameters.iter().map(|(name, _)| name.len() + 64).sum::<usize>();
+        // JSON writes one byte in six at worst.
+        let mut at = align(8 + HEAD_ROOM + 6 * named);
+        let (mut places, mut parts) = (Vec::new(), Vec::new());
+        for mesh in meshes {
             let positions_at = at;
             let triangles_at = align(positions_at + 24 * mesh.positions().len());
             at = align(triangles_at + 12 * mesh.triangles().len());
-            MeshPlace {
+            places.push(MeshPlace {
                 vertices: mesh.positions().len() as u32,
                 triangles: mesh.triangles().len() as u32,
                 positions_at,
                 triangles_at,
+            });
+            let mut bytes = vec![0; at - positions_at];
+            let coordinates = mesh.positions().iter().flat_map(|p| [p.x, p.y, p.z]);
+            for (to, x) in bytes.chunks_exact_mut(8).zip(coordinates) {
+                to.copy_from_slice(&x.to_le_bytes());
             }
-        })
-        .collect();
-    let head = TrialHead { algorithm: algorithm.into(), parameters: parameters.to_vec(), semantics, meshes: places };
-    let json = serde_json::to_vec(&head).expect("plain data is always JSON");
-    let mut bytes = vec![0; at];
-    bytes[..8].copy_from_slice(&(json.len() as u64).to_le_bytes());
-    bytes[8..8 + json.len()].copy_from_slice(&json);
-    for (mesh, place) in meshes.iter().zip(&head.meshes) {
-        let coordinates = mesh.positions().iter().flat_map(|p| [p.x, p.y, p.z]);
-        for (to, x) in bytes[place.positions_at..].chunks_exact_mut(8).zip(coordinates) {
-            to.copy_from_slice(&x.to_le_bytes());
+            let corners = mesh.triangles().iter().flatten();
+            for (to, corner) in bytes[triangles_at - positions_at..].chunks_exact_mut(4).zip(corners) {
+                to.copy_from_slice(&corner.to_le_bytes());
+            }
+            parts.push(Part { at: positions_at, bytes });
         }
-        let corners = mesh.triangles().iter().flatten();
-        for (to, corner) in bytes[place.triangles_at..].chunks_exact_mut(4).zip(corners) {
-            to.copy_from_slice(&corner.to_le_bytes());
-        }
+        let head = TrialHead { algorithm: algorithm.into(), parameters: parameters.to_vec(), semantics, meshes: places };
+        let json = serde_json::to_vec(&head).expect("plain data is always JSON");
+        let head = [&(json.len() as u64).to_le_bytes()[..], &json].concat();
+        Sheet { head, meshes: parts, len: at }
     }
-    bytes
 }
 
 #[cfg(test)]
@@ -80,7 +99,12 @@ mod tests {
         let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]].map(Point3::from).to_vec();
         let mesh = Mesh::new(corners, vec![[0, 1, 2]]).unwrap();
         let parameters = [("\u{1}\"é".repeat(30), 0.5)];
-        let bytes = write_trial("box-tree", &parameters, Semantics::Surface, &[&mesh, &mesh]);
+        let sheet = Sheet::new("box-tree", &parameters, Semantics::Surface, &[&mesh, &mesh]);
+        let mut bytes = vec![0; sheet.len];
+        bytes[..sheet.head.len()].copy_from_slice(&sheet.head);
+        for part in &sheet.meshes {
+            bytes[part.at..][..part.bytes.len()].copy_from_slice(&part.bytes);
+        }
         let len = u64::from_le_bytes(bytes[..8].try_into().unwrap()) as usize;
         let head: TrialHead = serde_json::from_slice(&bytes[8..8 + len]).unwrap();
         assert_eq!(

@@ -9,6 +9,7 @@ use crate::clock::Clock;
 pub(crate) struct Meter {
     pid: i32,
     first: Option<File>,
+    state: Option<File>,
     threads: bool,
 }
 
@@ -31,7 +32,17 @@ impl Usage {
 
 impl Meter {
     pub fn of(pid: i32, threads: bool) -> Self {
-        Meter { pid, first: File::open(format!("/proc/{pid}/schedstat")).ok(), threads }
+        let [first, state] = ["schedstat", "stat"].map(|name| File::open(format!("/proc/{pid}/{name}")).ok());
+        Meter { pid, first, state, threads }
+    }
+
+    /// Does it sleep in the kernel? Nothing where the kernel does not say.
+    pub fn is_asleep(&self) -> Option<bool> {
+        let mut text = [0; 128];
+        let len = self.state.as_ref()?.read_at(&mut text, 0).ok()?;
+        // Its name is in brackets, and it chose that itself.
+        let behind = text[..len].iter().rposition(|c| *c == b')')?;
+        Some(text.get(behind + 2) == Some(&b'S'))
     }
 
     /// Nothing where the kernel does not count.

@@ -22,7 +22,7 @@ fn describes_itself() {
 #[test]
 fn answers_every_kind_of_question() {
     let mut session = start(&launcher(), &fixture(&[])).unwrap();
-    assert!(session.build_ns() > 0.0);
+    assert!(session.set_up().build_ns > 0.0);
     let hit = session.query(Query::CollisionFirst, &apart(0.5)).unwrap();
     assert_eq!(hit.answer, Answer::Collision { hit: true, pair: Some([0, 1]) });
     assert!(hit.time_ns > 0.0 && hit.raw_ns >= 0.0);

@@ -6,7 +6,8 @@
 
 use ocb_core::query::Semantics;
 use ocb_sandbox::gate::{self, Inspection};
-use ocb_sandbox::protocol::{CALIBRATION_STEPS, Command, answer, slot};
+use ocb_sandbox::protocol::{Command, answer, slot};
+use ocb_sandbox::seccomp;
 use opencollbench_plugin::raw::contacts::{Contact, ContactsRequest, ContactsResult};
 use opencollbench_plugin::raw::counters::Counts;
 use opencollbench_plugin::raw::distance::{DistanceRequest, DistanceResult};
@@ -19,6 +20,8 @@ use crate::serve::{Shared, Slot};
 pub struct Measured {
     path: String,
     libraries: Vec<String>,
+    /// The second filter, compiled before anything foreign is in this process.
+    tighter: seccompiler::BpfProgram,
     plugin: Option<Plugin>,
     algorithm: Option<Algorithm>,
     instance: *mut Instance,
@@ -32,12 +35,13 @@ pub struct Measured {
 
 impl Measured {
     /// Nothing is loaded yet.
-    pub fn new(path: String, libraries: Vec<String>) -> Self {
+    pub fn new(path: String, libraries: Vec<String>, tighter: seccompiler::BpfProgram) -> Self {
         let nothing = std::ptr::null_mut();
         let avx = std::is_x86_feature_detected!("avx");
         Self {
             path,
             libraries,
+            tighter,
             plugin: None,
             algorithm: None,
             instance: nothing,
@@ -51,14 +55,13 @@ impl Measured {
     /// Does what is asked and fills the slot.
     pub fn obey(&mut self, command: Command, shared: &Shared, question: usize, slot: &mut Slot) -> Result<(), Failure> {
         match command {
-            Command::CloseListener => Ok(()),
+            Command::CloseListener | Command::Rest => Ok(()),
             Command::Null => {
                 self.call_collide(null_plugin, shared, question, slot);
                 Ok(())
             }
-            Command::Calibrate => {
-                multiply(CALIBRATION_STEPS);
-                Ok(())
+            Command::Tighten => {
+                seccomp::tighten(&self.tighter).map_err(|e| Failure::error(format!("the tighter filter is refused: {e}")))
             }
             Command::Inspect => {
                 let json = serde_json::to_vec(&self.inspect()?).map_err(|e| Failure::not_loaded(e.to_string()))?;
@@ -330,19 +333,6 @@ fn fill_collision(slot: &mut Slot, status: raw::Status, result: &CollideResult) 
     slot[slot::HIT_OR_FLAGS] = result.hit.into();
     slot[slot::TRIANGLES] = result.triangle_a.into();
     slot[slot::TRIANGLES + 1] = result.triangle_b.into();
-}
-
-/// Each product waits for the one before, so that it takes so many cycles, whatever else the processor can do.
-#[inline(never)]
-fn multiply(steps: u32) {
-    // SAFETY: two registers of its own.
-    unsafe {
-        core::arch::asm!(
-            "2:", "imul {x}, {x}, 3", "dec {n:e}", "jnz 2b",
-            x = inout(reg) 3u64 => _, n = inout(reg) steps => _,
-            options(nomem, nostack)
-        );
-    }
 }
 
 fn spell(status: raw::Status) -> String {

@@ -12,6 +12,7 @@ use ocb_sandbox::protocol::{Command, MAX_BATCH, SLOT_WORDS, answer, request, slo
 use ocb_sandbox::seccomp;
 use ocb_sandbox::shared::Segment;
 use ocb_sandbox::trial::TrialHead;
+use seccompiler::BpfProgram;
 
 use crate::jail::{ANSWER, CONTROL, REQUEST, TRIAL, inherited};
 use crate::library::Failure;
@@ -44,8 +45,8 @@ pub fn run(mode: &str, plugin: &str, trial_bytes: &str, libraries: &[&str]) -> !
     };
     // Everything but 0, 1, 2 and the listener, which the supervisor's first command closes.
     drop(control);
-    let listener = match filter(mode.split(',').any(|part| part == "threads")) {
-        Ok(listener) => listener,
+    let (listener, tighter) = match filters(mode.split(',').any(|part| part == "threads")) {
+        Ok(filters) => filters,
         Err(error) => {
             // The socket is gone; the supervisor sees an early end and these words.
             eprintln!("{error}");
@@ -55,13 +56,16 @@ pub fn run(mode: &str, plugin: &str, trial_bytes: &str, libraries: &[&str]) -> !
     let word = shared.answer.u32(answer::LISTENER);
     word.store(listener as u32 + 1, Ordering::Release);
     futex_wake(word);
-    serve(&shared, Measured::new(plugin.to_string(), libraries.iter().map(ToString::to_string).collect()), listener)
+    let libraries = libraries.iter().map(ToString::to_string).collect();
+    serve(&shared, Measured::new(plugin.to_string(), libraries, tighter), listener)
 }
 
-fn filter(threads: bool) -> Result<i32, ConfineError> {
-    let program =
-        seccomp::compile(std::process::id() as i32, threads).map_err(|e| ConfineError::Seccomp(e.to_string()))?;
-    seccomp::install(&program).map_err(|e| ConfineError::Seccomp(e.to_string()))
+/// The listener of the filter, which is in force, and the tighter one for later.
+fn filters(threads: bool) -> Result<(i32, BpfProgram), ConfineError> {
+    let refused = |e: &dyn std::fmt::Display| ConfineError::Seccomp(e.to_string());
+    let program = seccomp::compile(std::process::id() as i32, threads).map_err(|e| refused(&e))?;
+    let tighter = seccomp::compile_tighter().map_err(|e| refused(&e))?;
+    Ok((seccomp::install(&program).map_err(|e| refused(&e))?, tighter))
 }
 
 fn close_off(mode: &str, plugin: &str, trial_bytes: &str, libraries: &[&str]) -> Result<Shared, ConfineError> {
@@ -111,9 +115,9 @@ fn close_off(mode: &str, plugin: &str, trial_bytes: &str, libraries: &[&str]) ->
 }
 
 fn serve(shared: &Shared, mut state: Measured, listener: i32) -> ! {
-    let mut number = 0;
+    let (mut number, mut watch) = (0, shared.watch);
     loop {
-        number = shared.next(number);
+        number = shared.next(number, watch);
         let command = Command::from_word(shared.request.u64(request::COMMAND).load(Ordering::Relaxed));
         if command == Some(Command::CloseListener) {
             // SAFETY: our own descriptor, closed once.
@@ -137,13 +141,14 @@ fn serve(shared: &Shared, mut state: Measured, listener: i32) -> ! {
             }
         }
         shared.commit(number);
+        watch = if command == Some(Command::Rest) { Duration::ZERO } else { shared.watch };
     }
 }
 
 impl Shared {
-    /// Waits for the command after `number`.
+    /// Waits for the command after `number`, so long by watching memory and then asleep.
     #[inline]
-    fn next(&self, number: u32) -> u32 {
+    fn next(&self, number: u32, watch: Duration) -> u32 {
         let word = self.request.u32(request::NUMBER);
         let mut watched_since = None;
         loop {
@@ -152,13 +157,13 @@ impl Shared {
                 if new != number {
                     return new;
                 }
-                if self.watch.is_zero() {
+                if watch.is_zero() {
                     break;
                 }
                 std::hint::spin_loop();
             }
             let since = *watched_since.get_or_insert_with(Instant::now);
-            if since.elapsed() >= self.watch {
+            if since.elapsed() >= watch {
                 // Said before the last look at the number, so that the supervisor cannot miss it.
                 self.answer.u32(answer::RUNNER_SLEEPS).store(1, Ordering::SeqCst);
                 futex_wait(word, number, None);

@@ -16,14 +16,14 @@ pub const ALL: &[Attack] = &[
         "remember questions that come exactly again",
         "nothing_more"[WORK, "MEMOISES", "AS_THEY_ARE"],
         Pass,
-        Caught(&[Check::Batches, Check::Repeats])
+        Caught(&[Check::Batches])
     ),
     attack!(
         "T3",
         "remember questions up to a common motion",
         "nothing_more"[WORK, "MEMOISES"],
         Pass,
-        Caught(&[Check::Batches, Check::Repeats, Check::TailShape])
+        Caught(&[Check::Batches])
     ),
     attack!("T6", "commit early and work on while nothing is asked", "work_on", Pass, Violation),
     attack!("T7", "do the work only where one question is asked", "nothing_more"[WORK, "SKIPS_IN_BATCHES"], Pass, Wrong),
@@ -32,7 +32,7 @@ pub const ALL: &[Attack] = &[
         "flatten the times in some of the processes",
         "nothing_more"[WORK, "UNEVEN", "FLATTENS"],
         Pass,
-        Caught(&[Check::TailShape])
+        Harmless
     ),
     attack!(
         "T9",

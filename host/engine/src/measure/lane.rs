@@ -136,7 +136,7 @@ impl Lane {
 
     /// A fresh process has built both structures.
     pub fn begin_turn(&mut self, session: &Session) {
-        self.build_ns.push(session.build_ns());
+        self.build_ns.push(session.set_up().build_ns);
         self.clocks.push(*session.clock());
         self.layers = session.layers().to_vec();
     }

@@ -128,13 +128,13 @@ impl Checking<'_> {
         }
         let facts = [facts];
         match integrity::violated(&facts) {
-            None if facts[0].timed == 0 => {
-                let evidence = "Not one answer could be timed undisturbed.".to_owned();
+            None if facts[0].reached == 0 => {
+                let evidence = "The time allowed ended before the first answer.".to_owned();
                 self.line(check, CheckVerdict::Note, evidence, Some("The machine is busy; every run looks again."));
             }
             None => {
                 let looked = integrity::measured(&facts).len();
-                let evidence = format!("{} timed answers, {looked} checks of the clock, nothing odd.", facts[0].timed);
+                let evidence = format!("{} timed answers, {looked} checks of the clock, nothing odd.", facts[0].reached);
                 self.line(check, CheckVerdict::Pass, evidence, None);
             }
             Some(finding) => {
@@ -149,7 +149,7 @@ impl Checking<'_> {
 /// Asks one fresh process the whole scene, with counters.
 fn hear(launcher: &Launcher, trial: &Trial, query: Query, scene: &Scene) -> std::result::Result<Heard, Ending> {
     let mut session: Session = launcher.start(trial)?;
-    let build_ns = session.build_ns();
+    let build_ns = session.set_up().build_ns;
     let mut answers = Vec::with_capacity(scene.placed.len());
     for placed in &scene.placed {
         match session.count(query, &placed.configuration) {
