@@ -17,6 +17,7 @@ use crate::null;
 use crate::outcome::{Ending, Outcome, Phase};
 use crate::policy::Policy;
 use crate::protocol::{Command, parse_descriptors, parse_inspection};
+use crate::seccomp;
 use crate::session::{Pinned, Session, SetUp};
 use crate::trial::Sheet;
 
@@ -131,15 +132,16 @@ impl Launcher {
         Ok((timed.raw_ns, described.map_err(|reason| Outcome::LoadError { reason })?))
     }
 
-    /// Has the runner put its second filter in force? By then the plugin may have taken it over, so that the kernel is asked.
+    /// Has the runner put its tighter filters in force? By then the plugin may have taken it over, so that the kernel is asked.
     fn tighten(&self, exchange: &mut Exchange) -> Result<(), Outcome> {
         exchange.obeyed(Command::Tighten, Phase::Load, self.policy.load_seconds)?;
-        match status_field(exchange.jail.pid, "Seccomp_filters").and_then(|n| n.parse().ok()) {
+        match status_field(exchange.jail.pid, "Seccomp_filters").and_then(|n| n.parse::<usize>().ok()) {
             // Kernels before 5.9 do not count.
-            None | Some(2u32..) => Ok(()),
+            None => Ok(()),
+            Some(filters) if filters > seccomp::TIGHTER => Ok(()),
             Some(_) => Err(Outcome::ProtocolViolation {
                 phase: Phase::Load,
-                rule: "the tighter system call filter is not in force".into(),
+                rule: "the tighter system call filters are not in force".into(),
             }),
         }
     }

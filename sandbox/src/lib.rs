@@ -53,4 +53,4 @@ pub use outcome::{DeniedCall, Ending, Outcome, Phase};
 pub use pass::{Batched, Observation, PassFacts, PassPlan, Time};
 pub use policy::{ClockChoice, Policy};
 pub use protocol::MAX_BATCH;
-pub use session::{Batch, Sample, Session};
+pub use session::{Batch, Sample, Session, SetUp};

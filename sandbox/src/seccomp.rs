@@ -18,6 +18,9 @@ pub const LIST: &str = include_str!("syscalls.json");
 /// seccompiler cannot emit "notify": the filter is compiled with this trace action, and the word is replaced after.
 const PLACEHOLDER: u16 = 0x7e5;
 
+/// So many filters are put in force once the plugin has been loaded.
+pub const TIGHTER: usize = 2;
+
 const RETURN: u16 = (libc::BPF_RET | libc::BPF_K) as u16;
 const JUMP_EQUAL: u16 = (libc::BPF_JMP | libc::BPF_JEQ | libc::BPF_K) as u16;
 const LOAD_WORD: u16 = (libc::BPF_LD | libc::BPF_W | libc::BPF_ABS) as u16;
@@ -84,6 +87,7 @@ struct Refused {
     call: String,
     #[serde(default)]
     when: Vec<BTreeMap<String, Value>>,
+    errno: String,
     #[serde(rename = "because")]
     _because: String,
 }
@@ -119,17 +123,26 @@ fn alternatives_of(
     when.iter().map(rule).collect()
 }
 
-/// Compiles the second filter, which stands beside the first: the calls of its list fail with EPERM.
-pub fn compile_tighter() -> Result<BpfProgram, FilterError> {
+/// Compiles the filters for after the plugin has been loaded, one for each error that they give, in the order in which they
+/// are to be installed: the last one forbids installing any.
+pub fn compile_tighter() -> Result<Vec<BpfProgram>, FilterError> {
     let list: List = serde_json::from_str(LIST)?;
-    let mut rules: BTreeMap<i64, Vec<SeccompRule>> = BTreeMap::new();
+    let mut programs: Vec<(i32, BTreeMap<i64, Vec<SeccompRule>>)> = Vec::new();
     for refused in &list.after_loading {
-        let alternatives = rules.entry(i64::from(number(&refused.call)?)).or_default();
-        alternatives.extend(alternatives_of(&refused.call, &refused.when, 0)?);
+        let errno = errno(&refused.errno).ok_or_else(|| FilterError::UnknownErrno(refused.errno.clone()))?;
+        let rules = alternatives_of(&refused.call, &refused.when, 0)?;
+        let number = i64::from(number(&refused.call)?);
+        match programs.iter_mut().find(|(known, _)| *known == errno) {
+            Some((_, program)) => drop(program.insert(number, rules)),
+            None => programs.push((errno, BTreeMap::from([(number, rules)]))),
+        }
     }
-    let filter =
-        SeccompFilter::new(rules, SeccompAction::Allow, SeccompAction::Errno(libc::EPERM as u32), TargetArch::x86_64);
-    filter.and_then(BpfProgram::try_from).map_err(|e| FilterError::Compile(e.to_string()))
+    let compile = |(errno, rules): (i32, _)| {
+        let refused = SeccompAction::Errno(errno as u32);
+        let filter = SeccompFilter::new(rules, SeccompAction::Allow, refused, TargetArch::x86_64);
+        filter.and_then(BpfProgram::try_from).map_err(|e| FilterError::Compile(e.to_string()))
+    };
+    programs.into_iter().map(compile).collect()
 }
 
 fn notify_instead_of_trace(program: &mut BpfProgram) -> Result<(), FilterError> {
@@ -205,10 +218,9 @@ pub fn install(program: &BpfProgram) -> io::Result<i32> {
     set(program, libc::SECCOMP_FILTER_FLAG_NEW_LISTENER)
 }
 
-/// Puts the second filter in force: nothing is opened, and no file and no code mapped, any more. Installing it is allowed by
-/// the first one, and by itself not any more.
-pub fn tighten(program: &BpfProgram) -> io::Result<()> {
-    set(program, 0).map(drop)
+/// Puts the tighter filters in force beside the first: nothing is opened, and no file and no code mapped, any more.
+pub fn tighten(programs: &[BpfProgram]) -> io::Result<()> {
+    programs.iter().try_for_each(|program| set(program, 0).map(drop))
 }
 
 fn set(program: &BpfProgram, flags: libc::c_ulong) -> io::Result<i32> {
@@ -233,10 +245,15 @@ mod tests {
 
     #[test]
     fn the_tighter_list_compiles_and_only_refuses() {
-        let program = compile_tighter().unwrap();
-        let returns: Vec<u32> = program.iter().filter(|i| i.code == RETURN).map(|i| i.k).collect();
-        let refused = libc::SECCOMP_RET_ERRNO | libc::EPERM as u32;
-        assert!(returns.contains(&refused) && returns.contains(&libc::SECCOMP_RET_ALLOW), "{returns:?}");
+        let programs = compile_tighter().unwrap();
+        let returns = |program: &BpfProgram, value| program.iter().any(|i| i.code == RETURN && i.k == value);
+        for (program, errno) in programs.iter().zip([libc::ENOENT, libc::EPERM]) {
+            assert!(returns(program, libc::SECCOMP_RET_ERRNO | errno as u32), "{program:?}");
+            assert!(returns(program, libc::SECCOMP_RET_ALLOW) && !returns(program, libc::SECCOMP_RET_USER_NOTIF));
+        }
+        assert_eq!(programs.len(), TIGHTER);
+        let installs = |program: &BpfProgram| program.iter().any(|i| i.k == libc::SYS_seccomp as u32);
+        assert_eq!(programs.iter().map(installs).collect::<Vec<_>>(), [false, true], "the last forbids another");
     }
 
     #[test]

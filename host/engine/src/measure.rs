@@ -14,6 +14,7 @@ mod lane;
 mod order;
 mod preview;
 mod summary;
+mod surplus;
 mod turn;
 
 use std::sync::mpsc::Sender;

@@ -374,8 +374,12 @@ pub struct AlgorithmResult {
     pub bv_tests_mean: Option<f64>,
     /// Mean primitive tests per query.
     pub primitive_tests_mean: Option<f64>,
-    /// Build time of both structures, milliseconds.
+    /// Time to build both structures, milliseconds, from the moment on at which the meshes could be seen: median over the
+    /// processes. What a process built while it was asked is part of it.
     pub build_ms: Option<f64>,
+    /// Time to load the plugin's file, with all that it does before it sees a mesh, milliseconds: median over the processes.
+    #[serde(default)]
+    pub load_ms: Option<f64>,
     /// Peak memory of the runner above its baseline, bytes.
     pub memory_bytes: Option<u64>,
 }

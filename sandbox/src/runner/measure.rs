@@ -20,8 +20,8 @@ use crate::serve::{Shared, Slot};
 pub struct Measured {
     path: String,
     libraries: Vec<String>,
-    /// The second filter, compiled before anything foreign is in this process.
-    tighter: seccompiler::BpfProgram,
+    /// The tighter filters, compiled before anything foreign is in this process.
+    tighter: Vec<seccompiler::BpfProgram>,
     plugin: Option<Plugin>,
     algorithm: Option<Algorithm>,
     instance: *mut Instance,
@@ -35,7 +35,7 @@ pub struct Measured {
 
 impl Measured {
     /// Nothing is loaded yet.
-    pub fn new(path: String, libraries: Vec<String>, tighter: seccompiler::BpfProgram) -> Self {
+    pub fn new(path: String, libraries: Vec<String>, tighter: Vec<seccompiler::BpfProgram>) -> Self {
         let nothing = std::ptr::null_mut();
         let avx = std::is_x86_feature_detected!("avx");
         Self {

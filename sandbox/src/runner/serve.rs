@@ -60,8 +60,8 @@ pub fn run(mode: &str, plugin: &str, trial_bytes: &str, libraries: &[&str]) -> !
     serve(&shared, Measured::new(plugin.to_string(), libraries, tighter), listener)
 }
 
-/// The listener of the filter, which is in force, and the tighter one for later.
-fn filters(threads: bool) -> Result<(i32, BpfProgram), ConfineError> {
+/// The listener of the filter, which is in force, and the tighter ones for later.
+fn filters(threads: bool) -> Result<(i32, Vec<BpfProgram>), ConfineError> {
     let refused = |e: &dyn std::fmt::Display| ConfineError::Seccomp(e.to_string());
     let program = seccomp::compile(std::process::id() as i32, threads).map_err(|e| refused(&e))?;
     let tighter = seccomp::compile_tighter().map_err(|e| refused(&e))?;

@@ -16,7 +16,7 @@ pub const ALL: &[Attack] = &[
         "remember questions that come exactly again",
         "nothing_more"[WORK, "MEMOISES", "AS_THEY_ARE"],
         Pass,
-        Caught(&[Check::Batches])
+        Harmless
     ),
     attack!(
         "T3",

@@ -15,7 +15,7 @@ use crate::{Attack, Expected};
 
 const QUESTIONS: u32 = 1000;
 /// Processes at most: on a busy machine many blocks are disturbed and show nothing.
-const PROCESSES: u64 = 60;
+const PROCESSES: u64 = 20;
 /// As many as the engine usually starts.
 const USUAL: u64 = 5;
 

@@ -2,7 +2,7 @@
 
 use crate::Attack;
 use crate::Expected::{Denied, Says, Signal};
-use crate::Form::{Query, QueryAndConstructor};
+use crate::Form::{Loading, Query, QueryAndConstructor};
 
 /// A system call with zeros for arguments.
 macro_rules! raw {
@@ -17,7 +17,7 @@ pub const FILES: &[Attack] = &[
     attack!("F3", "open /proc/1/environ", "open_environment_of_init", Query, Says("ENOENT")),
     attack!("F4", "open ../../etc/shadow", "open_by_traversal", Query, Says("ENOENT")),
     attack!("F5", "create a file", "create_file", Query, Denied("openat")),
-    attack!("F6", "open the root folder", "open_root", Query, Says("EACCES")),
+    attack!("F6", "open the root folder", "open_root", Query, Says("ENOENT")),
     attack!("F6", "list a folder", "list_folder", Query, Denied("getdents64")),
     attack!("F7", "stat /etc/passwd", "stat_passwd", Query, Says("ENOENT")),
     raw!("F8", "symlink", "88"),
@@ -29,7 +29,7 @@ pub const FILES: &[Attack] = &[
     raw!("F8", "open_by_handle_at", "304"),
     raw!("F8", "openat2", "437"),
     attack!("F9", "read the name of its program", "read_own_name", Query, Says("ENOENT")),
-    attack!("F10", "open its own file 10,000 times", "many_descriptors", Query, Says("EMFILE after 29")),
+    attack!("F10", "open its own file 10,000 times", "many_descriptors", Loading, Says("EMFILE after 29")),
     attack!("F11", "find an inherited descriptor", "write_inherited", Query, Says("0 inherited")),
     attack!("F11", "write to standard input", "write_to_zero", Query, Says("EBADF")),
     raw!("F12", "mincore", "27"),
@@ -88,6 +88,7 @@ pub const KERNEL: &[Attack] = &[
     attack!("K3", "a number of the x32 interface", "raw_call"["RAW=0x40000027"], Query, Denied("?")),
     attack!("K4", "a number that does not exist", "raw_call"["RAW=9999"], Query, Denied("?")),
     attack!("K5", "install a filter of its own", "own_filter", Query, Denied("seccomp")),
+    attack!("K5", "install one more filter", "one_more_filter", Query, Says("EPERM")),
     attack!("K7", "descriptor with its upper half set", "high_bits", Query, Denied("write")),
     attack!("K7", "futex with priority inheritance", "priority_futex", Query, Denied("futex")),
     attack!("K8", "eight threads race", "race", Query, Denied("clone")),

@@ -11,10 +11,10 @@ use ocb_core::query::{Answer, Counters, Query, Semantics};
 use ocb_core::record::Record;
 use ocb_core::statistics::Statistic;
 use ocb_core::validation::{Judged, Precision, Terms, judge};
-use ocb_sandbox::{ClockFacts, Ending, Observation, Outcome, PassFacts, Session, integrity};
+use ocb_sandbox::{ClockFacts, Ending, Observation, Outcome, PassFacts, Session, SetUp, integrity};
 use rayon::prelude::*;
 
-use super::outcome_info;
+use super::{outcome_info, surplus};
 use crate::model::{AlgorithmInfo, OutcomeInfo};
 use crate::registry::Contestant;
 
@@ -33,7 +33,11 @@ pub struct Lane {
     cells: Vec<Cell>,
     unjudged: Vec<(u32, AskedAs, Answer)>,
     passes: Vec<PassFacts>,
-    build_ns: Vec<f64>,
+    /// What the process under way was asked undisturbed, with the times.
+    asked: Vec<(u32, f64)>,
+    /// Of each timed pass: the number of its process, and what that was asked.
+    sequences: Vec<(usize, Vec<(u32, f64)>)>,
+    set_ups: Vec<SetUp>,
     memory_bytes: Option<u64>,
     clocks: Vec<ClockFacts>,
     layers: Vec<String>,
@@ -46,6 +50,8 @@ struct Cell {
     /// Round and official time, nanoseconds.
     times: Vec<(u32, f64)>,
     below: u32,
+    /// The same where the supervisor was kept from looking: longer than it took.
+    late: Vec<(u32, f64)>,
     /// The first answer, or the first with a graver verdict.
     judged: Option<(Answer, Judged)>,
     /// As what that one was asked for.
@@ -58,6 +64,11 @@ struct Cell {
 }
 
 impl Cell {
+    /// Those that count: where there is no other, one that is too long.
+    fn official(&self) -> &[(u32, f64)] {
+        if self.times.is_empty() { &self.late } else { &self.times }
+    }
+
     fn said(&mut self, said: Said) {
         let first = *self.first.get_or_insert(said);
         self.flips += u32::from(first.contradicts(said, self.slack));
@@ -88,8 +99,8 @@ pub struct Measured {
     pub outcome: Option<OutcomeInfo>,
     /// Stopped by the budget before the whole set.
     pub budget_limited: bool,
-    /// Build time of both structures in each process, nanoseconds.
-    pub build_ns: Vec<f64>,
+    /// In each process the time to load the plugin and to build both structures, with what was built while it was asked.
+    pub set_ups: Vec<SetUp>,
     /// Largest peak memory of the processes.
     pub memory_bytes: Option<u64>,
     /// The clock of each process.
@@ -115,7 +126,9 @@ impl Lane {
             spent: Duration::ZERO,
             cells: slack.iter().map(|&slack| Cell { slack, ..Cell::default() }).collect(),
             unjudged: Vec::new(),
-            build_ns: Vec::new(),
+            asked: Vec::new(),
+            sequences: Vec::new(),
+            set_ups: Vec::new(),
             memory_bytes: None,
             clocks: Vec::new(),
             passes: Vec::new(),
@@ -136,7 +149,8 @@ impl Lane {
 
     /// A fresh process has built both structures.
     pub fn begin_turn(&mut self, session: &Session) {
-        self.build_ns.push(session.set_up().build_ns);
+        self.set_ups.push(session.set_up());
+        self.asked.clear();
         self.clocks.push(*session.clock());
         self.layers = session.layers().to_vec();
     }
@@ -150,8 +164,13 @@ impl Lane {
     pub fn observe(&mut self, round: u32, process: u32, seen: Observation) {
         if let Some(time) = seen.time {
             let cell = &mut self.cells[seen.configuration as usize];
-            cell.times.push((round, time.ns));
-            cell.below += u32::from(time.below_resolution);
+            if time.disturbed {
+                cell.late.push((round, time.ns));
+            } else {
+                cell.times.push((round, time.ns));
+                cell.below += u32::from(time.below_resolution);
+                self.asked.push((seen.configuration, time.ns));
+            }
             self.done += 1;
         }
         let asked = AskedAs { process: Some(process), instance: seen.instance };
@@ -161,19 +180,22 @@ impl Lane {
     /// A timed pass is over.
     pub fn end_pass(&mut self, facts: PassFacts) {
         self.passes.push(facts);
+        self.sequences.push((self.set_ups.len() - 1, std::mem::take(&mut self.asked)));
     }
 
     /// The times of the last pass, over these configurations, do not count: the machine was taken away from it. Its answers
     /// do.
     pub fn forget(&mut self, round: u32, configurations: &[u32]) {
         self.passes.pop();
+        self.sequences.pop();
         for i in configurations {
             let cell = &mut self.cells[*i as usize];
-            let before = cell.times.len();
+            let before = cell.times.len() + cell.late.len();
             cell.times.retain(|(of, _)| *of != round);
+            cell.late.retain(|(of, _)| *of != round);
             // At most one time of a round is in a cell.
             cell.below = cell.below.min(cell.times.len() as u32);
-            self.done -= (before - cell.times.len()) as u64;
+            self.done -= (before - cell.times.len() - cell.late.len()) as u64;
         }
     }
 
@@ -213,7 +235,7 @@ impl Lane {
 
     /// The official times so far, with the round of each, by configuration.
     pub fn times(&self) -> Vec<Vec<(u32, f64)>> {
-        self.cells.iter().map(|cell| cell.times.clone()).collect()
+        self.cells.iter().map(|cell| cell.official().to_vec()).collect()
     }
 
     /// The answers that stand for its configurations.
@@ -227,12 +249,17 @@ impl Lane {
             self.end(outcome_info(&Outcome::TimingIntegrity { finding }));
         }
         let of = self.cells.len();
-        let queries: usize = self.cells.iter().map(|c| c.times.len()).sum();
+        let queries: usize = self.cells.iter().map(|c| c.times.len() + c.late.len()).sum();
+        for (process, asked) in &self.sequences {
+            let usual = |configuration: u32| surplus::usual(&self.cells[configuration as usize].times);
+            self.set_ups[*process].build_ns += surplus::surplus_ns(asked, usual);
+        }
         let (mut records, mut times) = (Vec::new(), Vec::with_capacity(of));
         for (configuration, cell) in (0..).zip(self.cells) {
-            let passes = cell.times.len() as u32;
-            let median = Statistic::Median.of(&mut cell.times.iter().map(|(_, ns)| *ns).collect::<Vec<_>>());
-            times.push(cell.times);
+            let official = cell.official().to_vec();
+            let passes = official.len() as u32;
+            let median = Statistic::Median.of(&mut official.iter().map(|(_, ns)| *ns).collect::<Vec<_>>());
+            times.push(official);
             if let (Some(time_ns), Some((answer, Judged { verdict, contacts }))) = (median, cell.judged) {
                 let below_resolution = 2 * cell.below >= passes;
                 let counters = cell.counters;
@@ -256,7 +283,7 @@ impl Lane {
             records,
             of,
             outcome: self.outcome,
-            build_ns: self.build_ns,
+            set_ups: self.set_ups,
             memory_bytes: self.memory_bytes,
             clocks: self.clocks,
             passes: self.passes,

@@ -9,7 +9,7 @@ use ocb_core::resolution::Resolution;
 use ocb_core::statistics::{Statistic, maximum_interval, quantile, quantile_interval};
 use ocb_core::validation::Terms;
 
-use ocb_sandbox::{PassFacts, Profile, integrity};
+use ocb_sandbox::{PassFacts, Profile, SetUp, integrity};
 
 use super::Measured;
 use super::contract::contract;
@@ -52,6 +52,9 @@ pub fn summarise(measured: &Measured, asked: Asked, compared: Option<Comparison>
     let mean = |of: fn(&ocb_core::query::Counters) -> u64| {
         (!counters.is_empty()).then(|| counters.iter().map(|c| of(c) as f64).sum::<f64>() / counters.len() as f64)
     };
+    let set_up = |of: fn(&SetUp) -> f64| {
+        Statistic::Median.of(&mut measured.set_ups.iter().map(of).collect::<Vec<_>>()).map(|ns| ns / 1e6)
+    };
     AlgorithmResult {
         algorithm: measured.contestant.info.id.clone(),
         name: measured.contestant.info.name.clone(),
@@ -71,7 +74,8 @@ pub fn summarise(measured: &Measured, asked: Asked, compared: Option<Comparison>
         contacts: contact_quality(records),
         bv_tests_mean: mean(|c| c.bv_tests),
         primitive_tests_mean: mean(|c| c.primitive_tests),
-        build_ms: Statistic::Median.of(&mut measured.build_ns.clone()).map(|ns| ns / 1e6),
+        load_ms: set_up(|s| s.load_ns),
+        build_ms: set_up(|s| s.build_ns),
         memory_bytes: measured.memory_bytes,
     }
 }

@@ -112,6 +112,7 @@ pub(crate) fn result(algorithm: &str, n: u32) -> StoredResult {
             bv_tests_mean: Some(1.25),
             primitive_tests_mean: None,
             build_ms: None,
+            load_ms: None,
             memory_bytes: Some(u64::from(u32::MAX) + 1),
         },
         records: None,
