@@ -22,7 +22,8 @@ pub struct Environment {
     pub clock: String,
     /// Null round trip that is subtracted: median, with p05 and p95 as its interval, nanoseconds.
     pub null_ns: Estimated,
-    /// Times that stand although something disturbed the runner at every attempt.
+    /// Times that are longer than the plugin took, because the supervisor was kept from looking; they count only where a
+    /// question has no other.
     pub disturbed: u64,
     /// Time of a fixed loop on the measuring CPU: median, p05 and p95 over all passes, nanoseconds.
     #[serde(default)]
