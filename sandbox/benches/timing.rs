@@ -171,9 +171,9 @@ impl Bench {
         let facts: Vec<PassFacts> = all.iter().map(|(_, facts)| facts.clone()).collect();
         let blocks: [u32; 2] = [0, 1].map(|i| facts.iter().map(|f| f.blocks[i]).sum());
         row(
-            "disturbed blocks",
+            "disturbed stretches",
             format!(
-                "{} of {}, {} times kept disturbed",
+                "{} of {}, {} times missed by the clock",
                 blocks[1],
                 blocks[0],
                 facts.iter().map(|f| f.disturbed).sum::<u32>()

@@ -189,8 +189,7 @@ mod tests {
         assert_eq!(facts.subtract(151_000.0, 1), (151_000.0, false));
         assert_eq!(facts.subtract(1_600_000.0, 64), (1_600_000.0, false));
         // A few batches that met something say nothing against what is known of single questions.
-        let trips =
-            Trips { null: vec![400.0; 20], null_batch: vec![9e6], calibration_ns: 7e3, known: [true, false] };
+        let trips = Trips { null: vec![400.0; 20], null_batch: vec![9e6], calibration_ns: 7e3, known: [true, false] };
         assert_eq!(ClockFacts::of(ClockKind::Spin, trips).subtract(24_400.0, 64), (24_000.0, false));
     }
 

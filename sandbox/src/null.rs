@@ -26,7 +26,11 @@ const LONGEST: Duration = Duration::from_millis(500);
 const FEWEST: usize = 20;
 
 /// Asks the null plugin so often that the round trip and its spread are known.
-pub(crate) fn measure(exchange: &mut Exchange, policy: &Policy, runner_cpu: Option<usize>) -> Result<ClockFacts, Outcome> {
+pub(crate) fn measure(
+    exchange: &mut Exchange,
+    policy: &Policy,
+    runner_cpu: Option<usize>,
+) -> Result<ClockFacts, Outcome> {
     let nowhere = Configuration { pose_a: Pose::identity(), pose_b: Pose::identity() };
     let question = Presented { configuration: nowhere, swapped: false };
     let mut ask = |questions, times: usize| {

@@ -81,7 +81,8 @@ impl Sheet {
             }
             parts.push(Part { at: positions_at, bytes });
         }
-        let head = TrialHead { algorithm: algorithm.into(), parameters: parameters.to_vec(), semantics, meshes: places };
+        let head =
+            TrialHead { algorithm: algorithm.into(), parameters: parameters.to_vec(), semantics, meshes: places };
         let json = serde_json::to_vec(&head).expect("plain data is always JSON");
         let head = [&(json.len() as u64).to_le_bytes()[..], &json].concat();
         Sheet { head, meshes: parts, len: at }

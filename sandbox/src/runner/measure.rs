@@ -60,9 +60,8 @@ impl Measured {
                 self.call_collide(null_plugin, shared, question, slot);
                 Ok(())
             }
-            Command::Tighten => {
-                seccomp::tighten(&self.tighter).map_err(|e| Failure::error(format!("the tighter filter is refused: {e}")))
-            }
+            Command::Tighten => seccomp::tighten(&self.tighter)
+                .map_err(|e| Failure::error(format!("the tighter filter is refused: {e}"))),
             Command::Inspect => {
                 let json = serde_json::to_vec(&self.inspect()?).map_err(|e| Failure::not_loaded(e.to_string()))?;
                 shared.say(slot, &json);

@@ -11,6 +11,8 @@ pub const ALL: &[Attack] = &[
     attack!("M1", "writable and executable memory", "writable_code", QueryAndConstructor, Denied("mmap")),
     attack!("M1", "make data executable", "data_to_code", Query, Denied("mprotect")),
     attack!("M1", "code from a memory file", "code_from_memory_file", Query, Denied("memfd_create")),
+    attack!("M1", "map more code after it was loaded", "more_code"["KEEPS_ITS_FILE"], Query, Says("EPERM")),
+    attack!("M1", "map more of a file after it was loaded", "more_of_a_file"["KEEPS_ITS_FILE"], Query, Says("EPERM")),
     attack!("M2", "put a page over libc's code", "overlay_libc", Query, Says("EPERM")),
     attack!("M2", "make libc's code writable", "code_to_data", Query, Says("EPERM")),
     attack!("M2", "put a page over the vDSO", "overlay_clock", Query, Says("EPERM")),

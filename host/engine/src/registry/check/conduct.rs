@@ -134,7 +134,8 @@ impl Checking<'_> {
             }
             None => {
                 let looked = integrity::measured(&facts).len();
-                let evidence = format!("{} timed answers, {looked} checks of the clock, nothing odd.", facts[0].reached);
+                let evidence =
+                    format!("{} timed answers, {looked} checks of the clock, nothing odd.", facts[0].reached);
                 self.line(check, CheckVerdict::Pass, evidence, None);
             }
             Some(finding) => {
