@@ -6,7 +6,7 @@ use ocb_tests::place::built;
 use ocb_tests::process::command;
 use serde_json::Value;
 
-use crate::kit::{Class, Kit};
+use crate::kit::{Class, Kit, REFERENCE, SLOW_REFERENCE};
 use crate::load::{Busy, cpus, stay_on};
 use crate::objects::FILES;
 use crate::plan::{Question, Run};
@@ -35,13 +35,24 @@ pub fn measure(folder: &Path, kit: &Kit, run: &Run) -> Vec<Found> {
     let data = tempfile::tempdir().expect("a folder");
     let mut ocb = command(built("ocb"));
     ocb.arg("--json").arg("--data").arg(data.path()).arg("bench").args(FILES.map(|name| folder.join(name)));
-    ocb.arg("--plugins").arg(built("ocb").parent().expect("a folder"));
     let mut ids = Vec::new();
+    if run.twin_of_the_reference {
+        ocb.arg("--plugins").arg(kit.twin_of_the_reference());
+    }
+    ocb.arg("--plugins").arg(built("ocb").parent().expect("a folder"));
     for class in &run.classes {
         ocb.arg("--plugins").arg(kit.library(*class));
         ids.extend(run.algorithms.iter().map(|name| format!("{name}_{}", class.name())));
     }
-    ocb.args(["--profile", "production", "--distance", "0.05", "--algorithm", &ids.join(",")]);
+    let reference: Vec<String> = run.twin_of_the_reference.then(|| REFERENCE.into()).into_iter().collect();
+    ocb.args([
+        "--profile",
+        "production",
+        "--distance",
+        "0.05",
+        "--algorithm",
+        &[&ids[..], &reference].concat().join(","),
+    ]);
     ocb.args(["--query", if run.question == Question::Distance { "pq" } else { "cd" }]);
     ocb.args(["--count", &run.configurations.to_string(), "--seed", &run.seed.to_string()]);
     let busy = run.condition.busy.then(Busy::begin);
@@ -63,6 +74,9 @@ pub fn measure(folder: &Path, kit: &Kit, run: &Run) -> Vec<Found> {
     let used = &report["environment"]["clock"];
     assert!(used.is_null() || used == clock, "{run:?}: the clock was {used}");
     let results = report["results"].as_array().expect("a list of results");
+    let slow = results.iter().any(|r| r["algorithm"] == REFERENCE && r["name"] == SLOW_REFERENCE);
+    let compared = &report["environment"]["reference"]["algorithm"];
+    assert!(!slow || compared != REFERENCE, "{run:?}: all are compared with a stranger's algorithm");
     let found: Vec<Found> = results.iter().filter_map(|result| read(result, &run.classes)).collect();
     assert_eq!(found.len(), ids.len(), "{run:?}: not every algorithm has a result");
     found

@@ -81,19 +81,22 @@ impl Ledger {
     }
 }
 
+/// One of the numbers of a result.
+type Number = fn(&Found) -> Option<f64>;
+
 fn entry(found: &Found, twins: &[&Found]) -> Entry {
     let ranked = found.rank.is_some();
-    let mean = |of: fn(&Found) -> Option<f64>| {
+    let mean = |of: Number| {
         let known: Vec<f64> = twins.iter().filter_map(|twin| of(twin)).collect();
         known.iter().sum::<f64>() / known.len() as f64
     };
-    let least = |of: fn(&Found) -> Option<f64>| twins.iter().filter_map(|t| of(t)).fold(f64::INFINITY, f64::min);
-    let (time, build): (fn(&Found) -> Option<f64>, fn(&Found) -> Option<f64>) = (|f| f.time_ns, |f| f.build_ms);
-    let gain = |of: fn(&Found) -> Option<f64>| {
+    let least = |of: Number| twins.iter().filter_map(|t| of(t)).fold(f64::INFINITY, f64::min);
+    let (time, build): (Number, Number) = (|f| f.time_ns, |f| f.build_ms);
+    let gain = |of: Number| {
         let (mine, theirs) = (of(found).filter(|_| ranked)?, mean(of));
         Some([theirs - mine, 1.0 - mine / theirs])
     };
-    let halved = |of: fn(&Found) -> Option<f64>, least_gain: f64| {
+    let halved = |of: Number, least_gain: f64| {
         of(found).is_some_and(|mine| 2.0 * mine < least(of) && least(of) - mine > least_gain)
     };
     Entry {

@@ -54,6 +54,11 @@ pub const HONEST: [&str; 2] = ["honest", "honest_twin"];
 /// An honest one that is measured after the noisy ones.
 pub const FRIEND: &str = "friend";
 
+/// What all are compared with, where it is ours.
+pub const REFERENCE: &str = "box-tree";
+/// The name of the slow one under its id.
+pub const SLOW_REFERENCE: &str = "noise_slow";
+
 /// Does its name say that it answers honestly, with its time where it belongs?
 pub fn is_honest(name: &str) -> bool {
     HONEST.contains(&name) || name == FRIEND
@@ -81,11 +86,22 @@ impl Kit {
 
     /// The library of a class, compiled when it is asked for the first time.
     pub fn library(&self, class: Class) -> PathBuf {
-        let library = self.folder.join(format!("libforgers_{}.so", class.name()));
+        self.compiled(&format!("libforgers_{}.so", class.name()), class, None)
+    }
+
+    /// A library with one slow algorithm, under the id of [`REFERENCE`].
+    pub fn twin_of_the_reference(&self) -> PathBuf {
+        self.compiled("libtwin.so", Class::Us20, Some(format!("-DTWIN_OF=\"{REFERENCE}\"")))
+    }
+
+    fn compiled(&self, name: &str, class: Class, define: Option<String>) -> PathBuf {
+        let library = self.folder.join(name);
         if !library.exists() {
             let source = root().join("sandbox/tests/fixtures/forgers/plugin.c");
             let mut cc = command("cc");
-            cc.args(["-std=gnu11", "-O2", "-fPIC", "-shared", "-fvisibility=hidden", "-w"]).args(layout::defines());
+            cc.args(["-std=gnu11", "-O2", "-fPIC", "-shared", "-fvisibility=hidden", "-w"])
+                .args(layout::defines())
+                .args(define);
             cc.arg("-I").arg(root().join("plugin-api/include"));
             cc.arg(format!("-DCLASS={}", class.name())).arg(format!("-DCLASS_NS={}", class.nanoseconds()));
             output(cc.arg(&source).args(["-lm", "-o"]).arg(&library));

@@ -35,12 +35,15 @@ pub struct Run {
     pub configurations: u32,
     /// Another set for another seed.
     pub seed: usize,
+    /// A slow algorithm with the id of the reference takes part, its library named before ours.
+    pub twin_of_the_reference: bool,
 }
 
 const QUIET: Condition = Condition { one_cpu: false, busy: false };
 
 /// The grossest of each kind, in less than a minute.
 pub fn slice() -> Vec<Run> {
+    let one_cpu = Condition { one_cpu: true, ..QUIET };
     let all = |extra: &[&'static str]| HONEST.iter().chain(extra).copied().collect::<Vec<_>>();
     let run = |class, question, condition, extra| Run {
         classes: vec![class],
@@ -49,8 +52,8 @@ pub fn slice() -> Vec<Run> {
         condition,
         configurations: 150,
         seed: 0,
+        twin_of_the_reference: condition == one_cpu,
     };
-    let one_cpu = Condition { one_cpu: true, ..QUIET };
     let movers = ["mover_warm_up", "mover_constructor", "mover_create", "mover_gaps"];
     let guesses = ["disturb_all", "disturb_sleep", "truth_last", "adapt_time", "adapt_stack", "early_guess"];
     let distances = ["disturb_all", "memo_relative", "memo_lengths", "truth_single"];
@@ -87,6 +90,7 @@ pub fn soak(runs: usize) -> Vec<Run> {
             condition: Condition { one_cpu: turn & 1 == 1, busy: turn & 2 == 2 },
             configurations: if slow { 60 } else { 400 },
             seed: i,
+            twin_of_the_reference: i % 7 == 6,
         }
     };
     (0..runs).map(one).collect()
