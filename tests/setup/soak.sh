@@ -4,7 +4,8 @@
 # pairs of triangles for the oracle's filters (OCB_PAIRS), a hundred thousand configurations that no certified level of detail
 # may contradict (OCB_HELD_OUT), a hundred runs that end early (OCB_REPETITIONS); the power goes two hundred times
 # (OCB_POWER_CUTS), two hundred visitors come for a minute and must not change what is measured meanwhile (OCB_LOAD_SECONDS),
-# every route is asked a hundred times and more (OCB_API_EXAMPLES). Then the restart tests (the service is killed at every
+# every route is asked a hundred times and more (OCB_API_EXAMPLES); two hundred runs of forged plugins, in hours (OCB_FORGERS),
+# which want a machine with nothing else on it. Then the restart tests (the service is killed at every
 # stage of a run) over and over. The first failure ends it; the last line says how often they passed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -18,6 +19,7 @@ cargo build --release --workspace
 tests/setup/tools.sh test
 OCB_POWER_CUTS=${OCB_POWER_CUTS:-200} OCB_LOAD_SECONDS=${OCB_LOAD_SECONDS:-60} OCB_API_EXAMPLES=${OCB_API_EXAMPLES:-100} \
   cargo test --release --workspace --test whole -- --nocapture
+OCB_FORGERS=${OCB_FORGERS:-200} cargo test --release --workspace --test forgers -- --nocapture
 meshes=${OCB_SHARED:-../shared}/meshes
 target/release/ocb --data "$(mktemp -d)" advise "$meshes/bunny65k.obj" "$meshes/rocker-arm.obj" --held-out "${OCB_HELD_OUT:-100000}"
 rounds=0

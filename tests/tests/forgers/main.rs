@@ -1,0 +1,33 @@
+//! Forged plugins gain nothing: the kit of `sandbox/tests/fixtures/forgers/` is measured by `ocb bench` as any other
+//! plugin, in the production profile, and no forger may have a rank with a time, or a build time, that honest plugins
+//! of the same work do not reach. The honest ones keep their rank.
+//!
+//! `OCB_FORGERS` says how many runs to make; without it a slice of the grossest forgers is measured.
+
+mod bench;
+mod judge;
+mod kit;
+mod layout;
+mod load;
+mod objects;
+mod plan;
+mod table;
+
+use judge::Ledger;
+use kit::Kit;
+
+#[test]
+fn forgers_gain_nothing_and_honest_twins_keep_their_rank() {
+    let rounds: Option<usize> = std::env::var("OCB_FORGERS").ok().and_then(|n| n.parse().ok());
+    let folder = tempfile::tempdir().expect("a folder");
+    let kit = Kit::new(folder.path());
+    objects::write(folder.path());
+    let mut ledger = Ledger::default();
+    for run in rounds.map_or_else(plan::slice, plan::soak) {
+        let results = bench::measure(folder.path(), &kit, &run);
+        ledger.enter(&run, &results);
+    }
+    println!("{}", table::of(&ledger));
+    let complaints = ledger.complaints();
+    assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+}

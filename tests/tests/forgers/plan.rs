@@ -1,0 +1,106 @@
+//! Which runs are made: classes, question, and the machine's condition.
+
+use crate::kit::{self, Class, HONEST};
+
+/// What is asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Question {
+    /// Do they collide? In every configuration of these sets they do not.
+    Collision,
+    /// How far apart are they?
+    Distance,
+}
+
+/// On what kind of machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Condition {
+    /// One CPU: supervisor and runner sleep in turn (the futex clock).
+    pub one_cpu: bool,
+    /// A loop runs on every CPU.
+    pub busy: bool,
+}
+
+/// One `ocb bench`.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// The classes whose libraries take part.
+    pub classes: Vec<Class>,
+    /// The algorithms of each class, without its name.
+    pub algorithms: Vec<&'static str>,
+    /// What is asked.
+    pub question: Question,
+    /// Where.
+    pub condition: Condition,
+    /// How many configurations.
+    pub configurations: u32,
+    /// Another set for another seed.
+    pub seed: usize,
+    /// A slow algorithm with the id of the reference takes part, its library named before ours.
+    pub twin_of_the_reference: bool,
+}
+
+const QUIET: Condition = Condition { one_cpu: false, busy: false };
+
+/// The grossest of each kind, in less than a minute.
+pub fn slice() -> Vec<Run> {
+    let one_cpu = Condition { one_cpu: true, ..QUIET };
+    let all = |extra: &[&'static str]| HONEST.iter().chain(extra).copied().collect::<Vec<_>>();
+    let run = |class, question, condition, extra| Run {
+        classes: vec![class],
+        algorithms: all(extra),
+        question,
+        condition,
+        configurations: 150,
+        seed: 0,
+        twin_of_the_reference: condition == one_cpu,
+    };
+    let movers = ["mover_warm_up", "mover_constructor", "mover_create", "mover_gaps"];
+    let guesses = ["disturb_all", "disturb_sleep", "truth_last", "adapt_time", "adapt_stack", "early_guess"];
+    let distances = ["disturb_all", "memo_relative", "memo_lengths", "truth_single"];
+    vec![
+        run(Class::Us20, Question::Collision, QUIET, &[&guesses[..], &movers[..]].concat()),
+        run(Class::Us100, Question::Collision, QUIET, &guesses[..4]),
+        run(Class::Us100, Question::Distance, QUIET, &distances),
+        run(
+            Class::Us20,
+            Question::Collision,
+            one_cpu,
+            &["disturb_all", "disturb_yield", "truth_sample", "early_awake"],
+        ),
+    ]
+}
+
+/// So many runs, every algorithm in turn under all conditions.
+pub fn soak(runs: usize) -> Vec<Run> {
+    let parts: [(&[Class], Question); 5] = [
+        (&[Class::Ns300, Class::Us20], Question::Collision),
+        (&[Class::Us1, Class::Us100], Question::Collision),
+        (&[Class::Us3], Question::Collision),
+        (&[Class::Us20], Question::Distance),
+        (&[Class::Ms7], Question::Collision),
+    ];
+    let one = |i: usize| {
+        let (classes, question) = parts[i % parts.len()];
+        let turn = i / parts.len();
+        let slow = classes == [Class::Ms7];
+        Run {
+            classes: classes.to_vec(),
+            algorithms: if slow { slow_ones() } else { kit::all() },
+            question,
+            condition: Condition { one_cpu: turn & 1 == 1, busy: turn & 2 == 2 },
+            configurations: if slow { 60 } else { 400 },
+            seed: i,
+            twin_of_the_reference: i % 7 == 6,
+        }
+    };
+    (0..runs).map(one).collect()
+}
+
+/// Enough of each kind where every question takes milliseconds.
+fn slow_ones() -> Vec<&'static str> {
+    let some =
+        ["memo_axes", "disturb_all", "disturb_sleep", "disturb_hard", "truth_last", "truth_coin", "truth_learned"];
+    let others =
+        ["mover_warm_up", "mover_gaps", "early_commit", "early_guess", "adapt_time", "adapt_controls", "friend"];
+    HONEST.into_iter().chain(some).chain(others).collect()
+}
