@@ -70,6 +70,13 @@ impl Jail {
         ended.then(|| self.how_it_ended(phase))
     }
 
+    /// Has the runner's life ended?
+    pub fn ended(&self) -> bool {
+        let Some(runner) = &self.runner else { return true };
+        let mut wait = [PollFd::new(runner.as_fd(), PollFlags::POLLIN)];
+        poll(&mut wait, PollTimeout::ZERO) == Ok(1)
+    }
+
     /// Reads the notification of a forbidden call. It is never answered: the caller is killed instead.
     fn denied_call(&self, phase: Phase) -> Option<Outcome> {
         let listener = self.listener.as_ref()?;

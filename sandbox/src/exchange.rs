@@ -13,7 +13,7 @@ use crate::protocol::{
     Command, MAX_BATCH, SLOT_WORDS, Status, answer, clean_text, contacts_to_copy, parse_status, parse_text_len, request,
 };
 use crate::trial::Part;
-use crate::usage::Meter;
+use crate::usage::{Meter, Usage};
 
 /// The jail is looked at so often while an answer is awaited.
 const LOOK_NS: f64 = 1e6;
@@ -25,7 +25,9 @@ const MISSED_NS: f64 = 5000.0;
 const COPY_NS: f64 = 20.0;
 /// How long a runner may take to fall asleep when it is told to rest, and before it is asked by the sleeping clock.
 const REST: Duration = Duration::from_millis(5);
-const SETTLE: Duration = Duration::from_millis(100);
+/// What a runner computes between its answer and its sleep, at most.
+const FALLING_ASLEEP_NS: f64 = 20_000.0;
+const SETTLE: Duration = Duration::from_secs(2);
 /// A runner that was not asked for so long may have begun to sleep.
 const DROWSY: Duration = Duration::from_millis(1);
 
@@ -43,6 +45,15 @@ pub(crate) struct Exchange {
     last: Instant,
     trial_seconds: f64,
     trial_ends: Instant,
+}
+
+/// A moment at which the runner has been told to rest, or at which it is told to go on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Resting {
+    /// When.
+    pub told: Instant,
+    /// What the runner had computed when it slept; absent where the kernel does not count.
+    pub usage: Option<Usage>,
 }
 
 /// How long one command took.
@@ -127,19 +138,38 @@ impl Exchange {
 
     /// Lets the runner sleep until the next command, and waits until it does, for some milliseconds at most: a runner that
     /// goes on computing is told by the kernel's counters.
-    pub fn rest(&mut self, limit_seconds: f64) -> Result<(), Outcome> {
+    pub fn rest(&mut self, limit_seconds: f64) -> Result<Resting, Outcome> {
         self.obeyed(Command::Rest, Phase::Query, limit_seconds)?;
+        let told = Instant::now();
         self.resting = true;
-        self.settle(REST);
-        Ok(())
+        self.settles(REST);
+        Ok(Resting { told, usage: self.meter.read() })
     }
 
-    /// Waits until the runner sleeps in the kernel.
-    fn settle(&self, longest: Duration) {
+    /// How long the runner has computed since an earlier rest although nothing was open: more than the time between that rest's
+    /// end and this one's beginning, without its waits for the CPU. `asked_ns` is the time in which something was open, by the
+    /// sleeping clock; a watching runner computes all the while.
+    pub fn beside_ns(&self, resumed: &Resting, now: &Resting, asked_ns: f64, questions: usize) -> f64 {
+        let Some((then, now_used)) = resumed.usage.zip(now.usage) else { return 0.0 };
+        let used = now_used.since(then);
+        let open_ns = match self.kind {
+            ClockKind::Spin => (now.told - resumed.told).as_nanos() as f64 - used.delay_ns,
+            ClockKind::Futex => asked_ns + FALLING_ASLEEP_NS * questions as f64,
+        };
+        (used.run_ns - open_ns - FALLING_ASLEEP_NS).max(0.0)
+    }
+
+    /// Waits until the runner sleeps in the kernel, but no longer than this. Where the kernel does not say, it does.
+    fn settles(&self, longest: Duration) -> bool {
         let begun = Instant::now();
-        while self.meter.is_asleep() == Some(false) && begun.elapsed() < longest {
+        while self.meter.is_asleep() == Some(false) {
+            if begun.elapsed() > longest {
+                // It may have died meanwhile, which is told when it is asked.
+                return self.jail.ended();
+            }
             std::thread::yield_now();
         }
+        true
     }
 
     /// Gives a command, waits for its answer and copies it. An error status becomes its outcome; "gave up" and
@@ -172,9 +202,9 @@ impl Exchange {
         }
         let questions = if let Shown::Poses(poses) = shown { poses.len() } else { 1 };
         self.slots.resize(questions, [0; SLOT_WORDS]);
-        if self.kind == ClockKind::Futex && phase == Phase::Query {
-            // Whoever is found awake need not be woken, and would be quicker by that.
-            self.settle(SETTLE);
+        // One that is awake need not be woken, and would be quicker by that.
+        if self.kind == ClockKind::Futex && phase == Phase::Query && !self.settles(SETTLE) {
+            return Err(violation(phase, "it stays awake while nothing is asked, on the one CPU that there is"));
         }
         let timed = self.round_trip(command, phase, limit_seconds, shown)?;
         (self.last, self.resting) = (Instant::now(), false);

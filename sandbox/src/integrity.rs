@@ -51,8 +51,9 @@ impl Check {
                 (ratios.len() >= LEAST_BATCHES).then(|| quantile(&ratios, 0.5))
             }
             Check::BetweenQueries => {
-                let [rested, computed] = [0, 1].map(|i| passes.iter().map(|pass| pass.rests_ns[i]).sum::<f64>());
-                (rested >= LEAST_NS).then(|| computed / rested)
+                let sum = |of: fn(&PassFacts) -> f64| passes.iter().map(of).sum::<f64>();
+                let time = sum(|pass| pass.asked_ns[0] + pass.rested_ns);
+                (time >= LEAST_NS).then(|| sum(|pass| pass.beside_ns) / time)
             }
         }
     }
@@ -61,7 +62,7 @@ impl Check {
 /// Questions shorter than this are too near the clock's own spread, and to what warm caches change, nanoseconds.
 const TELLING_NS: f64 = 5000.0;
 const LEAST_BATCHES: usize = 3;
-/// Rests that say something, nanoseconds.
+/// Passes that say something, nanoseconds.
 const LEAST_NS: f64 = 1e6;
 
 /// A check that a plugin's passes do not meet.
@@ -79,7 +80,7 @@ impl fmt::Display for Finding {
         let (name, found) = (self.check.name(), self.found);
         let what = match self.check {
             Check::Batches => "its questions took when they came again together, as a share of the first time,",
-            Check::BetweenQueries => "of the time in which nothing was asked, it computed",
+            Check::BetweenQueries => "while no question was open it computed, as a share of the whole time,",
         };
         write!(f, "{name}: {what} {found:.2}, and {low} to {high} is what honest plugins show")
     }
@@ -108,7 +109,13 @@ mod tests {
 
     /// A long, honest pass.
     fn honest() -> PassFacts {
-        PassFacts { batches: batches(100, 1.1e6, 1e6), rests_ns: [16e6, 1e3], ..PassFacts::default() }
+        PassFacts {
+            batches: batches(100, 1.1e6, 1e6),
+            asked_ns: [20e6, 0.0],
+            rested_ns: 16e6,
+            beside_ns: 1e3,
+            ..PassFacts::default()
+        }
     }
 
     #[test]
@@ -129,7 +136,7 @@ mod tests {
     fn each_lie_meets_its_own_check() {
         let lies = [
             (Check::Batches, PassFacts { batches: batches(100, 1.1e6, 0.01e6), ..honest() }),
-            (Check::BetweenQueries, PassFacts { rests_ns: [16e6, 8e6], ..honest() }),
+            (Check::BetweenQueries, PassFacts { beside_ns: 8e6, ..honest() }),
         ];
         for (check, lie) in lies {
             let found = violated(&[lie.clone(), lie]).unwrap_or_else(|| panic!("{check:?} is not seen"));

@@ -1,6 +1,7 @@
 //! From a plugin file to a session that can be asked, or to what the file says of itself.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use ocb_core::mesh::Mesh;
 use ocb_core::query::Semantics;
@@ -9,7 +10,7 @@ use crate::clock::{Clock, ClockFacts};
 use crate::cpus::Places;
 use crate::descriptor::Descriptor;
 use crate::evidence::status_field;
-use crate::exchange::Exchange;
+use crate::exchange::{Exchange, Resting};
 use crate::gate::Inspection;
 use crate::launch::{Jail, Killer};
 use crate::layers::Profile;
@@ -104,23 +105,33 @@ impl Launcher {
             Ok(pinned) => pinned,
             Err(outcome) => return Err(exchange.jail.end(outcome)),
         };
-        let mut prepare = || -> Result<(SetUp, ClockFacts), Outcome> {
+        let mut prepare = || -> Result<(SetUp, ClockFacts, Resting), Outcome> {
             let policy = &self.policy;
             let clock = null::measure(&mut exchange, policy, places.runner.first().copied())?;
             let (mut load_ns, _) = self.load(&mut exchange)?;
             self.tighten(&mut exchange)?;
             load_ns += exchange.obeyed(Command::Prepare, Phase::Load, policy.load_seconds)?.raw_ns;
-            let mut build_ns = 0.0;
-            for (build, mesh) in [Command::BuildA, Command::BuildB].into_iter().zip(&sheet.meshes) {
-                build_ns += exchange.built(build, mesh, policy.build_seconds)?.raw_ns;
-            }
-            // What it does between its last structure and the first question is none of our time and must be nothing.
+            // Between its structures and the first question it is to do nothing, and what it does all the same is building.
             exchange.rest(policy.query_seconds)?;
-            let built = clock.null_median_ns * sheet.meshes.len() as f64;
-            Ok((SetUp { load_ns, build_ns: (build_ns - built).max(clock.resolution_ns()) }, clock))
+            let resumed = Resting { told: Instant::now(), usage: exchange.meter().read() };
+            let mut wall_ns = 0.0;
+            for (build, mesh) in [Command::BuildA, Command::BuildB].into_iter().zip(&sheet.meshes) {
+                wall_ns += exchange.built(build, mesh, policy.build_seconds)?.raw_ns;
+            }
+            let built = exchange.rest(policy.query_seconds)?;
+            let (mut build_ns, single) = (wall_ns, policy.threads == 1);
+            if let (Some((then, now)), true) = (resumed.usage.zip(built.usage), single) {
+                build_ns +=
+                    exchange.beside_ns(&resumed, &built, wall_ns, sheet.meshes.len()) - now.since(then).delay_ns;
+            }
+            let null = clock.null_median_ns * sheet.meshes.len() as f64;
+            let set_up = SetUp { load_ns, build_ns: (build_ns - null).max(clock.resolution_ns()) };
+            Ok((set_up, clock, built))
         };
         match prepare() {
-            Ok((set_up, clock)) => Ok(Session::new(self.policy.clone(), exchange, set_up, clock, pinned)),
+            Ok((set_up, clock, resting)) => {
+                Ok(Session::new(self.policy.clone(), exchange, set_up, clock, pinned, resting))
+            }
             Err(outcome) => Err(exchange.jail.end(outcome)),
         }
     }

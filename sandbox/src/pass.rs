@@ -16,7 +16,7 @@ use ocb_core::instance::{Instance, Presented};
 use ocb_core::numbers::Numbers;
 use ocb_core::query::{Answer, Query};
 
-use crate::exchange::Poses;
+use crate::exchange::{Poses, Resting};
 use crate::outcome::Outcome;
 use crate::protocol::MAX_BATCH;
 use crate::session::{Sample, Session};
@@ -99,8 +99,10 @@ pub struct PassFacts {
     pub asked_ns: [f64; 2],
     /// Undisturbed batches.
     pub batches: Vec<Batched>,
-    /// Time in which the runner was to sleep, and what it computed in it, nanoseconds.
-    pub rests_ns: [f64; 2],
+    /// Time in which the runner was to sleep, nanoseconds.
+    pub rested_ns: f64,
+    /// What it computed while no question was open, then or before, nanoseconds.
+    pub beside_ns: f64,
     /// Share of the time that the machine below took from the runner's CPU.
     pub steal: Option<f64>,
     /// The calibration loop on the runner's CPU, before the plugin was loaded, before its first question and after its last:
@@ -187,7 +189,7 @@ impl Pass<'_, '_> {
         let instance = Instance::default();
         let words: Vec<Poses> =
             places.clone().map(|place| Poses::from(&(self.present)(self.plan.order[place], instance))).collect();
-        self.resume();
+        let resumed = self.resume();
         let mut samples: Vec<Sample> = Vec::with_capacity(words.len());
         let (begun, waited_before) = (Instant::now(), self.session.waited_ns());
         let mut ended = Ok(());
@@ -201,7 +203,10 @@ impl Pass<'_, '_> {
             }
         }
         if ended.is_ok() {
-            ended = self.session.rest().map(drop);
+            match self.session.rest() {
+                Ok(now) => self.facts.beside_ns += self.beside(&resumed, &now, &samples),
+                Err(outcome) => ended = Err(outcome),
+            }
         }
         self.look(&samples, self.session.waited_ns() - waited_before);
         let mut flow = ControlFlow::Continue(());
@@ -229,12 +234,22 @@ impl Pass<'_, '_> {
         self.facts.asked_ns[1] += waited_ns;
     }
 
-    /// Ends a rest and notes what the runner computed in it. Threads of a library may go on looking for work for a while.
-    fn resume(&mut self) {
-        if let Some((rested, computed_ns)) = self.session.resume().filter(|_| self.session.policy.threads == 1) {
-            self.facts.rests_ns[0] += rested.as_nanos() as f64;
-            self.facts.rests_ns[1] += computed_ns;
+    /// Ends a rest and notes what the runner computed in it.
+    fn resume(&mut self) -> Resting {
+        let (now, [rested_ns, computed_ns]) = self.session.resume();
+        self.facts.rested_ns += rested_ns;
+        // Threads of a library may go on looking for work for a while.
+        self.facts.beside_ns += if self.session.policy.threads == 1 { computed_ns } else { 0.0 };
+        now
+    }
+
+    /// What the runner computed in a stretch while no question was open.
+    fn beside(&self, resumed: &Resting, now: &Resting, samples: &[Sample]) -> f64 {
+        if self.session.policy.threads > 1 {
+            return 0.0;
         }
+        let asked_ns = samples.iter().map(|sample| sample.raw_ns).sum();
+        self.session.beside_ns(resumed, now, asked_ns, samples.len())
     }
 
     /// Some of the questions asked so far, together, as another instance.

@@ -1,7 +1,7 @@
 //! One jailed runner, as its supervisor uses it: ask, time, end. A whole pass of questions: `pass.rs`.
 
 use std::marker::PhantomData;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use ocb_core::configuration::Configuration;
 use ocb_core::instance::Presented;
@@ -9,7 +9,7 @@ use ocb_core::query::{Answer, Counters, Query};
 
 use crate::clock::ClockFacts;
 use crate::confine::pin;
-use crate::exchange::{Exchange, Poses, Timed};
+use crate::exchange::{Exchange, Poses, Resting, Timed};
 use crate::launch::Killer;
 use crate::outcome::{Ending, Outcome, Phase};
 use crate::policy::Policy;
@@ -30,8 +30,8 @@ pub struct Session {
     set_up: SetUp,
     clock: ClockFacts,
     waits: Waits,
-    /// Since when the runner is to sleep, and what it had computed by then.
-    resting: Option<(Instant, Usage)>,
+    /// The runner is to sleep since then.
+    resting: Option<Resting>,
     ended: Option<Outcome>,
     pinned: Pinned,
     /// The jail dies with the thread that started it, so the session stays there.
@@ -91,10 +91,26 @@ pub struct Batch {
 type Counted = (Answer, Option<Counters>);
 
 impl Session {
-    pub(crate) fn new(policy: Policy, exchange: Exchange, set_up: SetUp, clock: ClockFacts, pinned: Pinned) -> Self {
+    pub(crate) fn new(
+        policy: Policy,
+        exchange: Exchange,
+        set_up: SetUp,
+        clock: ClockFacts,
+        pinned: Pinned,
+        resting: Resting,
+    ) -> Self {
         let waits = Waits::default();
-        let resting = exchange.meter().read().map(|usage| (Instant::now(), usage));
-        Self { policy, exchange, set_up, clock, waits, resting, ended: None, pinned, _thread: PhantomData }
+        Self {
+            policy,
+            exchange,
+            set_up,
+            clock,
+            waits,
+            resting: Some(resting),
+            ended: None,
+            pinned,
+            _thread: PhantomData,
+        }
     }
 
     /// What was done before the first question.
@@ -158,19 +174,28 @@ impl Session {
     }
 
     /// From now on the runner is to sleep, until the next question.
-    pub(crate) fn rest(&mut self) -> Result<(), Outcome> {
-        if self.resting.is_none() {
-            self.guarded(|session| session.exchange.rest(session.policy.query_seconds))?;
-            self.resting = self.usage().map(|usage| (Instant::now(), usage));
+    pub(crate) fn rest(&mut self) -> Result<Resting, Outcome> {
+        match self.resting {
+            Some(resting) => Ok(resting),
+            None => {
+                let resting = self.guarded(|session| session.exchange.rest(session.policy.query_seconds))?;
+                self.resting = Some(resting);
+                Ok(resting)
+            }
         }
-        Ok(())
     }
 
-    /// Ends a rest: how long it was, and how much the runner has computed in it all the same, nanoseconds. Nothing where the
-    /// kernel does not count.
-    pub(crate) fn resume(&mut self) -> Option<(Duration, f64)> {
-        let (since, before) = self.resting.take()?;
-        Some((since.elapsed(), self.usage()?.since(before).run_ns))
+    /// Ends a rest: the moment, how long it was, and how much the runner has computed in it all the same, nanoseconds.
+    pub(crate) fn resume(&mut self) -> (Resting, [f64; 2]) {
+        let now = Resting { told: Instant::now(), usage: self.usage() };
+        let Some(resting) = self.resting.take() else { return (now, [0.0; 2]) };
+        let computed_ns = now.usage.zip(resting.usage).map_or(0.0, |(now, then)| now.since(then).run_ns);
+        (now, [(now.told - resting.told).as_nanos() as f64, computed_ns])
+    }
+
+    /// What the runner computed between two rests while nothing was open; see [`Exchange::beside_ns`].
+    pub(crate) fn beside_ns(&self, resumed: &Resting, now: &Resting, asked_ns: f64, questions: usize) -> f64 {
+        self.exchange.beside_ns(resumed, now, asked_ns, questions)
     }
 
     /// How fast the runner's CPU is, which is only to be asked while the runner rests.

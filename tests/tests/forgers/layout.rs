@@ -1,10 +1,10 @@
 //! Where things lie in the shared memory, for the kit's compiler: all of it can be read in these sources by an author.
 
-use ocb_sandbox::protocol::{CALIBRATION_STEPS, Command, MAX_BATCH, SLOT_WORDS, answer, request, slot};
+use ocb_sandbox::protocol::{Command, MAX_BATCH, SLOT_WORDS, answer, request, slot};
 
 /// Name and value of what the kit is compiled with.
 pub fn defines() -> Vec<String> {
-    let numbers: [(&str, usize); 25] = [
+    let numbers: [(&str, usize); 24] = [
         ("REQUEST_NUMBER", request::NUMBER),
         ("REQUEST_SLEEPS", request::SUPERVISOR_SLEEPS),
         ("REQUEST_COMMAND", request::COMMAND),
@@ -24,8 +24,7 @@ pub fn defines() -> Vec<String> {
         ("SLOT_DISTANCE", slot::DISTANCE),
         ("SLOT_POINTS", slot::POINTS),
         ("MAX_BATCH", MAX_BATCH),
-        ("CALIBRATION_STEPS", CALIBRATION_STEPS as usize),
-        ("COMMAND_CALIBRATE", Command::Calibrate as usize),
+        ("COMMAND_REST", Command::Rest as usize),
         ("COMMAND_COLLISION_FIRST", Command::CollisionFirst as usize),
         ("COMMAND_PROXIMITY", Command::Proximity as usize),
         ("COMMAND_COUNT_COLLISION_FIRST", Command::CountCollisionFirst as usize),

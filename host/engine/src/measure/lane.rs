@@ -179,6 +179,9 @@ impl Lane {
 
     /// A timed pass is over.
     pub fn end_pass(&mut self, facts: PassFacts) {
+        if let Some(set_up) = self.set_ups.last_mut() {
+            set_up.build_ns += facts.beside_ns;
+        }
         self.passes.push(facts);
         self.sequences.push((self.set_ups.len() - 1, std::mem::take(&mut self.asked)));
     }
