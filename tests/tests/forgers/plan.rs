@@ -90,7 +90,7 @@ pub fn soak(runs: usize) -> Vec<Run> {
             Condition { busy: false, .. } => (algorithms, classes),
             Condition { one_cpu: false, .. } => (every(4, turn / 4, &algorithms), classes),
             Condition { one_cpu: true, .. } => {
-                (every(12, turn / 4, &algorithms), &classes[turn / 4 % classes.len()..][..1])
+                (every(10, turn / 4, &algorithms), &classes[turn / 4 % classes.len()..][..1])
             }
         };
         Run {
@@ -127,7 +127,7 @@ fn slow_ones() -> Vec<&'static str> {
 
 #[test]
 fn a_soak_reaches_every_algorithm_under_all_conditions() {
-    let runs = soak(240);
+    let runs = soak(200);
     for name in kit::all() {
         for (one_cpu, busy) in [(false, false), (false, true), (true, false), (true, true)] {
             let condition = Condition { one_cpu, busy };
