@@ -67,7 +67,7 @@ impl Ledger {
             for found in results.iter().filter(|f| f.class == *class) {
                 let (question, condition) = (run.question, run.condition);
                 let row = Row { name: found.name.clone(), class: *class, question, condition };
-                self.rows.entry(row).or_default().push(entry(found, &twins));
+                self.rows.entry(row).or_default().push(entry(found, &twins, condition.busy));
             }
         }
     }
@@ -84,7 +84,7 @@ impl Ledger {
 /// One of the numbers of a result.
 type Number = fn(&Found) -> Option<f64>;
 
-fn entry(found: &Found, twins: &[&Found]) -> Entry {
+fn entry(found: &Found, twins: &[&Found], busy: bool) -> Entry {
     let ranked = found.rank.is_some();
     let mean = |of: Number| {
         let known: Vec<f64> = twins.iter().filter_map(|twin| of(twin)).collect();
@@ -104,7 +104,8 @@ fn entry(found: &Found, twins: &[&Found]) -> Entry {
         gain: gain(time),
         build_gain: gain(build),
         twin_ns: mean(time),
-        gross: ranked && (halved(time, NO_GAIN_NS) || halved(build, NO_GAIN_MS)),
+        // A build is one stretch of time, which other work may double.
+        gross: ranked && (halved(time, NO_GAIN_NS) || !busy && halved(build, NO_GAIN_MS)),
         ending: found.ending.clone(),
     }
 }

@@ -55,7 +55,7 @@ pub fn slice() -> Vec<Run> {
         twin_of_the_reference: condition == one_cpu,
     };
     let movers = ["mover_warm_up", "mover_constructor", "mover_create", "mover_gaps"];
-    let guesses = ["disturb_all", "disturb_sleep", "truth_last", "adapt_time", "adapt_stack", "early_guess"];
+    let guesses = ["disturb_all", "disturb_sleep", "truth_last", "adapt_time", "adapt_count", "early_guess"];
     let distances = ["disturb_all", "memo_relative", "memo_lengths", "truth_single"];
     vec![
         run(Class::Us20, Question::Collision, QUIET, &[&guesses[..], &movers[..]].concat()),
@@ -82,18 +82,38 @@ pub fn soak(runs: usize) -> Vec<Run> {
     let one = |i: usize| {
         let (classes, question) = parts[i % parts.len()];
         let turn = i / parts.len();
+        let condition = Condition { one_cpu: turn & 1 == 1, busy: turn & 2 == 2 };
         let slow = classes == [Class::Ms7];
+        let algorithms = if slow { slow_ones() } else { kit::all() };
+        // A hand-over costs a time slice where everything waits for its turn, so that few fit into such a run.
+        let (algorithms, classes) = match condition {
+            Condition { busy: false, .. } => (algorithms, classes),
+            Condition { one_cpu: false, .. } => (every(4, turn / 4, &algorithms), classes),
+            Condition { one_cpu: true, .. } => {
+                (every(10, turn / 4, &algorithms), &classes[turn / 4 % classes.len()..][..1])
+            }
+        };
         Run {
             classes: classes.to_vec(),
-            algorithms: if slow { slow_ones() } else { kit::all() },
+            algorithms,
             question,
-            condition: Condition { one_cpu: turn & 1 == 1, busy: turn & 2 == 2 },
-            configurations: if slow { 60 } else { 400 },
+            condition,
+            configurations: match (slow, condition.busy) {
+                (true, _) => 60,
+                (false, true) => 80,
+                (false, false) => 400,
+            },
             seed: i,
             twin_of_the_reference: i % 7 == 6,
         }
     };
     (0..runs).map(one).collect()
+}
+
+/// The honest twins, and of the others one in so many, beginning at another one each turn.
+fn every(step: usize, turn: usize, algorithms: &[&'static str]) -> Vec<&'static str> {
+    let others = algorithms.iter().filter(|name| !HONEST.contains(name)).skip(turn % step).step_by(step);
+    HONEST.iter().chain(others).copied().collect()
 }
 
 /// Enough of each kind where every question takes milliseconds.
@@ -103,4 +123,16 @@ fn slow_ones() -> Vec<&'static str> {
     let others =
         ["mover_warm_up", "mover_gaps", "early_commit", "early_guess", "adapt_time", "adapt_controls", "friend"];
     HONEST.into_iter().chain(some).chain(others).collect()
+}
+
+#[test]
+fn a_soak_reaches_every_algorithm_under_all_conditions() {
+    let runs = soak(200);
+    for name in kit::all() {
+        for (one_cpu, busy) in [(false, false), (false, true), (true, false), (true, true)] {
+            let condition = Condition { one_cpu, busy };
+            let reached = |run: &&Run| run.condition == condition && run.algorithms.contains(&name);
+            assert!(runs.iter().any(|run| reached(&run)), "{name} {condition:?}");
+        }
+    }
 }
