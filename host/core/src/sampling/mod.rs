@@ -2,6 +2,7 @@
 
 mod approach;
 mod closer;
+pub mod controls;
 mod grid;
 mod low_discrepancy;
 mod nearby;
