@@ -120,13 +120,16 @@ pub struct Placed {
 
 /// How far apart, or how deep in each other, the surfaces shall be.
 ///
+/// Each configuration of a set aims at a place of its own in the window, so that no distance is right for all of them.
+///
 /// One rule for all: a wanted *step* `x` of the scene's size S ([`Pair::scene_size`](crate::oracle::Pair::scene_size))
 /// is met by a certified value in `(x S, 2 x S]`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum Separation {
-    /// So far apart, as a share of L (the longest side of A's bounding box), up to `tau32`; at 0 the certified distance
-    /// is in `(2 tau32, 4 tau32]`, the step `2 tau32 / S`, so that the question is fair even in single precision.
+    /// So far apart, as a share of L (the longest side of A's bounding box), within 1 % of it or `tau32`, whichever is
+    /// more; at 0 the certified distance is in `(2 tau32, 4 tau32]`, the step `2 tau32 / S`, so that the question is fair
+    /// even in single precision.
     Relative {
         /// Surface distance divided by L; at least 0.
         distance: f64,

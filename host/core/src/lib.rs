@@ -14,6 +14,7 @@ pub mod colormap;
 pub mod comparison;
 pub mod configuration;
 pub mod export;
+pub mod guessing;
 pub mod heatmap;
 pub mod instance;
 pub mod lod;

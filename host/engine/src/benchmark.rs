@@ -12,6 +12,7 @@ use ocb_core::comparison::{Comparison, compare};
 use ocb_core::configuration::{ConfigurationSet, Method};
 use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
+use ocb_core::sampling::controls::{self, Control};
 use tokio::runtime::Handle;
 
 use crate::columns::{RecordsOf, records_parquet};
@@ -69,6 +70,7 @@ struct Bench<'a> {
 struct All {
     finished: Vec<(usize, Measured)>,
     seed: u64,
+    controls: Vec<Control>,
     /// Configurations of the whole run.
     of: u64,
     preview: Option<Preview>,
@@ -193,8 +195,10 @@ impl Bench<'_> {
         }
         let contestants = self.contestants()?;
         let reference = crate::spec::reference(&self.row.spec, &self.inner.registry);
-        let Some(_right) = self.right_to_measure()? else { return Ok(End::Stopped) };
         let spec = self.row.spec.clone();
+        let (seed, part) = (draw::seed(&self.row, &info.sha256, &contestants), Part::of(&spec, set));
+        let controls = self.controls(pairing, set, seed, part.most(set))?;
+        let Some(_right) = self.right_to_measure()? else { return Ok(End::Stopped) };
         let task = Task {
             mesh_a: &pairing.mesh_a,
             mesh_b: &pairing.mesh_b,
@@ -202,18 +206,18 @@ impl Bench<'_> {
             b: &pairing.b,
             same: pairing.same,
             set,
+            controls: &controls,
             query: spec.query,
             semantics: spec.semantics,
             passes: spec.passes,
             budget: Duration::from_secs_f64(spec.budget_seconds),
-            seed: draw::seed(&self.row, &info.sha256, &contestants),
+            seed,
             contestants: &contestants,
             reference: reference.as_ref(),
-            part: Part::of(&spec, set),
+            part,
         };
         let of = task.part.of;
         let mut preview = None;
-        let seed = task.seed;
         let (sender, news) = mpsc::channel();
         let mut finished: Vec<(usize, Measured)> = Vec::new();
         thread::scope(|scope| -> Result<()> {
@@ -238,7 +242,25 @@ impl Bench<'_> {
         if self.stop.asked() {
             return Ok(End::Stopped);
         }
-        self.keep(pairing, set, info, All { finished, seed, of, preview })
+        self.keep(pairing, set, info, All { finished, seed, controls, of, preview })
+    }
+
+    /// Draws the control questions on all CPUs; fewer when it is stopped meanwhile.
+    fn controls(&self, pairing: &Pairing, set: &ConfigurationSet, seed: u64, most: usize) -> Result<Vec<Control>> {
+        let RunSpec { query, semantics, .. } = self.row.spec;
+        let stopped = || self.stop.asked();
+        thread::scope(|scope| {
+            let mut way = MakingWay::begin(&self.inner.machine);
+            let worker = scope.spawn(|| {
+                let plan = controls::Plan::new(Pair::new(&pairing.a, &pairing.b), set, query, semantics, seed);
+                measure::draw_controls(&plan, set, most, &stopped)
+            });
+            while !worker.is_finished() {
+                thread::sleep(TICK.min(Duration::from_millis(5)));
+                way.look();
+            }
+            worker.join().map_err(|_| EngineError::Fault("Drawing the control questions broke down.".into()))
+        })
     }
 
     /// Stores what was measured; the run fails only when there is nothing to show at all.
@@ -247,13 +269,14 @@ impl Bench<'_> {
         pairing: &Pairing,
         set: &ConfigurationSet,
         info: &SetInfo,
-        All { finished, seed, of, preview }: All,
+        All { finished, seed, controls, of, preview }: All,
     ) -> Result<End> {
         let asked = Asked {
             pair: Pair::new(&pairing.a, &pairing.b),
             placed: &set.placed,
             query: self.row.spec.query,
             semantics: self.row.spec.semantics,
+            controls: &controls,
             coherent: measure::is_coherent(&set.method),
         };
         let algorithms = self.row.spec.algorithms.clone();

@@ -1,5 +1,7 @@
 //! What a run would cost, from what earlier ones did.
 
+use ocb_core::sampling::controls;
+
 use crate::Result;
 use crate::configurations::set_key;
 use crate::engine::Inner;
@@ -27,11 +29,12 @@ pub async fn estimate(inner: &Inner, checked: &Checked) -> Result<Estimate> {
         None => configurations as f64 * nearest(&inner.store.set_rates().await?, triangles, FIRST_CONFIGURATION),
     };
     let measured = configurations.min(spec.at_most.map_or(u64::MAX, u64::from));
+    let asked = measured + controls::count(measured);
     let mut measuring_seconds = Vec::new();
     for contestant in &checked.contestants {
         let algorithm = contestant.info.id.clone();
         let rates = inner.store.result_rates(&algorithm, spec.query).await?;
-        let timed = measured as f64 * f64::from(spec.passes) * nearest(&rates, triangles, FIRST_QUERY);
+        let timed = asked as f64 * f64::from(spec.passes) * nearest(&rates, triangles, FIRST_QUERY);
         let budget_limited = timed > spec.budget_seconds;
         let timed = timed.min(spec.budget_seconds);
         let counters = if contestant.info.counters { timed / f64::from(spec.passes) } else { 0.0 };

@@ -6,16 +6,21 @@
 //! order; an algorithm whose budget ends measures a prefix of it. A trajectory keeps its own order: that each
 //! configuration is near the one before is what it is for.
 //!
+//! Control questions are mixed into every timed pass ([`weave`]). Their numbers follow those of the set's configurations;
+//! they are answered and judged like these, and nothing else is made of them.
+//!
 //! A run that asks for a precision takes the order piece by piece, all rounds of a piece before the next one, and looks
 //! after each whether the comparison is settled ([`ocb_core::sequential`]).
 
 mod contract;
+mod controls;
 mod lane;
 mod order;
 mod preview;
 mod summary;
 mod surplus;
 mod turn;
+mod weave;
 
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -27,6 +32,7 @@ use ocb_core::mesh::Mesh;
 use ocb_core::numbers::Numbers;
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::query::{Query, Semantics};
+use ocb_core::sampling::controls::Control;
 use ocb_core::{sampling, sequential};
 use ocb_sandbox::{Killer, Outcome};
 
@@ -34,9 +40,11 @@ use crate::machine::Machine;
 use crate::model::{OutcomeInfo, Preview, RunSpec};
 use crate::registry::{Contestant, Registry};
 
+pub use controls::draw as draw_controls;
 pub use lane::{Lane, Measured, precision};
 pub use summary::{Asked, environment, rank, summarise};
 use turn::Turn;
+use weave::Piece;
 
 /// Ends the measuring from another thread.
 #[derive(Clone, Default)]
@@ -83,6 +91,8 @@ pub struct Task<'a> {
     pub same: bool,
     /// The configurations with their truth.
     pub set: &'a ConfigurationSet,
+    /// Asked among them, in this order: questions whose answers the set does not give away.
+    pub controls: &'a [Control],
     /// The question.
     pub query: Query,
     /// What counts as an object.
@@ -119,6 +129,11 @@ impl Part {
         let whole = if spec.finding() == spec.method { Ok(found) } else { sampling::count(&spec.method) };
         let at_most = spec.at_most.map_or(usize::MAX, |at_most| at_most as usize);
         Self { precision: spec.precision, at_most, of: whole.unwrap_or(found) }
+    }
+
+    /// Configurations of this set that are measured at most.
+    pub fn most(&self, set: &ConfigurationSet) -> usize {
+        set.placed.len().min(self.at_most)
     }
 }
 
@@ -160,8 +175,8 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
     let _quiet = machine.keep_off();
     let apart = task.reference.filter(|r| task.contestants.iter().all(|c| c.info.id != r.info.id));
     let all = task.contestants.iter().chain(apart);
-    let mut lanes: Vec<Lane> = all.map(|c| Lane::new(c.clone(), &task.slack(c))).collect();
     let n = task.set.placed.len() as u32;
+    let mut lanes: Vec<Lane> = all.map(|c| Lane::new(c.clone(), &task.slack(c), n as usize)).collect();
     let base = if task.coherent() { (0..n).collect() } else { task.stratified() };
     let mut steady = true;
     let (mut measured, mut looks) = (0, 0);
@@ -170,19 +185,21 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
             let process = looks * task.passes + round;
             let shown = task.instance(process);
             for (index, lane) in lanes.iter_mut().enumerate() {
-                let piece = measured..end;
-                let turn = Turn { task, registry, machine, stop, news, index, round, process, piece, shown: &shown };
+                let piece = task.piece(measured, end);
+                let shown = &shown;
+                let turn =
+                    Turn { task, registry, machine, stop, news, index, round, process, base: &base, piece, shown };
                 let part = turn.part(lane);
                 if lane.ended() || part.is_empty() {
                     continue;
                 }
                 let spent = lane.spent;
-                let steal = turn.play(lane, &base[part.clone()]);
+                let steal = turn.play(lane, &part);
                 let cut_now = round == 0 && lane.cut;
                 if steal > STEAL && steady && !cut_now && !stop.asked() {
-                    lane.forget(round, &base[part]);
+                    lane.forget(round, &turn.order(&part));
                     lane.spent = spent;
-                    steady = turn.play(lane, &base[turn.part(lane)]) <= STEAL;
+                    steady = turn.play(lane, &turn.part(lane)) <= STEAL;
                 }
                 if stop.asked() {
                     return;
@@ -196,10 +213,13 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
     }
     let shown = task.as_it_is();
     for (index, lane) in lanes.iter_mut().enumerate().take(task.contestants.len()) {
-        let (round, process, piece) = (task.passes, looks * task.passes, 0..lane.reach);
-        let turn = Turn { task, registry, machine, stop, news, index, round, process, piece, shown: &shown };
+        // What is counted is no time, and controls have no counters.
+        let (round, process, piece) =
+            (task.passes, looks * task.passes, Piece { own: 0..lane.reach.own, controls: 0..0 });
+        let shown = &shown;
+        let turn = Turn { task, registry, machine, stop, news, index, round, process, base: &base, piece, shown };
         if !lane.ended() && lane.contestant.info.counters {
-            turn.play(lane, &base[..lane.reach]);
+            turn.play(lane, &turn.piece);
         }
         if stop.asked() {
             return;
@@ -216,9 +236,32 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
 }
 
 impl Task<'_> {
+    /// Configurations that are measured unless something ends it sooner.
+    fn most(&self) -> usize {
+        self.part.most(self.set)
+    }
+
+    /// This part of the set's order, and the controls that go with it.
+    fn piece(&self, from: usize, to: usize) -> Piece {
+        Piece { own: from..to, controls: self.controls_before(from)..self.controls_before(to) }
+    }
+
+    fn controls_before(&self, own: usize) -> usize {
+        if self.coherent() {
+            return self.controls.partition_point(|control| (control.from as usize) < own);
+        }
+        (own * self.controls.len()).div_ceil(self.most().max(1))
+    }
+
+    /// A configuration of the set, or a control behind all of them.
+    fn placed(&self, number: u32) -> &Placed {
+        let number = number as usize;
+        self.set.placed.get(number).unwrap_or_else(|| &self.controls[number - self.set.placed.len()].placed)
+    }
+
     /// After how many configurations it is looked whether the comparison is settled.
     fn looks(&self) -> Vec<usize> {
-        let most = self.set.placed.len().min(self.part.at_most);
+        let most = self.most();
         self.part.precision.map_or_else(|| vec![most], |_| sequential::looks(most))
     }
 
@@ -230,7 +273,7 @@ impl Task<'_> {
     fn slack(&self, contestant: &Contestant) -> Vec<f64> {
         let (pair, unit) = (Pair::new(self.a, self.b), precision(&contestant.info).unit_roundoff());
         let of = |p: &Placed| 2.0 * pair.tau(&p.configuration, unit) + (p.truth.distance_hi - p.truth.distance_lo);
-        self.set.placed.iter().map(of).collect()
+        self.set.placed.iter().chain(self.controls.iter().map(|control| &control.placed)).map(of).collect()
     }
 
     fn second(&self) -> Option<&Mesh> {
@@ -241,7 +284,8 @@ impl Task<'_> {
         Presentation::original(self.mesh_a, self.second())
     }
 
-    /// The same for all algorithms in their processes of this number.
+    /// The same for all algorithms in their processes of this number. It depends on the set and not on the controls, so that a
+    /// replay, which has only the set, sees the same.
     fn instance(&self, process: u32) -> Presentation {
         let configurations = self.set.placed.iter().map(|placed| &placed.configuration);
         shown(self.mesh_a, self.second(), configurations, self.coherent(), self.seed, process)

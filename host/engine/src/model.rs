@@ -28,6 +28,7 @@ mod suite;
 mod things;
 mod timing;
 mod truth;
+mod unranked;
 mod visibility;
 
 use ocb_core::comparison::Interval;
@@ -70,6 +71,7 @@ pub use suite::{BoardSuite, SuiteInfo, SuiteProgress};
 pub use things::{Thing, Things};
 pub use timing::{Draw, Reference, Timing, TimingCheck};
 pub use truth::{ContactRow, TruthRow};
+pub use unranked::{Controls, Unranked, UnrankedCause};
 pub use visibility::{NewVisibility, Visibility};
 
 /// What to measure.
@@ -350,10 +352,16 @@ pub struct AlgorithmResult {
     /// What it had to deliver for its time; absent in runs of older versions.
     #[serde(default)]
     pub class: Option<ContractClass>,
-    /// Rank by `ratio` within its class, from 1; algorithms whose intervals overlap are tied. Absent for what failed, gave a wrong answer or
-    /// was measured in the development profile.
+    /// Rank by `ratio` within its class, from 1; algorithms whose intervals overlap are tied. Absent for what failed, gave a
+    /// wrong answer, was measured in the development profile, or for what `unranked` says.
     #[serde(default)]
     pub rank: Option<u32>,
+    /// Why there is no rank, where neither the outcome nor the verdicts show it.
+    #[serde(default)]
+    pub unranked: Option<Unranked>,
+    /// What became of the control questions; absent in runs of older versions.
+    #[serde(default)]
+    pub controls: Option<Controls>,
     /// How the passes went, and what the integrity checks found; absent in runs of older versions.
     #[serde(default)]
     pub timing: Option<Timing>,

@@ -5,7 +5,8 @@ use ocb_core::record::Verdict;
 use ocb_core::resolution::{Resolution, Threshold};
 use ocb_engine::Profile;
 use ocb_engine::model::{
-    Agreement, AlgorithmResult, ContactQuality, ContractClass, Estimated, Preview, RunInfo, RunSpec, SetInfo, Timing,
+    Agreement, AlgorithmResult, ContactQuality, ContractClass, Controls, Estimated, Preview, RunInfo, RunSpec, SetInfo,
+    Timing,
 };
 
 use crate::{output, plugin, run, units};
@@ -41,11 +42,13 @@ pub fn summary(run: &RunInfo) -> String {
         text.extend(run.environment.as_ref().and_then(|machine| machine.reference.as_ref()).map(|reference| {
             format!(
                 "Ranks go by the mean ratio to {} on the same configurations in the same rounds, within one class; overlapping \
-                 intervals (95 %, over the processes) are ties. What failed or was wrong has no rank.",
+                 intervals (95 %, over the processes) are ties. What failed or was wrong, on control questions as well, \
+                 has no rank.",
                 reference.algorithm
             )
         }));
         text.extend(classes(&run.results));
+        text.extend(controls(&run.results));
         text.push(
             "eps* is the largest distance or margin, as a share of the scene's size, at which an answer is wrong; with <, \
              none is, down to this."
@@ -81,6 +84,16 @@ fn classes(results: &[AlgorithmResult]) -> Vec<String> {
         }
     }
     classes.iter().map(|(class, members)| format!("Class {}: {}.", class.words(), members.join(", "))).collect()
+}
+
+/// Of the algorithms the one of which the fewest controls are known.
+fn controls(results: &[AlgorithmResult]) -> Option<String> {
+    let least = results.iter().filter(|r| r.n > 0).filter_map(|r| r.controls).min_by_key(|controls| controls.n)?;
+    let Controls { n, crossing, guess, .. } = least;
+    Some(format!(
+        "At least {n} control questions, {crossing} of them colliding, were mixed in and are in no number but the ranks: a \
+         plugin that guesses half of its answers keeps its rank with a probability of at most {guess:.1e}."
+    ))
 }
 
 fn title(run: &RunInfo) -> String {
@@ -191,6 +204,7 @@ fn note(result: &AlgorithmResult) -> Option<String> {
     if result.outcome.name != "Completed" {
         parts.push(result.outcome.message.clone());
     }
+    parts.extend(result.unranked.iter().map(|unranked| format!("no rank: {}", unranked.message.trim_end_matches('.'))));
     if result.budget_limited {
         parts.push(format!("the time budget sufficed for {} of {} configurations", result.n, result.of));
     }

@@ -51,6 +51,8 @@ struct Root {
 
 /// One ray: B's rotation, and where it stands after a way.
 struct Ray<'r> {
+    /// With the place that this ray aims at.
+    window: Window,
     direction: &'r Vector3<f64>,
     rotation: &'r Matrix3<f64>,
     /// B's translation at the start.
@@ -80,17 +82,17 @@ impl<'a> Approach<'a> {
         Self { pair, centre_a, centre_b, start, window }
     }
 
-    /// The first position on the ray with the wanted distance, certified; `None` when there is none.
-    pub(super) fn place(&self, direction: &Vector3<f64>, rotation: &Matrix3<f64>) -> Option<Placed> {
+    /// The first position on the ray at this place of the window, certified; `None` when there is none.
+    pub(super) fn place(&self, direction: &Vector3<f64>, rotation: &Matrix3<f64>, place: f64) -> Option<Placed> {
         let from = self.centre_a.coords + direction * self.start - rotation * self.centre_b.coords;
-        let ray = Ray { direction, rotation, from, length: 2.0 * self.start };
+        let ray = Ray { window: self.window.at(place), direction, rotation, from, length: 2.0 * self.start };
         let found = self.first_root(&ray)?;
         let mut root = found.root;
         // The matrix is rounded and the wanted distance changes with the way: a correction or two may be needed.
         for _ in 0..4 {
             let configuration = ray.configuration(root.way);
             let truth = self.pair.truth_among(&configuration, &found.pairs, found.beyond(root.way));
-            let (wanted, tau) = self.wanted(&configuration);
+            let (wanted, tau) = self.wanted(&ray, &configuration);
             if within(&truth, wanted, tau) {
                 return Some(Placed { configuration, truth, root_index: 0, wanted: Some(self.window.separation) });
             }
@@ -102,9 +104,9 @@ impl<'a> Approach<'a> {
         self.advance(&ray)
     }
 
-    /// The wanted distance in a configuration, and the half-width of the window around it.
-    fn wanted(&self, configuration: &Configuration) -> (f64, f64) {
-        self.window.middle(self.pair.scene_size(configuration))
+    /// The wanted distance in a configuration, and how far it may be missed.
+    fn wanted(&self, ray: &Ray, configuration: &Configuration) -> (f64, f64) {
+        ray.window.aim(self.pair.scene_size(configuration))
     }
 
     /// The smallest way after which some pair of triangles is the wanted distance apart.
@@ -117,7 +119,7 @@ impl<'a> Approach<'a> {
         let frame = Frame::new(a.tree(), &start.pose_a, b.tree(), &start.pose_b, size)?;
         // The band grows with the translation, which is longest at an end of the ray.
         let floor = [0.0, ray.length].map(|way| {
-            let (wanted, tau) = self.wanted(&ray.configuration(way));
+            let (wanted, tau) = self.wanted(ray, &ray.configuration(way));
             wanted + 0.01 * tau
         });
         let floor = floor[0].max(floor[1]);
@@ -172,7 +174,7 @@ impl<'a> Approach<'a> {
             let (pa, pb) = closest_points(&a, &moved);
             let between = pb - pa;
             let distance = between.norm();
-            let (wanted, tau) = self.wanted(&ray.configuration(way));
+            let (wanted, tau) = self.wanted(ray, &ray.configuration(way));
             let excess = distance - wanted;
             // B moves against the direction.
             let slope = -between.dot(ray.direction) / distance;
@@ -197,7 +199,7 @@ impl<'a> Approach<'a> {
         for _ in 0..2_000 {
             let configuration = ray.configuration(way);
             let truth = self.pair.truth_near(&configuration, near);
-            let (wanted, tau) = self.wanted(&configuration);
+            let (wanted, tau) = self.wanted(ray, &configuration);
             if within(&truth, wanted, tau) {
                 return Some(Placed { configuration, truth, root_index: 0, wanted: Some(self.window.separation) });
             }

@@ -25,7 +25,7 @@ pub(super) fn closer(pair: &Pair, from: &Placed, direction: &Vector3<f64>, windo
     let mut configuration = from.configuration;
     let mut near = [from.truth.witness.triangle_a, from.truth.witness.triangle_b];
     for _ in 0..MOST_LOOKS {
-        let (wanted, _) = window.middle(pair.scene_size(&configuration));
+        let (wanted, _) = window.aim(pair.scene_size(&configuration));
         let mut way = outside + (distance - wanted) / slope;
         if let Some(inside) = inside
             && way >= inside
@@ -34,7 +34,7 @@ pub(super) fn closer(pair: &Pair, from: &Placed, direction: &Vector3<f64>, windo
         }
         configuration.pose_b.translation = from.configuration.pose_b.translation - direction * way;
         let truth = pair.truth_near(&configuration, Some(near));
-        let (wanted, half) = window.middle(pair.scene_size(&configuration));
+        let (wanted, half) = window.aim(pair.scene_size(&configuration));
         if within(&truth, wanted, half) {
             return Some(Placed { configuration, truth, wanted: Some(window.separation), ..*from });
         }

@@ -12,9 +12,9 @@ use std::f64::consts::PI;
 use nalgebra::{Matrix3, Vector3};
 
 use super::approach::{ball, bounds};
-use super::low_discrepancy::{mix, placement};
+use super::low_discrepancy::{mix, placement, share};
 use super::paper_pattern::{Pattern, Rows, turns};
-use super::placer::{Descent, Placer};
+use super::placer::{Descent, Placer, Target};
 use super::{Found, SamplingError};
 use crate::configuration::{Configuration, Placed, Sampling, Separation};
 use crate::oracle::Shape;
@@ -131,14 +131,14 @@ impl<'a> Plan<'a> {
 
     /// The same; `None` when it was stopped.
     fn place_unless(&self, number: u64, stopped: &dyn Fn() -> bool) -> Option<Found> {
-        let (offset, rotation) = match &self.pattern {
-            Some(pattern) => (Vector3::repeat(0.5), pattern.sample(number).1),
-            None => placement(number, self.seed),
+        let (seed, (offset, rotation)) = match &self.pattern {
+            Some(pattern) => (0, (Vector3::repeat(0.5), pattern.sample(number).1)),
+            None => (self.seed, placement(number, self.seed)),
         };
         let (corner, [nx, ny, nz]) = self.nodes(&rotation);
         let turned_centre = rotation * self.centre_b;
         let near = self.spacing / 4.0;
-        let mut kept: Vec<(u64, Descent)> = Vec::new();
+        let mut kept: Vec<(Target, Descent)> = Vec::new();
         for node in (0..nx * ny * nz).filter(|node| mix(number, *node).is_multiple_of(self.stride)) {
             if stopped() {
                 return None;
@@ -146,26 +146,26 @@ impl<'a> Plan<'a> {
             let cell = Vector3::new((node % nx) as f64, (node / nx % ny) as f64, (node / nx / ny) as f64);
             let translation = corner + (cell + offset) * self.spacing - turned_centre;
             let start = Configuration { pose_a: Pose::identity(), pose_b: Pose { linear: rotation, translation } };
-            let index = number + node;
-            if let Some(descent) = self.placer.descend(index, &start, REACH * self.spacing) {
+            let target = Target { index: number + node, place: share(mix(seed, number), node) };
+            if let Some(descent) = self.placer.descend(target, &start, REACH * self.spacing) {
                 let at = descent.placed.configuration.pose_b.translation;
-                let goal = self.placer.goal_number(index);
+                let goal = self.placer.goal_number(target);
                 let known = kept.iter().any(|(other, d)| {
                     let apart = d.placed.configuration.pose_b.translation - at;
                     self.placer.goal_number(*other) == goal && apart.norm() < near
                 });
                 if !known {
-                    kept.push((index, descent));
+                    kept.push((target, descent));
                 }
             }
         }
         let mut found = Found::default();
-        for (index, descent) in kept {
+        for (target, descent) in kept {
             if stopped() {
                 return None;
             }
             let from_centre = descent.placed.configuration.pose_b.translation + turned_centre - self.centre_a;
-            match self.placer.arrive(index, &descent, &from_centre, 0.01 * self.spacing) {
+            match self.placer.arrive(target, &descent, &from_centre, 0.01 * self.spacing) {
                 Some(placed) => found.placed.push(placed),
                 None => found.missed += 1,
             }

@@ -41,6 +41,11 @@ pub(super) fn mix(x: u64, y: u64) -> u64 {
     scramble(scramble(x.wrapping_add(GOLDEN)) ^ y.wrapping_mul(GOLDEN))
 }
 
+/// A number in [0, 1) that looks like a random one of these two.
+pub(super) fn share(x: u64, y: u64) -> f64 {
+    (mix(x, y) >> 11) as f64 / (1u64 << 53) as f64
+}
+
 /// One of 2^53 shifts in [0, 1) (Steele, Lea and Flood 2014, SplitMix64).
 fn splitmix(state: &mut u64) -> f64 {
     *state = state.wrapping_add(GOLDEN);

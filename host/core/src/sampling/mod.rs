@@ -2,6 +2,7 @@
 
 mod approach;
 mod closer;
+pub mod controls;
 mod grid;
 mod low_discrepancy;
 mod nearby;
@@ -21,7 +22,7 @@ pub use number::count;
 pub use placer::check as check_separation;
 
 /// Changes whenever the same request gives other configurations.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 /// No set has more configurations than this.
 pub const MAX_CONFIGURATIONS: u64 = 10_000_000;

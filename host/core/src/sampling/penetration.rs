@@ -17,8 +17,10 @@ const DEEPEST: f64 = 10.0;
 const LEAST_SPEED: f64 = 0.25;
 
 /// From a position just outside, B moving against `direction`, to one whose crossing margin is in
-/// `(step S, 2 step S]`, or else to the one with the largest margin below; `None` when no crossing is certain.
-pub(super) fn deepen(pair: &Pair, outside: &Placed, direction: &Vector3<f64>, step: f64) -> Option<Placed> {
+/// `(step S, 2 step S]`, looked for from `place` in it on, or else to the one with the largest margin below; `None` when no crossing is certain.
+pub(super) fn deepen(pair: &Pair, outside: &Placed, direction: &Vector3<f64>, step: f64, place: f64) -> Option<Placed> {
+    // In wanted margins, a little inside the window.
+    let aim = 1.1 + 0.8 * place;
     let at = |way: f64| {
         let mut configuration = outside.configuration;
         configuration.pose_b.translation -= direction * way;
@@ -32,7 +34,7 @@ pub(super) fn deepen(pair: &Pair, outside: &Placed, direction: &Vector3<f64>, st
     // The margin is about half the depth.
     let (mut lower, mut lower_value) = (0.0, -truth.distance_hi / 2.0);
     let mut upper: Option<(f64, f64)> = None;
-    let mut way = (truth.distance_hi + 3.0 * least) / speed;
+    let mut way = (truth.distance_hi + 2.0 * aim * least) / speed;
     let mut best: Option<(f64, Configuration)> = None;
     for _ in 0..MOST_LOOKS {
         let configuration = at(way);
@@ -55,7 +57,7 @@ pub(super) fn deepen(pair: &Pair, outside: &Placed, direction: &Vector3<f64>, st
         }
         way = match upper {
             Some((upper, upper_value)) => {
-                let share = (1.5 * least - lower_value) / (upper_value - lower_value);
+                let share = (aim * least - lower_value) / (upper_value - lower_value);
                 lower + (upper - lower) * share.clamp(0.1, 0.9)
             }
             None if way >= limit => break,

@@ -60,21 +60,21 @@ impl<'a> Placer<'a> {
         Ok(Self { pair: Pair::new(a, b), goals })
     }
 
-    /// Configuration `index` on a ray through the centres of both bounding boxes, from outside.
-    pub(super) fn place(&self, index: u64, direction: &Vector3<f64>, rotation: &Matrix3<f64>) -> Option<Placed> {
-        let goal = self.goal(index);
-        let mut placed = goal.approach.place(direction, rotation)?;
+    /// The target of a ray through the centres of both bounding boxes, from outside.
+    pub(super) fn place(&self, target: Target, direction: &Vector3<f64>, rotation: &Matrix3<f64>) -> Option<Placed> {
+        let goal = self.goal(target);
+        let mut placed = goal.approach.place(direction, rotation, target.place)?;
         if goal.coarse {
-            placed = closer(&self.pair, &placed, direction, &goal.window)?;
+            placed = closer(&self.pair, &placed, direction, &goal.window.at(target.place))?;
         }
-        self.finish(goal, placed, direction)
+        self.finish(target, placed, direction)
     }
 
-    /// Configuration `index` from a start that is free and nearer to the goal than `reach`: B goes straight toward A's
+    /// The target from a start that is free and nearer to the goal than `reach`: B goes straight toward A's
     /// nearest point, and the nearest points go toward each other. `None` when the start is not such a place.
-    pub(super) fn descend(&self, index: u64, start: &Configuration, reach: f64) -> Option<Descent> {
-        let goal = self.goal(index);
-        let (wanted, half) = goal.window.middle(self.pair.scene_size(start));
+    pub(super) fn descend(&self, target: Target, start: &Configuration, reach: f64) -> Option<Descent> {
+        let window = self.goal(target).window.at(target.place);
+        let (wanted, half) = window.aim(self.pair.scene_size(start));
         let most = wanted + half + reach;
         let Nearby::At { distance, direction, pair } = look(&self.pair, start, wanted + half, most) else {
             return None;
@@ -85,9 +85,9 @@ impl<'a> Placer<'a> {
             let mut configuration = *start;
             configuration.pose_b.translation -= direction * way;
             let truth = self.pair.truth_near(&configuration, Some(pair));
-            let (wanted, half) = goal.window.middle(self.pair.scene_size(&configuration));
+            let (wanted, half) = window.aim(self.pair.scene_size(&configuration));
             if within(&truth, wanted, half) {
-                let placed = Placed { configuration, truth, root_index: 0, wanted: Some(goal.window.separation) };
+                let placed = Placed { configuration, truth, root_index: 0, wanted: Some(window.separation) };
                 return Some(Descent { placed, direction });
             }
             way += (truth.distance_lo + truth.distance_hi) / 2.0 - wanted;
@@ -98,19 +98,18 @@ impl<'a> Placer<'a> {
     /// From a descent to the goal, and whether the position is the first of its ray through the centres.
     pub(super) fn arrive(
         &self,
-        index: u64,
+        target: Target,
         descent: &Descent,
         from_centre: &Vector3<f64>,
         near: f64,
     ) -> Option<Placed> {
-        let goal = self.goal(index);
         let mut placed = descent.placed;
         let pose = &placed.configuration.pose_b;
         let direction = from_centre.try_normalize(0.0).unwrap_or_else(Vector3::z);
-        let first = goal.approach.place(&direction, &pose.linear);
+        let first = self.goal(target).approach.place(&direction, &pose.linear, target.place);
         let is_first = first.is_some_and(|f| (f.configuration.pose_b.translation - pose.translation).norm() <= near);
         placed.root_index = u32::from(!is_first);
-        self.finish(goal, placed, &descent.direction)
+        self.finish(target, placed, &descent.direction)
     }
 
     /// The largest distance that is looked for, in a scene of this size S.
@@ -118,21 +117,30 @@ impl<'a> Placer<'a> {
         self.goals.iter().map(|goal| goal.window.most(size)).fold(0.0, f64::max)
     }
 
-    /// Which of the goals configuration `index` has.
-    pub(super) fn goal_number(&self, index: u64) -> u64 {
-        index % self.goals.len() as u64
+    /// Which of the goals a target is.
+    pub(super) fn goal_number(&self, target: Target) -> u64 {
+        target.index % self.goals.len() as u64
     }
 
-    fn goal(&self, index: u64) -> &Goal<'a> {
-        &self.goals[self.goal_number(index) as usize]
+    fn goal(&self, target: Target) -> &Goal<'a> {
+        &self.goals[self.goal_number(target) as usize]
     }
 
-    fn finish(&self, goal: &Goal, placed: Placed, direction: &Vector3<f64>) -> Option<Placed> {
-        match goal.depth {
-            Some(depth) => deepen(&self.pair, &placed, direction, depth),
+    fn finish(&self, target: Target, placed: Placed, direction: &Vector3<f64>) -> Option<Placed> {
+        match self.goal(target).depth {
+            Some(depth) => deepen(&self.pair, &placed, direction, depth, target.place),
             None => Some(placed),
         }
     }
+}
+
+/// What one configuration shall meet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Target {
+    /// Its number, which says the step of the ladder.
+    pub(super) index: u64,
+    /// Where in the window, from 0 to 1.
+    pub(super) place: f64,
 }
 
 /// Where B came from a free start.

@@ -2,9 +2,9 @@
 //! apart, or as deep in each other, as wanted [OpenCollBench 2020, 3.1; Trenkel 2007].
 
 use super::SamplingError;
-use super::low_discrepancy::{self, Sample};
+use super::low_discrepancy::{self, Sample, share};
 use super::paper_pattern::Pattern;
-use super::placer::Placer;
+use super::placer::{Placer, Target};
 use crate::configuration::{Placed, Sampling, Separation};
 use crate::oracle::Shape;
 
@@ -42,10 +42,12 @@ impl<'a> Plan<'a> {
     /// A stands where its file puts it; B is rotated about the centre of its bounding box, which moves along a ray through
     /// the centre of A's.
     pub(super) fn place(&self, index: u64) -> Option<Placed> {
-        let (direction, rotation): Sample = match &self.pattern {
-            Some(pattern) => pattern.sample(index),
-            None => low_discrepancy::sample(index, self.seed),
+        // The paper's pattern has no seed.
+        let (seed, (direction, rotation)): (u64, Sample) = match &self.pattern {
+            Some(pattern) => (0, pattern.sample(index)),
+            None => (self.seed, low_discrepancy::sample(index, self.seed)),
         };
-        self.placer.place(index, &direction, &rotation)
+        let target = Target { index, place: share(seed, index) };
+        self.placer.place(target, &direction, &rotation)
     }
 }

@@ -135,8 +135,22 @@ fn why_not(best: &[&Measured], of: u32) -> Option<String> {
     if (best.len() as u32) < of {
         return Some(format!("Measured on {} of {of} scenarios: its speed does not compare.", best.len()));
     }
-    let wrong: u32 = best.iter().map(|m| m.result.wrong).sum();
-    (wrong > 0).then(|| WRONG.to_owned())
+    let wrong = best.iter().any(|m| m.result.wrong > 0);
+    match best.iter().find_map(|m| m.result.unranked.as_ref()) {
+        Some(unranked) if !wrong || !is_typical(best) => Some(unranked.message.clone()),
+        _ => wrong.then(|| WRONG.to_owned()),
+    }
+}
+
+/// Its share of wrong answers tells what it is worth: of the control questions it did not answer far more wrongly than of the
+/// others. Where it did, its mark in the chart would be a lie.
+fn is_typical(best: &[&Measured]) -> bool {
+    const FAR_MORE: f64 = 4.0;
+    let sum = |of: &dyn Fn(&AlgorithmResult) -> u32| best.iter().map(|m| f64::from(of(&m.result))).sum::<f64>();
+    let share = |wrong: f64, n: f64| wrong / n.max(1.0);
+    let (controls, wrong_controls) =
+        (|r: &AlgorithmResult| r.controls.map_or(0, |c| c.n), |r: &AlgorithmResult| r.controls.map_or(0, |c| c.wrong));
+    share(sum(&wrong_controls), sum(&controls)) <= FAR_MORE * share(sum(&|r| r.wrong), sum(&|r| r.n))
 }
 
 /// Wrong answers take the place away, but not the mark in the chart.

@@ -8,12 +8,13 @@ use ocb_core::configuration::Placed;
 use ocb_core::instance::{AskedAs, Instance};
 use ocb_core::oracle::Pair;
 use ocb_core::query::{Answer, Counters, Query, Semantics};
-use ocb_core::record::Record;
+use ocb_core::record::{Record, Verdict};
 use ocb_core::statistics::Statistic;
 use ocb_core::validation::{Judged, Precision, Terms, judge};
 use ocb_sandbox::{ClockFacts, Ending, Observation, Outcome, PassFacts, Session, SetUp, integrity};
 use rayon::prelude::*;
 
+use super::weave::Reach;
 use super::{outcome_info, surplus};
 use crate::model::{AlgorithmInfo, OutcomeInfo};
 use crate::registry::Contestant;
@@ -23,14 +24,16 @@ pub struct Lane {
     /// The algorithm.
     pub contestant: Arc<Contestant>,
     /// How far into the shared order it came.
-    pub reach: usize,
+    pub reach: Reach,
     /// The budget let it come no further.
     pub cut: bool,
     /// Questions answered.
     pub done: u64,
     /// Wall time of its timed passes.
     pub spent: Duration,
+    /// Configurations of the set, and the controls behind them.
     cells: Vec<Cell>,
+    own: usize,
     unjudged: Vec<(u32, AskedAs, Answer)>,
     passes: Vec<PassFacts>,
     /// What the process under way was asked undisturbed, with the times.
@@ -44,7 +47,7 @@ pub struct Lane {
     outcome: Option<OutcomeInfo>,
 }
 
-/// One configuration.
+/// One configuration, or one control.
 #[derive(Default)]
 struct Cell {
     /// Round and official time, nanoseconds.
@@ -93,6 +96,8 @@ pub struct Measured {
     pub contestant: Arc<Contestant>,
     /// In the order of the set; only what was reached.
     pub records: Vec<Record>,
+    /// Of every control the gravest verdict; absent where it was not asked.
+    pub controls: Vec<Option<Verdict>>,
     /// Configurations in the set.
     pub of: usize,
     /// How the runner ended; absent when it did all that was asked.
@@ -116,15 +121,17 @@ pub struct Measured {
 }
 
 impl Lane {
-    /// Nothing measured yet. There is one `slack` for each configuration: how far two right distances may lie apart.
-    pub fn new(contestant: Arc<Contestant>, slack: &[f64]) -> Self {
+    /// Nothing measured yet. There is one `slack` for each configuration, of which the first `own` are the set's: how far two
+    /// right distances may lie apart.
+    pub fn new(contestant: Arc<Contestant>, slack: &[f64], own: usize) -> Self {
         Self {
             contestant,
-            reach: 0,
+            reach: Reach::default(),
             cut: false,
             done: 0,
             spent: Duration::ZERO,
             cells: slack.iter().map(|&slack| Cell { slack, ..Cell::default() }).collect(),
+            own,
             unjudged: Vec::new(),
             asked: Vec::new(),
             sequences: Vec::new(),
@@ -221,16 +228,22 @@ impl Lane {
 
     /// Compares the new answers with the truth, on the CPUs that do not measure. The gravest verdict of all passes
     /// stands; an algorithm that is right only sometimes is not right.
-    pub fn judge(&mut self, pair: &Pair, placed: &[Placed], query: Query, semantics: Semantics) {
+    pub fn judge<'p>(
+        &mut self,
+        pair: &Pair,
+        placed: impl Fn(u32) -> &'p Placed + Sync,
+        query: Query,
+        semantics: Semantics,
+    ) {
         let terms = Terms { query, semantics, precision: precision(&self.contestant.info) };
         let judged: Vec<Judged> =
-            self.unjudged.par_iter().map(|(i, _, answer)| judge(pair, &placed[*i as usize], terms, answer)).collect();
+            self.unjudged.par_iter().map(|(i, _, answer)| judge(pair, placed(*i), terms, answer)).collect();
         for ((i, asked, answer), judged) in self.unjudged.drain(..).zip(judged) {
             self.cells[i as usize].keep(asked, answer, judged);
         }
     }
 
-    /// It may have a place: it has not died, and no answer so far was wrong or missing.
+    /// It may have a place: it has not died, and no answer so far, to a control or to another, was wrong or missing.
     pub fn fair(&self) -> bool {
         let fair = |(_, judged): &(Answer, Judged)| !judged.verdict.is_wrong() && !judged.verdict.is_silent();
         !self.ended() && self.cells.iter().filter_map(|cell| cell.judged.as_ref()).all(fair)
@@ -238,12 +251,12 @@ impl Lane {
 
     /// The official times so far, with the round of each, by configuration.
     pub fn times(&self) -> Vec<Vec<(u32, f64)>> {
-        self.cells.iter().map(|cell| cell.official().to_vec()).collect()
+        self.cells[..self.own].iter().map(|cell| cell.official().to_vec()).collect()
     }
 
     /// The answers that stand for its configurations.
     pub fn answers(&self) -> impl Iterator<Item = &Answer> {
-        self.cells.iter().filter_map(|cell| cell.judged.as_ref()).map(|(answer, _)| answer)
+        self.cells[..self.own].iter().filter_map(|cell| cell.judged.as_ref()).map(|(answer, _)| answer)
     }
 
     /// The medians over the passes. Times that do not fit together are not believed, and that is its outcome.
@@ -251,12 +264,14 @@ impl Lane {
         if let (None, Some(finding)) = (&self.outcome, integrity::violated(&self.passes)) {
             self.end(outcome_info(&Outcome::TimingIntegrity { finding }));
         }
-        let of = self.cells.len();
+        let of = self.own;
         let queries: usize = self.cells.iter().map(|c| c.times.len() + c.late.len()).sum();
         for (process, asked) in &self.sequences {
             let usual = |configuration: u32| surplus::usual(&self.cells[configuration as usize].times);
             self.set_ups[*process].build_ns += surplus::surplus_ns(asked, usual);
         }
+        let verdict = |cell: Cell| cell.judged.map(|(_, judged)| judged.verdict);
+        let controls = self.cells.split_off(of).into_iter().map(verdict).collect();
         let (mut records, mut times) = (Vec::new(), Vec::with_capacity(of));
         for (configuration, cell) in (0..).zip(self.cells) {
             let official = cell.official().to_vec();
@@ -284,6 +299,7 @@ impl Lane {
             budget_limited: self.outcome.is_none() && self.cut,
             contestant: self.contestant,
             records,
+            controls,
             of,
             outcome: self.outcome,
             set_ups: self.set_ups,

@@ -6,14 +6,15 @@ use ocb_core::oracle::Pair;
 use ocb_core::query::{Answer, Query, Semantics};
 use ocb_core::record::{ContactScore, Record, Verdict};
 use ocb_core::resolution::Resolution;
+use ocb_core::sampling::controls::Control;
 use ocb_core::statistics::{Statistic, maximum_interval, quantile, quantile_interval};
 use ocb_core::validation::Terms;
 
 use ocb_sandbox::{PassFacts, Profile, SetUp, integrity};
 
-use super::Measured;
 use super::contract::contract;
 use super::lane::precision;
+use super::{Measured, controls};
 use crate::machine::Machine;
 use crate::model::{
     Agreement, AlgorithmInfo, AlgorithmResult, ContactQuality, ContractClass, Draw, Environment, Estimated,
@@ -31,6 +32,8 @@ pub struct Asked<'a> {
     pub query: Query,
     /// What counts as an object.
     pub semantics: Semantics,
+    /// Asked among them.
+    pub controls: &'a [Control],
     /// Asked in the order of a trajectory.
     pub coherent: bool,
 }
@@ -38,7 +41,8 @@ pub struct Asked<'a> {
 /// The numbers of one algorithm.
 pub fn summarise(measured: &Measured, asked: Asked, compared: Option<Comparison>) -> AlgorithmResult {
     let records = &measured.records;
-    let Asked { pair, placed, query, semantics, coherent } = asked;
+    let Asked { pair, placed, query, semantics, coherent, .. } = asked;
+    let controls = controls::summary(&measured.controls, &asked);
     let terms = Terms { query, semantics, precision: precision(&measured.contestant.info) };
     let completed = || OutcomeInfo {
         name: "Completed".into(),
@@ -66,6 +70,9 @@ pub fn summarise(measured: &Measured, asked: Asked, compared: Option<Comparison>
         ratio: compared.and_then(|compared| compared.ratio).map(Estimated::from),
         class: Some(contract(&measured.contestant, records.iter().map(|r| &r.answer), query, coherent)),
         rank: None,
+        // Of one that failed the outcome says enough.
+        unranked: controls::unranked(&controls).filter(|_| measured.outcome.is_none()),
+        controls: Some(controls),
         timing: Some(timing(&measured.passes)),
         verdicts: verdicts(measured),
         wrong: records.iter().filter(|r| r.verdict.is_wrong()).count() as u32,
@@ -151,12 +158,13 @@ fn timing(passes: &[PassFacts]) -> Timing {
     }
 }
 
-/// Ranks what may be ranked, each contract class for itself: every question answered, nothing wrong, under all layers of the
-/// jail.
+/// Ranks what may be ranked, each contract class for itself: every question answered, control questions included, nothing
+/// wrong, under all layers of the jail.
 pub fn rank(results: &mut [AlgorithmResult], profile: Profile) {
     let fair = |r: &AlgorithmResult| {
         let silent = r.verdicts.iter().any(|v| v.verdict.is_silent());
-        profile == Profile::Production && r.outcome.name == "Completed" && r.n > 0 && r.wrong == 0 && !silent
+        let completed = r.outcome.name == "Completed" && r.unranked.is_none();
+        profile == Profile::Production && completed && r.n > 0 && r.wrong == 0 && !silent
     };
     let ratio =
         |r: &AlgorithmResult| r.ratio.filter(|_| fair(r)).map(|r| Interval { value: r.value, lo: r.lo, hi: r.hi });

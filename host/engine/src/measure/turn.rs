@@ -1,6 +1,6 @@
 //! One algorithm's pass in a fresh process.
 
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
 use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
 
@@ -8,6 +8,7 @@ use ocb_core::instance::{Instance, Presentation};
 use ocb_core::oracle::Pair;
 use ocb_sandbox::{Killer, Observation, Outcome, PassPlan, Policy, Session, Trial};
 
+use super::weave::{self, Piece, Reach};
 use super::{Lane, News, Stop, Task, order, outcome_info};
 use crate::machine::Machine;
 use crate::model::OutcomeInfo;
@@ -34,28 +35,43 @@ pub struct Turn<'a> {
     pub round: u32,
     /// Number of the process: pieces of the order come one after the other, with all rounds each.
     pub process: u32,
-    /// Where the piece of the order lies.
-    pub piece: Range<usize>,
+    /// The set's order.
+    pub base: &'a [u32],
+    /// Where the piece of it lies, and of the controls.
+    pub piece: Piece,
     /// How the process sees the objects.
     pub shown: &'a Presentation,
 }
 
 impl Turn<'_> {
     /// What of the piece this algorithm is asked; the first round finds out how far it comes.
-    pub fn part(&self, lane: &Lane) -> Range<usize> {
+    pub fn part(&self, lane: &Lane) -> Piece {
         match self.round {
             0 if !lane.cut => self.piece.clone(),
-            _ => self.piece.start..lane.reach.max(self.piece.start),
+            _ => self.piece.before(lane.reach),
         }
     }
 
+    /// The questions of a part, in the order in which this process is asked.
+    pub fn order(&self, part: &Piece) -> Vec<u32> {
+        let (task, process) = (self.task, self.process);
+        let (own, n) = (&self.base[part.own.clone()], task.set.placed.len());
+        let controls: Vec<u32> = part.controls.clone().map(|control| (n + control) as u32).collect();
+        if task.coherent() {
+            return weave::behind(own, &controls, |control| task.controls[control as usize - n].from);
+        }
+        // Both are drawn anew, so that no question always follows the same one.
+        let seed = task.process_seed(process).rotate_left(2);
+        if self.round == 0 {
+            return weave::evenly(own, &controls, seed);
+        }
+        let again = |part: &[u32]| order::reshuffled(part, task.seed, process);
+        weave::evenly(&again(own), &again(&controls), seed)
+    }
+
     /// The share of the time that was taken from the runner's CPU.
-    pub fn play(&self, lane: &mut Lane, part: &[u32]) -> f64 {
-        let order = if self.round == 0 || self.task.coherent() {
-            part.to_vec()
-        } else {
-            order::reshuffled(part, self.task.seed, self.process)
-        };
+    pub fn play(&self, lane: &mut Lane, part: &Piece) -> f64 {
+        let order = self.order(part);
         self.report(lane);
         // From before the start, so that a long build can be stopped as well.
         let killer = Killer::default();
@@ -78,13 +94,17 @@ impl Turn<'_> {
         self.stop.watch(None);
         let ending = session.finish();
         if self.round == 0 {
-            (lane.reach, lane.cut) = (self.piece.start + reached, lane.cut || reached < part.len());
+            let n = self.task.set.placed.len();
+            let own = order[..reached].iter().filter(|number| (**number as usize) < n).count();
+            let controls = self.piece.controls.start + reached - own;
+            lane.reach = Reach { own: self.piece.own.start + own, controls };
+            lane.cut |= reached < part.len();
         }
         lane.end_turn(&ending);
         if ending.outcome != Outcome::Completed {
             lane.end(outcome_info(&ending.outcome));
         }
-        let placed = &self.task.set.placed;
+        let placed = |number| self.task.placed(number);
         lane.judge(&Pair::new(self.task.a, self.task.b), placed, self.task.query, self.task.semantics);
         self.report(lane);
         steal
@@ -92,7 +112,6 @@ impl Turn<'_> {
 
     /// A timed pass: how far it came, and the share of stolen time.
     fn time(&self, session: &mut Session, lane: &mut Lane, order: &[u32]) -> (usize, f64) {
-        let placed = &self.task.set.placed;
         let plan = PassPlan {
             query: self.task.query,
             order,
@@ -101,7 +120,7 @@ impl Turn<'_> {
             allowance: self.allowance(lane),
         };
         let present = |configuration: u32, instance: Instance| {
-            self.shown.present(&placed[configuration as usize].configuration, configuration, instance)
+            self.shown.present(&self.task.placed(configuration).configuration, configuration, instance)
         };
         let mut reported = Instant::now();
         let mut each = |seen: Observation| {
@@ -120,7 +139,7 @@ impl Turn<'_> {
     fn count(&self, session: &mut Session, lane: &mut Lane, order: &[u32]) -> usize {
         let (begun, mut reported, allowed) = (Instant::now(), Instant::now(), self.allowance(lane));
         for (reached, &i) in order.iter().enumerate() {
-            let configuration = &self.task.set.placed[i as usize].configuration;
+            let configuration = &self.task.placed(i).configuration;
             match session.count(self.task.query, configuration) {
                 Ok((answer, counters)) => lane.count(i, answer, counters),
                 Err(_) => return reached,
@@ -197,10 +216,10 @@ impl Turn<'_> {
         if self.index >= self.task.contestants.len() {
             return;
         }
-        let rounds = u64::from(self.task.passes) + u64::from(lane.contestant.info.counters);
-        let most = self.task.set.placed.len().min(self.task.part.at_most);
-        let reach = if lane.cut || self.counting() { lane.reach } else { most } as u64;
-        let total = (reach * rounds).max(lane.done);
+        let all = self.task.piece(0, self.task.most());
+        let reach = if lane.cut || self.counting() { all.before(lane.reach) } else { all };
+        let counted = if lane.contestant.info.counters { reach.own.len() as u64 } else { 0 };
+        let total = (reach.len() as u64 * u64::from(self.task.passes) + counted).max(lane.done);
         let _ = self.news.send(News::Progress { lane: self.index, done: lane.done, total });
     }
 }

@@ -1699,6 +1699,7 @@ export interface components {
             bv_tests_mean?: number | null;
             class?: components["schemas"]["ContractClass"] | null;
             contacts?: components["schemas"]["ContactQuality"] | null;
+            controls?: components["schemas"]["Controls"] | null;
             /** @description The answers that are not scored, because the configuration is narrower than the precision of the algorithm. */
             grazing?: components["schemas"]["Agreement"];
             /**
@@ -1727,14 +1728,15 @@ export interface components {
             primitive_tests_mean?: number | null;
             /**
              * Format: int32
-             * @description Rank by `ratio` within its class, from 1; algorithms whose intervals overlap are tied. Absent for what failed, gave a wrong answer or
-             *     was measured in the development profile.
+             * @description Rank by `ratio` within its class, from 1; algorithms whose intervals overlap are tied. Absent for what failed, gave a
+             *     wrong answer, was measured in the development profile, or for what `unranked` says.
              */
             rank?: number | null;
             ratio?: components["schemas"]["Estimated"] | null;
             resolution?: components["schemas"]["Resolution"] | null;
             time?: components["schemas"]["TimeSummary"] | null;
             timing?: components["schemas"]["Timing"] | null;
+            unranked?: components["schemas"]["Unranked"] | null;
             /** @description All answers by verdict (`correct`, `false_negative`, `gave_up`, ...); those that do not occur are left out. */
             verdicts: components["schemas"]["VerdictCount"][];
             /**
@@ -2314,6 +2316,42 @@ export interface components {
             delivered: components["schemas"]["Delivered"];
             /** @description In which order it was asked. */
             order: components["schemas"]["Order"];
+        };
+        /**
+         * @description What an algorithm made of the control questions: questions like the set's, drawn from the run's seed and mixed into its
+         *     order, so that the set's answer cannot be guessed. They are in no record, time or count of verdicts.
+         */
+        Controls: {
+            /**
+             * Format: int32
+             * @description Of the answered, those that collide.
+             */
+            crossing: number;
+            /**
+             * Format: double
+             * @description Probability, at most, that a plugin that guesses half of its answers gives no wrong one to these.
+             */
+            guess: number;
+            /**
+             * Format: int32
+             * @description Answered.
+             */
+            n: number;
+            /**
+             * Format: int32
+             * @description Drawn for the run.
+             */
+            of: number;
+            /**
+             * Format: int32
+             * @description Not answered although asked.
+             */
+            silent: number;
+            /**
+             * Format: int32
+             * @description Answered wrongly in at least one process.
+             */
+            wrong: number;
         };
         /** @description Name and password. */
         Credentials: {
@@ -3593,6 +3631,8 @@ export interface components {
         /**
          * @description How far apart, or how deep in each other, the surfaces shall be.
          *
+         *     Each configuration of a set aims at a place of its own in the window, so that no distance is right for all of them.
+         *
          *     One rule for all: a wanted *step* `x` of the scene's size S ([`Pair::scene_size`](crate::oracle::Pair::scene_size))
          *     is met by a certified value in `(x S, 2 x S]`.
          */
@@ -4188,6 +4228,57 @@ export interface components {
             name: string;
             /** @description What it may be used for. */
             scopes: components["schemas"]["Scope"][];
+        };
+        /** @description Why an algorithm has no rank although it failed nowhere else. */
+        Unranked: components["schemas"]["UnrankedCause"] & {
+            /** @description The same as one sentence. */
+            message: string;
+        };
+        /** @description What takes a rank away. */
+        UnrankedCause: {
+            /** @enum {string} */
+            cause: "wrong_controls";
+            /**
+             * Format: int32
+             * @description Of these.
+             */
+            n: number;
+            /**
+             * Format: int32
+             * @description So many.
+             */
+            wrong: number;
+        } | {
+            /** @enum {string} */
+            cause: "silent_controls";
+            /**
+             * Format: int32
+             * @description Of these.
+             */
+            n: number;
+            /**
+             * Format: int32
+             * @description So many.
+             */
+            silent: number;
+        } | {
+            /** @enum {string} */
+            cause: "few_controls";
+            /**
+             * Format: int32
+             * @description Needed.
+             */
+            least: number;
+            /**
+             * Format: int32
+             * @description Answered.
+             */
+            n: number;
+            /**
+             * Format: int32
+             * @description Drawn.
+             */
+            of: number;
         };
         /**
          * @description The comparison of one answer with the oracle.

@@ -21,7 +21,7 @@ describe('rank', () => {
   it('gives no place to what failed, answered wrong or was not measured, and says why', () => {
     const crashed = result('crashed', null, 1, { outcome: { name: 'Signaled', message: 'It crashed.', ours: false } })
     const modest = result('modest', null, 1, { verdicts: [{ verdict: 'correct', count: 7 }, { verdict: 'gave_up', count: 2 }, { verdict: 'unsupported', count: 1 }] })
-    const { ranked, unranked } = rank([modest, crashed, result('wrong', null, 2, { wrong: 1 }), result('silent', null, 3, { time: null }), result('old', null, 1), result('sound', 1, 4)])
+    const { ranked, unranked } = rank([modest, crashed, result('wrong', null, 2, { wrong: 1 }), result('silent', null, 3, { time: null }), result('old', null, 1), result('guessing', null, 1, { unranked: { cause: 'wrong_controls', wrong: 9, n: 30, message: '9 of 30 control questions were answered wrongly.' } }), result('sound', 1, 4)])
     expect(ranked.map((r) => r.result.algorithm)).toEqual(['sound'])
     expect(unranked.map((r) => [r.result.algorithm, r.reason])).toEqual([
       ['modest', 'It gave no answer to 3 of 10: giving up is not wrong, but it is not as fast as it looks.'],
@@ -29,6 +29,7 @@ describe('rank', () => {
       ['wrong', 'It gave wrong answers: a time for a wrong answer is no result.'],
       ['silent', 'Nothing was measured.'],
       ['old', 'It was not compared: measured in the development profile, or before there was a reference.'],
+      ['guessing', '9 of 30 control questions were answered wrongly.'],
     ])
   })
 })

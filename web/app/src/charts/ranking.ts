@@ -57,6 +57,7 @@ function unanswered(result: AlgorithmResult): number {
 
 function whyNot(result: AlgorithmResult): string | null {
   if (result.outcome.name !== 'Completed') return result.outcome.message
+  if (result.unranked) return result.unranked.message
   if (result.wrong > 0) return 'It gave wrong answers: a time for a wrong answer is no result.'
   if (!result.time) return 'Nothing was measured.'
   const silent = unanswered(result)

@@ -103,6 +103,8 @@ pub(crate) fn result(algorithm: &str, n: u32) -> StoredResult {
             ratio: Some(Estimated { value: 1.0, lo: 0.5, hi: 2.0 }),
             class: None,
             rank: Some(1),
+            unranked: None,
+            controls: None,
             timing: None,
             verdicts: Vec::new(),
             wrong: 0,
