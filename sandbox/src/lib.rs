@@ -37,6 +37,7 @@ pub mod seccomp;
 pub mod session;
 #[doc(hidden)]
 pub mod shared;
+pub mod text;
 #[doc(hidden)]
 pub mod trial;
 mod usage;

@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
+use ocb_sandbox::text::one_line;
+
 use super::Engine;
 use super::people::said;
 use super::plugin_notices::of_decision;
@@ -18,6 +20,8 @@ use crate::{EngineError, Result, signature};
 /// Largest plugin file that may be sent, and bytes of all that one account keeps.
 pub const MAX_PLUGIN_BYTES: usize = 64 << 20;
 const QUOTA: u64 = 1 << 30;
+/// Longest name of a file that is kept.
+const MAX_NAME_BYTES: usize = 255;
 /// Checks of one account that wait at a time.
 const MAX_WAITING: usize = 5;
 
@@ -72,7 +76,7 @@ impl Engine {
             id: uuid::Uuid::now_v7().to_string(),
             account: account.id.clone(),
             blob,
-            file: file.to_owned(),
+            file: one_line(file, MAX_NAME_BYTES),
             bytes: length as u64,
             manifest,
             signed_by,
