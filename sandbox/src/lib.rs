@@ -21,6 +21,7 @@ pub mod doorbell;
 mod evidence;
 mod exchange;
 pub mod gate;
+pub mod given;
 pub mod integrity;
 pub mod launch;
 pub mod launcher;
