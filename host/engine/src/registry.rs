@@ -18,7 +18,7 @@ use crate::store::Store;
 use crate::{EngineConfig, EngineError, Result};
 
 use brought::Brought;
-pub use check::{Extent, check_manifest, check_plugin, is_free};
+pub use check::{CHECK_LIMIT, Extent, Term, check_manifest, check_plugin, is_free};
 
 /// Largest plugin file that is looked at, bytes.
 const MAX_PLUGIN_BYTES: u64 = 64 << 20;
