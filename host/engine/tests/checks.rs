@@ -1,4 +1,4 @@
-//! Checks of uploaded plugins end: by their limit or by a stop of the service.
+//! Checks of uploaded plugins end: by their limit, by a stop of the service, by somebody's order.
 
 mod common;
 
@@ -6,8 +6,10 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use ocb_core::query::Query;
-use ocb_engine::model::{AccountInfo, CheckVerdict, Manifest, PluginInfo, PluginReport, PluginState, Role};
-use ocb_engine::{Engine, EngineConfig, Profile};
+use ocb_engine::model::{
+    AccountInfo, Action, CheckVerdict, Decision, Manifest, Page, PluginInfo, PluginReport, PluginState, Role,
+};
+use ocb_engine::{Engine, EngineConfig, EngineError, Profile};
 use tokio::sync::{Mutex, MutexGuard};
 
 /// One check at a time on a machine.
@@ -133,4 +135,53 @@ async fn a_stop_ends_a_slow_build_within_a_second() {
     let _alone = alone().await;
     let folder = tempfile::tempdir().unwrap();
     check_stopped(&slow(folder.path(), 15_000, 0, 1)).await;
+}
+
+fn end(reason: &str) -> Decision {
+    Decision { action: Action::EndCheck, reason: reason.into() }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn author_and_curators_end_a_check() {
+    let _alone = alone().await;
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(config(data.path())).await.unwrap();
+    let (author, other) = (developer(&engine, "author").await, developer(&engine, "other").await);
+    let curator = engine.add_account("curator", "a long enough password", Role::Curator).await.unwrap();
+    // One under way, and one that waits behind it.
+    let first = sent(&engine, &author, &slow(data.path(), 0, 800, 1)).await;
+    under_way(&engine, &first.id, &author).await;
+    let second = sent(&engine, &author, &slow(data.path(), 0, 801, 1)).await;
+    let refused = engine.decide(&second.id, &other, end("")).await.unwrap_err();
+    assert!(matches!(refused, EngineError::NotFound(_)), "{refused:?}");
+
+    let ended = engine.decide(&second.id, &author, end("")).await.unwrap();
+    assert_eq!((ended.state, ended.reason.as_str()), (PluginState::Failed, "The check was ended by its author."));
+    let begun = Instant::now();
+    let ended = engine.decide(&first.id, &curator, end("Too slow.")).await.unwrap();
+    let reason = "The check was ended by a curator: Too slow.";
+    assert_eq!((ended.state, ended.reason.as_str()), (PluginState::Failed, reason));
+    let done = ended.history.last().unwrap();
+    assert_eq!(
+        (done.actor.as_str(), done.action.as_str(), done.detail.as_str()),
+        ("curator", "ended the check", reason)
+    );
+    // The author is told of what another did, and of that alone.
+    let notices = engine.notices(&author, &Page::default()).await.unwrap().entries;
+    assert_eq!(notices.len(), 1, "{notices:?}");
+    assert!(notices[0].subject.ends_with("was not checked") && notices[0].text.contains("Too slow."), "{notices:?}");
+
+    // The queue goes on at once, and what was ended stays so.
+    let third = sent(&engine, &other, &slow(data.path(), 0, 802, 1)).await;
+    under_way(&engine, &third.id, &other).await;
+    assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
+    let again = engine.decide(&first.id, &author, end("")).await.unwrap_err();
+    assert!(matches!(again, EngineError::Busy(_)), "{again:?}");
+    engine.shutdown().await;
+    let engine = Engine::open(EngineConfig { dispatch: false, ..config(data.path()) }).await.unwrap();
+    for (plugin, state) in [(first, PluginState::Failed), (second, PluginState::Failed), (third, PluginState::Uploaded)]
+    {
+        assert_eq!(engine.plugin(&plugin.id, Some(&curator)).await.unwrap().state, state);
+    }
+    engine.shutdown().await;
 }
