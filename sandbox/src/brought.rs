@@ -6,14 +6,18 @@
 
 use std::path::Path;
 
+use crate::given;
 use crate::outcome::{Ending, Outcome};
+
+/// Largest list.
+const MAX_LIST_BYTES: u64 = 1 << 20;
 
 /// The list of a plugin, empty when it has none.
 pub(crate) fn beside(plugin: &Path) -> Result<Vec<String>, Ending> {
     let list = plugin.with_extension("libraries");
     let refused = |reason: String| Ending::from(Outcome::LoadError { reason });
-    let text = match std::fs::read_to_string(&list) {
-        Ok(text) => text,
+    let text = match given::read(&list, MAX_LIST_BYTES) {
+        Ok(text) => String::from_utf8_lossy(&text).into_owned(),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
         Err(error) => return Err(refused(format!("{} cannot be read: {error}", list.display()))),
     };

@@ -3,7 +3,9 @@
 use ocb_core::query::Query;
 use serde::{Deserialize, Serialize};
 
-/// What a plugin says of one of its algorithms. Text is bounded and free of control characters, and unverified.
+use crate::text::{is_label, one_line};
+
+/// What a plugin says of one of its algorithms. Text is bounded, plain (`text.rs`) and unverified.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Descriptor {
     /// Unique id, e.g. `box-tree`.
@@ -55,44 +57,150 @@ pub struct Parameter {
     pub integer: bool,
 }
 
-/// Longest text in a descriptor, bytes.
+/// Longest text in a descriptor, bytes; also said in plugin.h.
 const TEXT_BYTES: usize = 4096;
+/// Longest id and name of a parameter.
+const ID_BYTES: usize = 64;
 /// Most parameters of one algorithm.
 const PARAMETERS: usize = 64;
 
 impl Descriptor {
-    /// Cuts the text, strips control characters, refuses what breaks the interface's rules.
+    /// Cuts the text, strips what cannot be seen, refuses what breaks the interface's rules. The runner writes none of that,
+    /// but a plugin may write where the runner has written.
     pub(crate) fn bounded(mut self) -> Result<Self, String> {
+        if !is_id(&self.id, "-._") {
+            let id = one_line(&self.id, ID_BYTES);
+            return Err(format!("the algorithm id '{id}' breaks the rules of plugin.h: 1 to 64 of a-z 0-9 - . _"));
+        }
+        let id = &self.id;
         for text in
             [&mut self.name, &mut self.version, &mut self.authors, &mut self.license, &mut self.url, &mut self.paper]
         {
-            *text = one_line(text);
+            *text = one_line(text, TEXT_BYTES);
         }
-        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || matches!(c, '-' | '.' | '_');
-        let first = self.id.chars().next();
-        if !first.is_some_and(|c| c.is_ascii_lowercase()) || self.id.len() > 64 || !self.id.chars().all(plain) {
-            return Err(format!("the algorithm id '{}' breaks the rules of plugin.h", one_line(&self.id)));
+        for (field, text) in [
+            ("name", &self.name),
+            ("version", &self.version),
+            ("authors", &self.authors),
+            ("licence", &self.license),
+            ("URL", &self.url),
+        ] {
+            if !is_label(text) {
+                return Err(format!("the {field} of '{id}' holds '<' or '>'; write plain text"));
+            }
+        }
+        for (i, query) in self.queries.iter().enumerate() {
+            if self.queries[..i].contains(query) {
+                return Err(format!("'{id}' names the question {query:?} twice"));
+            }
         }
         if self.parameters.len() > PARAMETERS {
-            return Err(format!("'{}' has {} parameters, at most 64 may be", self.id, self.parameters.len()));
+            return Err(format!("'{id}' has {} parameters, at most {PARAMETERS} may be", self.parameters.len()));
         }
-        for parameter in &mut self.parameters {
-            parameter.name = one_line(&parameter.name);
-            parameter.description = one_line(&parameter.description);
-            let Parameter { minimum, maximum, default, .. } = *parameter;
-            let ordered = minimum <= default && default <= maximum;
-            if !ordered || !minimum.is_finite() || !maximum.is_finite() {
-                return Err(format!("parameter '{}' of '{}' has no sensible range", parameter.name, self.id));
-            }
+        for i in 0..self.parameters.len() {
+            let (before, rest) = self.parameters.split_at_mut(i);
+            rest[0].bounded(id, before)?;
         }
         Ok(self)
     }
 }
 
-fn one_line(text: &str) -> String {
-    let mut cut = TEXT_BYTES.min(text.len());
-    while !text.is_char_boundary(cut) {
-        cut -= 1;
+impl Parameter {
+    /// One of the algorithm `id`, behind these.
+    fn bounded(&mut self, id: &str, before: &[Parameter]) -> Result<(), String> {
+        self.description = one_line(&self.description, TEXT_BYTES);
+        let Parameter { name, minimum, maximum, default, .. } = self;
+        if !is_id(name, "_") {
+            let name = one_line(name, ID_BYTES);
+            return Err(format!(
+                "the parameter name '{name}' of '{id}' breaks the rules of parameters.h: 1 to 64 of a-z 0-9 _"
+            ));
+        }
+        if before.iter().any(|other| other.name == *name) {
+            return Err(format!("'{id}' has the parameter '{name}' twice"));
+        }
+        let ordered = minimum <= default && default <= maximum;
+        if !ordered || !minimum.is_finite() || !maximum.is_finite() {
+            return Err(format!("parameter '{name}' of '{id}' has no sensible range"));
+        }
+        Ok(())
     }
-    text[..cut].chars().filter(|c| !c.is_control()).collect()
+}
+
+/// A small letter, then small letters, digits and these.
+fn is_id(text: &str, more: &str) -> bool {
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || more.contains(c);
+    text.starts_with(|c: char| c.is_ascii_lowercase()) && text.len() <= ID_BYTES && text.chars().all(plain)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn good() -> Descriptor {
+        let knob = Parameter {
+            name: "leaf_size".into(),
+            description: "Triangles, 0 < n.".into(),
+            minimum: 1.0,
+            maximum: 8.0,
+            default: 4.0,
+            integer: true,
+        };
+        Descriptor {
+            id: "box-tree".into(),
+            name: "Box tree".into(),
+            version: "1.0".into(),
+            authors: "Zoë".into(),
+            license: "MIT".into(),
+            url: "https://example.org".into(),
+            paper: String::new(),
+            queries: vec![Query::CollisionFirst, Query::Proximity],
+            counters: false,
+            witness_points: false,
+            single_precision: false,
+            solid: false,
+            coherent: false,
+            threads: false,
+            parameters: vec![knob],
+        }
+    }
+
+    fn check_refused(change: impl Fn(&mut Descriptor), words: &str) {
+        let mut descriptor = good();
+        change(&mut descriptor);
+        let reason = descriptor.bounded().unwrap_err();
+        assert!(reason.contains(words), "{reason}");
+    }
+
+    #[test]
+    fn a_good_one_stays_as_it_is() {
+        assert_eq!(good().bounded(), Ok(good()));
+    }
+
+    #[test]
+    fn a_list_holds_each_thing_once() {
+        check_refused(|d| d.queries = vec![Query::Proximity; 12_000], "names the question Proximity twice");
+        check_refused(|d| d.parameters.push(d.parameters[0].clone()), "has the parameter 'leaf_size' twice");
+        let many = |i: usize| Parameter { name: format!("p{i}"), ..good().parameters[0].clone() };
+        check_refused(|d| d.parameters = (0..65).map(many).collect(), "65 parameters");
+    }
+
+    #[test]
+    fn ids_are_plain_and_labels_hold_no_markup() {
+        for id in ["", "Box", "box tree", "b\u{202e}ox", "1box", &"b".repeat(65)] {
+            check_refused(|d| d.id = id.to_owned(), "plugin.h");
+        }
+        for name in ["", "Leaf", "leaf-size", "leaf\u{200b}", "<b>", &"b".repeat(65)] {
+            check_refused(|d| d.parameters[0].name = name.to_owned(), "parameters.h");
+        }
+        check_refused(|d| d.name = "<img src=x>".into(), "the name of 'box-tree' holds '<' or '>'");
+        check_refused(|d| d.authors = "A <a@example.org>".into(), "the authors of");
+        check_refused(|d| d.license = "MIT>".into(), "the licence of");
+    }
+
+    #[test]
+    fn what_cannot_be_seen_is_stripped() {
+        let odd = Descriptor { name: "Box\u{202e} \u{200b}tree\n".into(), ..good() };
+        assert_eq!(odd.bounded(), Ok(good()));
+    }
 }

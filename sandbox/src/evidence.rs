@@ -17,6 +17,9 @@ use crate::seccomp;
 /// How long the kernel may take to end a killed jail.
 const END: Duration = Duration::from_secs(3);
 
+/// How long a signal may take from the plugin's last store to the begin of its end.
+const DYING: Duration = Duration::from_millis(50);
+
 /// The launcher's process, reaped exactly once.
 pub(crate) struct Launched {
     pub pid: i32,
@@ -132,6 +135,7 @@ impl Jail {
 
     /// Kills what is left, reaps it, and gathers what is known.
     pub fn end(mut self, outcome: Outcome) -> Ending {
+        let outcome = self.rather_its_death(outcome);
         let resident_peak = self.runner.is_some().then(|| status_kib(self.pid, "VmHWM")).flatten();
         self.reap();
         self.messages.drain();
@@ -142,6 +146,24 @@ impl Jail {
             memory_peak_bytes: peak.map(|peak| peak.saturating_sub(self.baseline_bytes)),
             cpu_seconds: self.launcher.usage,
         }
+    }
+
+    /// What a dying process leaves in the shared memory proves nothing, since the kernel itself writes there for it (the locks
+    /// of its robust list): how it died is the outcome then, not the word that was found.
+    fn rather_its_death(&mut self, outcome: Outcome) -> Outcome {
+        let Outcome::ProtocolViolation { phase, .. } = outcome else { return outcome };
+        let begun = Instant::now();
+        while let Some(runner) = &self.runner {
+            let mut wait = [PollFd::new(runner.as_fd(), PollFlags::POLLIN)];
+            if poll(&mut wait, 2u8) == Ok(1) {
+                return self.how_it_ended(phase);
+            }
+            let longest = if is_exiting(self.pid) { END } else { DYING };
+            if begun.elapsed() > longest {
+                break;
+            }
+        }
+        outcome
     }
 
     pub(crate) fn reap(&mut self) {
@@ -208,6 +230,14 @@ pub(crate) fn status_field(pid: i32, name: &str) -> Option<String> {
     let status = std::fs::read_to_string(format!("/proc/{pid}/status")).ok()?;
     // The first line is the name that the process gave itself, which cannot hold a line feed.
     status.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(':')).map(|value| value.trim().to_owned())
+}
+
+/// Has the kernel begun to take this process down? Its memory may be large, and goes first.
+fn is_exiting(pid: i32) -> bool {
+    const PF_EXITING: u64 = 4;
+    let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
+    let flags = stat.rsplit(") ").next().and_then(|rest| rest.split(' ').nth(6)?.parse::<u64>().ok());
+    flags.is_some_and(|flags| flags & PF_EXITING != 0)
 }
 
 /// A size from /proc/PID/status, bytes.

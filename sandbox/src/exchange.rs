@@ -212,7 +212,10 @@ impl Exchange {
             match parse_status(slot).map_err(|rule| Outcome::ProtocolViolation { phase, rule })? {
                 Status::Ok | Status::GaveUp | Status::Unsupported => {}
                 Status::Error => return Err(Outcome::Failed { phase, reason: self.reason(slot, phase)? }),
-                Status::NotLoaded => return Err(Outcome::LoadError { reason: self.reason(slot, phase)? }),
+                Status::NotLoaded if phase == Phase::Load => {
+                    return Err(Outcome::LoadError { reason: self.reason(slot, phase)? });
+                }
+                Status::NotLoaded => return Err(violation(phase, "it said that it is no plugin after it was loaded")),
             }
         }
         Ok(timed)

@@ -12,6 +12,7 @@ use goblin::elf::Elf;
 use goblin::elf::program_header::{PT_LOAD, ProgramHeader};
 use serde::{Deserialize, Serialize};
 
+use crate::text;
 pub use facts::Facts;
 pub use rules::{RULES, Rule};
 
@@ -141,8 +142,8 @@ fn whole(bytes: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
-/// Foreign text for people: no control characters, short.
+/// Foreign text for people, short.
 fn one_line(text: &str) -> String {
     const MOST: usize = 120;
-    text.chars().filter(|c| !c.is_control()).take(MOST).collect()
+    text::one_line(text, MOST)
 }

@@ -19,6 +19,7 @@ use crate::cpus::Places;
 use crate::doorbell::futex_wait;
 use crate::evidence::{Launched, Messages, status_kib};
 use crate::gate::MAX_BYTES;
+use crate::given;
 use crate::layers::Layers;
 use crate::memory::MemoryGroup;
 use crate::outcome::{Ending, Outcome};
@@ -93,11 +94,8 @@ impl Jail {
             return Err(Outcome::Cancelled.into());
         }
         let plugin_path = plugin.canonicalize().map_err(unreadable)?;
-        let plugin_file = File::open(&plugin_path).map_err(unreadable)?;
+        let plugin_file = given::open(&plugin_path).map_err(unreadable)?;
         let metadata = plugin_file.metadata().map_err(unreadable)?;
-        if !metadata.is_file() {
-            return Err(unreadable(io::Error::other("it is no regular file")));
-        }
         if metadata.len() > MAX_BYTES {
             let reason =
                 format!("it has {} bytes, at most {MAX_BYTES} may be; strip its debug symbols", metadata.len());

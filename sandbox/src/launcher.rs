@@ -54,12 +54,22 @@ impl Launcher {
 
     /// Lists the algorithms of a plugin, from inside the jail.
     pub fn describe(&self, plugin: &Path) -> Result<Vec<Descriptor>, Ending> {
-        self.aside(plugin, |exchange| self.load(exchange).map(|(_, descriptors)| descriptors))
+        self.describe_with(plugin, &Killer::default())
+    }
+
+    /// As [`Launcher::describe`], with a handle that ends it.
+    pub fn describe_with(&self, plugin: &Path, killer: &Killer) -> Result<Vec<Descriptor>, Ending> {
+        self.aside(plugin, killer, |exchange| self.load(exchange).map(|(_, descriptors)| descriptors))
     }
 
     /// Reads a plugin file as ELF, in a jail, without loading it.
     pub fn inspect(&self, plugin: &Path) -> Result<Inspection, Ending> {
-        self.aside(plugin, |exchange| {
+        self.inspect_with(plugin, &Killer::default())
+    }
+
+    /// As [`Launcher::inspect`], with a handle that ends it.
+    pub fn inspect_with(&self, plugin: &Path, killer: &Killer) -> Result<Inspection, Ending> {
+        self.aside(plugin, killer, |exchange| {
             exchange.obeyed(Command::Inspect, Phase::Load, self.policy.load_seconds)?;
             // No foreign code has run yet: what is wrong here is ours.
             parse_inspection(&exchange.text(Phase::Load)?).map_err(|reason| Outcome::fault("Gate", reason))
@@ -68,14 +78,19 @@ impl Launcher {
 
     /// The layers that a jail around this file has, without loading it.
     pub fn layers(&self, plugin: &Path) -> Result<Vec<String>, Ending> {
-        self.aside(plugin, |exchange| Ok(exchange.jail.layers.phrases()))
+        self.aside(plugin, &Killer::default(), |exchange| Ok(exchange.jail.layers.phrases()))
     }
 
     /// Does something in a jail of its own, without objects.
-    fn aside<T>(&self, plugin: &Path, work: impl FnOnce(&mut Exchange) -> Result<T, Outcome>) -> Result<T, Ending> {
+    fn aside<T>(
+        &self,
+        plugin: &Path,
+        killer: &Killer,
+        work: impl FnOnce(&mut Exchange) -> Result<T, Outcome>,
+    ) -> Result<T, Ending> {
         let places = Places::here(&self.policy)?;
         let sheet = Sheet::new("", &[], Semantics::Surface, &[]);
-        let mut exchange = self.jail(plugin, &sheet, &Killer::default(), &places)?;
+        let mut exchange = self.jail(plugin, &sheet, killer, &places)?;
         match work(&mut exchange) {
             Ok(found) => {
                 exchange.jail.end(Outcome::Completed);

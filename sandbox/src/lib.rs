@@ -21,6 +21,7 @@ pub mod doorbell;
 mod evidence;
 mod exchange;
 pub mod gate;
+pub mod given;
 pub mod integrity;
 pub mod launch;
 pub mod launcher;
@@ -38,6 +39,7 @@ pub mod session;
 #[doc(hidden)]
 pub mod shared;
 mod speed;
+pub mod text;
 #[doc(hidden)]
 pub mod trial;
 mod usage;

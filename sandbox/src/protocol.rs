@@ -12,6 +12,7 @@ use ocb_core::query::{Answer, Counters, Query};
 
 use crate::descriptor::Descriptor;
 use crate::gate::Inspection;
+use crate::text;
 
 /// Byte offsets in the request file. Words that different sides poll lie on cache lines of their own; the number, which is
 /// written last, shares its line with what the runner reads first.
@@ -259,7 +260,7 @@ pub fn parse_inspection(text: &[u8]) -> Result<Inspection, String> {
     let lists =
         inspection.facts.iter().flat_map(|f| [&f.libraries, &f.newest_versions, &f.compilers, &f.notable_imports]);
     let texts = lists.flatten().chain(inspection.rejections.iter().flat_map(|r| [&r.rule, &r.what, &r.why, &r.mend]));
-    let strange = texts.into_iter().any(|text| text.len() > 8192 || text.chars().any(char::is_control));
+    let strange = texts.into_iter().any(|said| said.len() > 8192 || !said.chars().all(text::is_plain));
     if strange { Err("the gate's findings hold text that it never writes".into()) } else { Ok(inspection) }
 }
 
@@ -270,12 +271,17 @@ pub fn parse_descriptors(text: &[u8]) -> Result<Vec<Descriptor>, String> {
     if descriptors.is_empty() || descriptors.len() > 64 {
         return Err(format!("{} algorithms, 1 to 64 may be", descriptors.len()));
     }
+    for (i, one) in descriptors.iter().enumerate() {
+        if descriptors[..i].iter().any(|other| other.id == one.id) {
+            return Err(format!("two of its algorithms have the id '{}'", text::one_line(&one.id, 64)));
+        }
+    }
     descriptors.into_iter().map(Descriptor::bounded).collect()
 }
 
-/// Text for people from bytes of the plugin: UTF-8, no control characters but line feed and tab.
+/// Text for people from bytes of the plugin, in lines.
 pub fn clean_text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).chars().filter(|c| !c.is_control() || *c == '\n' || *c == '\t').collect()
+    text::lines(bytes)
 }
 
 #[cfg(test)]

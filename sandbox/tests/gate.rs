@@ -232,3 +232,66 @@ fn a_session_with_an_honest_file_starts_after_all_this() {
     assert_eq!(start(&launcher(), &fixture(&[])).unwrap().finish().outcome, Outcome::Completed);
     assert!(RULES.iter().all(|rule| rule.why.len() > 10 && rule.mend.len() > 10));
 }
+
+/// A 64-bit word of the file.
+fn word(bytes: &[u8], at: usize) -> u64 {
+    u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap())
+}
+
+/// A file whose dynamic table is another one for the loader: the writable segment ends behind the table, and a segment that
+/// was a note goes on from there, with the whole page again at the end of the file.
+fn two_tables(bytes: &mut Vec<u8>) {
+    const PAGE: u64 = 4096;
+    let headers = |kind: u32| {
+        let of_kind = |at: &usize| bytes[*at..at + 4] == kind.to_le_bytes();
+        program_headers(bytes).filter(of_kind).collect::<Vec<_>>()
+    };
+    let (data, dynamic, note) = (*headers(1).last().unwrap(), headers(2)[0], headers(4)[0]);
+    assert!(note > data, "the loader reads headers in their order");
+    let (offset, address, size) = (word(bytes, data + 8), word(bytes, data + 16), word(bytes, data + 40));
+    let file_size = word(bytes, data + 32);
+    let table = word(bytes, dynamic + 8)..word(bytes, dynamic + 8) + word(bytes, dynamic + 32);
+    let behind = table.end - offset;
+    // The pages of the segment once more, with a search path in an empty entry of the table.
+    let from = offset / PAGE * PAGE;
+    bytes.resize(bytes.len().next_multiple_of(PAGE as usize), 0);
+    let copy = bytes.len() as u64;
+    bytes.extend_from_within(from as usize..(offset + file_size) as usize);
+    let in_copy = |at: u64| (copy + (at - from)) as usize;
+    let empty = table.clone().step_by(16).find(|at| word(bytes, *at as usize) == 0).expect("linkers leave some");
+    assert!(empty + 32 <= table.end, "the last entry ends the table");
+    bytes[in_copy(empty)] = 29;
+    let mut set = |at: usize, value: u64| bytes[at..at + 8].copy_from_slice(&value.to_le_bytes());
+    set(data + 32, behind);
+    set(data + 40, behind);
+    set(note, 1 | 6 << 32);
+    set(note + 8, in_copy(table.end) as u64);
+    for at in [16, 24] {
+        set(note + at, address + behind);
+    }
+    set(note + 32, file_size - behind);
+    set(note + 40, size - behind);
+    set(note + 48, PAGE);
+}
+
+#[test]
+fn a_page_that_two_segments_share_is_refused() {
+    let folder = folder();
+    check_refused(&patched(&folder, "two-tables", two_tables), "segments", "share a page of memory");
+}
+
+#[test]
+fn other_linkers_keep_segments_on_pages_of_their_own() {
+    let folder = folder();
+    let data = format!("{ENTRY}\nint data[3000] = {{1}}; static int more[5000]; int *p(void) {{ return more; }}");
+    for flags in [
+        &["-Wl,-z,noseparate-code"][..],
+        &["-Wl,-z,separate-code"],
+        &["-Wl,-z,norelro"],
+        &["-Wl,-z,max-page-size=4096"],
+        &["-Wl,-z,max-page-size=65536"],
+        &["-O2", "-s"],
+    ] {
+        assert_eq!(inspect(&folder.build(&data, flags)).rejections, [], "{flags:?}");
+    }
+}

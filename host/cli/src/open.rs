@@ -1,8 +1,9 @@
 //! Opening the engine as the command line says.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use ocb_engine::{Engine, EngineConfig, MailServer, Profile};
+use ocb_engine::{Engine, EngineConfig, MailServer, Profile, given};
 
 use crate::args::{MailArgs, ServeArgs, Store};
 use crate::failure::{Failure, Result};
@@ -112,18 +113,18 @@ fn default_data(variable: impl Fn(&str) -> Option<PathBuf>) -> Result<PathBuf> {
     })
 }
 
-/// Reads a file that is given to us, of at most `most` bytes: looks at its size before it reads.
+/// Reads a regular file that is given to us, of at most `most` bytes.
 pub fn read_bounded(path: &Path, most: usize) -> Result<Vec<u8>> {
-    let facts = std::fs::metadata(path).map_err(|e| Failure::file("read", path, &e))?;
-    if facts.is_dir() {
-        return Err(Failure::Input(format!("Cannot read {}: it is a folder.", path.display())));
-    }
-    if facts.len() > most as u64 {
-        let (size, most) = (facts.len() >> 20, most >> 20);
-        let name = path.display();
-        return Err(Failure::Input(format!("{name} has {size} MiB, but at most {most} MiB are read.")));
-    }
-    std::fs::read(path).map_err(|e| Failure::file("read", path, &e))
+    given::read(path, most as u64).map_err(|e| match e.kind() {
+        ErrorKind::FileTooLarge => {
+            Failure::Input(format!("{} has more than the {} that are read.", path.display(), size(most)))
+        }
+        _ => Failure::file("read", path, &e),
+    })
+}
+
+fn size(bytes: usize) -> String {
+    if bytes < 1 << 20 { format!("{} KiB", bytes >> 10) } else { format!("{} MiB", bytes >> 20) }
 }
 
 #[cfg(test)]

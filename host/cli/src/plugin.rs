@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use ocb_core::query::Query;
-use ocb_engine::Extent;
 use ocb_engine::model::{AlgorithmInfo, CheckLine, CheckVerdict, PluginReport};
+use ocb_engine::{Extent, given};
 use serde::de::DeserializeOwned;
 
 use crate::args::{PluginCommand, Store};
@@ -86,8 +86,8 @@ fn write_repros(report: &PluginReport, folder: &Path) -> Result<Vec<PathBuf>> {
 
 async fn check(store: &Store, file: &Path, extent: Extent, out: Option<&Path>, json: bool) -> Result<ExitCode> {
     // Looked at here so that a wrong path is no verdict on a plugin.
-    if let Err(error) = std::fs::File::open(file) {
-        return Err(crate::Failure::file("read", file, &error));
+    if let Err(error) = given::open(file) {
+        return Err(Failure::file("read", file, &error));
     }
     let (engine, _folder) = open::open_aside(store).await?;
     let report = engine.check_plugin(file, extent).await;

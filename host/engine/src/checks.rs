@@ -10,7 +10,7 @@ use crate::engine::{Inner, conflict, of_check};
 use crate::machine::MeasuringRight;
 use crate::measure::Stop;
 use crate::model::{CheckLine, CheckVerdict, PluginReport, PluginState};
-use crate::registry::{Extent, brought, check_plugin};
+use crate::registry::{Extent, Term, brought, check_plugin};
 use crate::store::{Note, SubmissionRow, THE_SERVICE};
 use crate::{EngineError, Result};
 
@@ -79,7 +79,8 @@ fn check(
         fault.is_none() && !stop.asked()
     };
     let extent = Extent { manifest: Some(row.manifest.clone()), ..Extent::default() };
-    let report = check_plugin(&inner.config.runner, file, inner.config.profile, &extent, &mut tell)?;
+    let term = Term::new(stop, inner.config.check_limit);
+    let report = check_plugin(&inner.config.runner, file, inner.config.profile, &extent, &term, &mut tell)?;
     fault.map_or(Ok(Some(report)), Err)
 }
 

@@ -1,10 +1,12 @@
 //! Where an engine finds its folder, its runner and its plugins.
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 pub use ocb_sandbox::Profile;
 
 use crate::mail::MailServer;
+use crate::registry::CHECK_LIMIT;
 
 /// How to open an [`crate::Engine`].
 #[derive(Clone, Debug)]
@@ -28,6 +30,8 @@ pub struct EngineConfig {
     /// What distinguishes this machine though the kernel does not tell, such as a clock that was fixed: part of its hardware
     /// class.
     pub machine_note: Option<String>,
+    /// Time of a whole check of a plugin, shared by its algorithms.
+    pub check_limit: Duration,
     /// Work on the queue. Off for commands that only read.
     pub dispatch: bool,
     /// Queue a quick run for the start page when there is none yet.
@@ -55,6 +59,7 @@ impl EngineConfig {
             stock_dir: None,
             suite: None,
             machine_note: None,
+            check_limit: CHECK_LIMIT,
             dispatch: true,
             featured: false,
             guest_days: 30,

@@ -63,7 +63,7 @@ pub async fn work(inner: Arc<Inner>) {
     }
 }
 
-/// Checks the plugin that waits longest; false when none does.
+/// Checks the plugin whose turn it is; false when none waits.
 async fn check_next(inner: &Arc<Inner>) -> Result<bool> {
     let Some(row) = inner.store.claim_check(checks::MAX_ATTEMPTS).await? else { return Ok(false) };
     let stop = Stop::default();
@@ -71,7 +71,11 @@ async fn check_next(inner: &Arc<Inner>) -> Result<bool> {
     if inner.closing() {
         stop.stop();
     }
-    let done = checks::carry_out(inner, &row, &stop).await;
+    // Who ended it between the claim and this line found nothing to stop.
+    let done = match inner.store.submission(&row.id).await {
+        Ok(Some(now)) if now.state.is_checking() => checks::carry_out(inner, &row, &stop).await,
+        other => other.map(|_| ()),
+    };
     inner.set_current(None);
     done.map(|()| true)
 }

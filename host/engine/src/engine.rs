@@ -59,7 +59,7 @@ use crate::model::{
     AlgorithmInfo, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, Page, Part, PluginReport, RunSpec, Status,
 };
 use crate::objects::{Objects, blocking};
-use crate::registry::{Extent, Registry, check_plugin};
+use crate::registry::{Extent, Registry, Term, check_plugin};
 use crate::results::Format;
 use crate::runlog::Bell;
 use crate::store::Store;
@@ -265,7 +265,12 @@ impl Engine {
         let (runner, file, profile) = (self.inner.config.runner.clone(), file.to_owned(), self.inner.config.profile);
         // A thread of its own: a jail ends with the thread that started it.
         let (sender, report) = tokio::sync::oneshot::channel();
-        std::thread::spawn(move || sender.send(check_plugin(&runner, &file, profile, &extent, &mut |_| true)));
+        let limit = self.inner.config.check_limit;
+        std::thread::spawn(move || {
+            let stop = Stop::default();
+            let term = Term::new(&stop, limit);
+            sender.send(check_plugin(&runner, &file, profile, &extent, &term, &mut |_| true))
+        });
         report.await.unwrap_or_else(|_| Err(EngineError::Fault("The plugin check broke down.".into())))
     }
 

@@ -45,6 +45,6 @@ pub use error::{EngineError, Result};
 pub use mail::{MailServer, Pace};
 pub use measure::Stop;
 pub use ocb_chart as chart;
-pub use ocb_sandbox::doctor;
+pub use ocb_sandbox::{doctor, given};
 pub use registry::Extent;
 pub use replay::Unpacked;

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use nalgebra::Point3;
 use ocb_core::mesh::{Mesh, obj};
 use ocb_core::stock;
+use ocb_sandbox::given;
 
 use crate::blobs::Blobs;
 use crate::cache::Cache;
@@ -194,14 +195,18 @@ fn make_stock(id: &str, name: &str) -> Result<(Mesh, ObjectInfo)> {
     Ok((mesh, info))
 }
 
+/// Largest file with the terms of a stock object.
+const MAX_TERMS_BYTES: u64 = 64 << 10;
+
 fn read_shipped(id: &str, name: &str, file: &std::path::Path) -> Result<(Mesh, ObjectInfo)> {
     let fault =
         |e: &dyn std::fmt::Display| EngineError::Fault(format!("The stock file {name}.obj cannot be used: {e}."));
-    let bytes = std::fs::read(file).map_err(|e| fault(&e))?;
+    let bytes = given::read(file, obj::MAX_BYTES as u64).map_err(|e| fault(&e))?;
     let read = obj::read(&bytes).map_err(|e| fault(&e))?;
     let mesh = read.mesh.to_f32_representable().map_err(|e| fault(&e))?;
-    let terms =
-        std::fs::read_to_string(file.with_extension("terms")).map_err(|e| fault(&format!("its .terms file: {e}")))?;
+    let terms = given::read(&file.with_extension("terms"), MAX_TERMS_BYTES)
+        .map_err(|e| fault(&format!("its .terms file: {e}")))?;
+    let terms = String::from_utf8_lossy(&terms);
     let mut info = describe(&mesh, id, name, terms.trim(), read.warnings);
     (info.stock, info.visibility) = (true, Visibility::Public);
     Ok((mesh, info))

@@ -5,10 +5,11 @@ mod check;
 mod choice;
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
 
-use ocb_sandbox::{Descriptor, Ending, Launcher, Policy, Profile};
+use ocb_sandbox::{Descriptor, Ending, Launcher, Policy, Profile, given};
 
 use crate::blobs::sha256_hex;
 use crate::model::{AlgorithmInfo, ParameterInfo};
@@ -17,7 +18,7 @@ use crate::store::Store;
 use crate::{EngineConfig, EngineError, Result};
 
 use brought::Brought;
-pub use check::{Extent, check_manifest, check_plugin, is_free};
+pub use check::{CHECK_LIMIT, Extent, Term, check_manifest, check_plugin, is_free};
 
 /// Largest plugin file that is looked at, bytes.
 const MAX_PLUGIN_BYTES: u64 = 64 << 20;
@@ -238,11 +239,11 @@ pub fn read_plugin(file: &Path) -> Result<Vec<u8>> {
     // Its folder is nobody's business who reads a report.
     let shown = file.file_name().unwrap_or_default().display();
     let bad = |why: String| EngineError::Invalid(format!("{shown} is no plugin: {why}."));
-    let length = fs::metadata(file).map_err(|e| bad(format!("it cannot be read ({e})")))?.len();
-    if length > MAX_PLUGIN_BYTES {
-        return Err(bad(format!("it has {length} bytes, more than {MAX_PLUGIN_BYTES}")));
-    }
-    let bytes = fs::read(file).map_err(|e| bad(format!("it cannot be read ({e})")))?;
+    let bytes = given::read(file, MAX_PLUGIN_BYTES).map_err(|e| match e.kind() {
+        // Their words are sentences of their own.
+        ErrorKind::FileTooLarge | ErrorKind::InvalidInput | ErrorKind::IsADirectory => bad(e.to_string()),
+        _ => bad(format!("it cannot be read ({e})")),
+    })?;
     if !bytes.starts_with(b"\x7fELF") {
         return Err(bad("it is no ELF file; build a shared library (.so) for Linux".into()));
     }

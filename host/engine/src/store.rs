@@ -126,6 +126,7 @@ fn migrations() -> Migrator {
         one(17, "plugin lists", include_str!("../migrations/0017_plugin_lists.sql")),
         one(18, "off links", include_str!("../migrations/0018_off_links.sql")),
         one(19, "farewells", include_str!("../migrations/0019_farewells.sql")),
+        one(20, "check turns", include_str!("../migrations/0020_check_turns.sql")),
     ])
 }
 

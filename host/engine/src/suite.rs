@@ -55,11 +55,8 @@ impl Suite {
     pub fn open(file: Option<&Path>) -> Result<Self> {
         let Some(file) = file else { return Self::read(NEWEST) };
         let bad = |why: String| EngineError::Invalid(format!("The suite {} cannot be used: {why}", file.display()));
-        let length = std::fs::metadata(file).map_err(|e| bad(format!("{e}.")))?.len();
-        if length > MAX_BYTES {
-            return Err(bad(format!("it has {length} bytes, more than {MAX_BYTES}.")));
-        }
-        let text = std::fs::read_to_string(file).map_err(|e| bad(format!("{e}.")))?;
+        let bytes = ocb_sandbox::given::read(file, MAX_BYTES).map_err(|e| bad(format!("{e}.")))?;
+        let text = String::from_utf8(bytes).map_err(|_| bad("it is no text.".into()))?;
         Self::read(&text).map_err(|e| bad(e.to_string()))
     }
 

@@ -30,7 +30,8 @@
  *   until the process ends; static data is meant.
  * - Errors. Functions return an `ocb_status`. A C++ exception or a Rust panic must not leave a function. Aborting is
  *   safe for the host and ends the run with the plugin's outcome "Signaled".
- * - Strings are UTF-8 and end with 0. The host cuts them at 4096 bytes and drops control characters.
+ * - Strings are UTF-8 and end with 0. The host cuts them at 4096 bytes and drops what cannot be seen: control and format
+ *   characters, separators of lines. It refuses '<' and '>' in name, version, authors, license and url.
  * - Units. Lengths are in the length unit of the mesh file; the host does not scale. Nothing else has a unit.
  * - Frames. Mesh vertices are in the object's own frame. A pose takes an object's frame to the world frame, and all
  *   points that a plugin returns are in the world frame.

@@ -204,7 +204,7 @@ pub const RULES: [Rule; 13] = [
 /// Segments that overlap, or a dynamic table that is not where the loader will find it.
 fn misplaced(s: &Subject<'_>) -> Option<String> {
     const PAGE: u64 = 4096;
-    let mut end = 0;
+    let (mut end, mut page_end) = (0, 0);
     for load in s.segments(PT_LOAD) {
         if load.p_filesz > load.p_memsz || load.p_vaddr % PAGE != load.p_offset % PAGE {
             return Some("a segment does not fit its place in memory".into());
@@ -212,8 +212,13 @@ fn misplaced(s: &Subject<'_>) -> Option<String> {
         if load.p_vaddr < end {
             return Some("its segments overlap or are out of order".into());
         }
-        end = match load.p_vaddr.checked_add(load.p_memsz) {
-            Some(end) => end,
+        // The loader maps whole pages: of one that two segments share, the later one's bytes are seen.
+        if load.p_vaddr / PAGE * PAGE < page_end {
+            return Some("two of its segments share a page of memory".into());
+        }
+        let last = load.p_vaddr.checked_add(load.p_memsz);
+        (end, page_end) = match last.and_then(|end| Some((end, end.checked_next_multiple_of(PAGE)?))) {
+            Some(ends) => ends,
             None => return Some("a segment reaches past the end of memory".into()),
         };
     }

@@ -26,6 +26,8 @@ pub const ALL: &[Attack] = &[
     attack!("I3", "jump ahead in the answers' numbers", "forge_number", Contacts, Violation),
     attack!("I3", "0xff over the answer's head, then loop", "forge_header", Contacts, Violation),
     attack!("I3, I8", "announce an answer that is not there, then sleep", "forge_next_answer", Contacts, TimedOut),
+    attack!("I3", "say that it is no plugin when it is asked", "forge_not_loaded", Contacts, Violation),
+    attack!("I3", "die with a lock in the answer's number", "die_with_a_lock", Contacts, Signal(libc::SIGSEGV)),
     attack!("I3", "announce the answer and leave", "forge_and_leave", Contacts, Left(0)),
     attack!("I9", "leave the floating-point state changed", "spoil_floating_point", Query, Harmless),
     attack!("I8", "announce an answer twice", "announce_twice", Contacts, Violation),

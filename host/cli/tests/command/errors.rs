@@ -124,3 +124,29 @@ fn things_that_are_not_there_are_named() {
     }
     assert!(!desk.path("x.glb").exists());
 }
+
+#[test]
+fn pipes_and_devices_are_refused_before_they_are_read() {
+    let desk = Desk::new();
+    let pipe = desk.path("pipe").display().to_string();
+    nix::unistd::mkfifo(std::path::Path::new(&pipe), nix::sys::stat::Mode::S_IRWXU).expect("a pipe");
+    let plugin = desk.file("plugin.so", "\x7fELF");
+    for odd in [&pipe[..], "/dev/zero"] {
+        for args in [
+            &["plugin", "check", odd][..],
+            &["plugin", "check", &plugin, "--manifest", odd],
+            &["plugin", "check", &plugin, "--repro", odd],
+            &["submit", odd, "--manifest", odd, "--token", "t"],
+            &["submit", &plugin, "--manifest", odd, "--token", "t"],
+            &["bench", odd],
+            &["bench", "stock:sphere@500", "--configurations", odd],
+            &["replay", odd],
+        ] {
+            let sentence = desk.refused(args);
+            assert!(sentence.contains("it is no regular file"), "{args:?}: {sentence}");
+        }
+        // One of several: it is not offered, and the others are.
+        let listed = desk.run(&["plugin", "list", "--plugins", odd]);
+        assert!(listed.code == 0 && listed.stderr.contains("it is no regular file"), "{listed:?}");
+    }
+}

@@ -4,7 +4,7 @@ use super::notices::notice;
 use crate::model::{Action, NoticeInfo, PluginState};
 use crate::store::SubmissionRow;
 
-/// What the author of a plugin is told of a curator's decision; nothing of the steps that are the author's own.
+/// What the author of a plugin is told of a curator's decision; nothing of the steps that are the author's alone.
 pub(super) fn of_decision(row: &SubmissionRow, action: Action, reason: &str) -> Option<NoticeInfo> {
     decided(action).map(|(what, text)| to_author(row, what, text, reason))
 }
@@ -31,6 +31,7 @@ pub(super) fn to_author(row: &SubmissionRow, what: &str, text: &str, reason: &st
 fn decided(action: Action) -> Option<(&'static str, &'static str)> {
     match action {
         Action::Offer | Action::Answer | Action::Withdraw => None,
+        Action::EndCheck => Some(("was not checked", "Change it, so that it is checked sooner, and send it again.")),
         Action::Approve => Some(("is public", "A curator approved it: everybody may benchmark it from now on.")),
         Action::Ask => Some(("raises a question", "A curator asks that; answer on its page.")),
         Action::Reject => Some(("was rejected", "A curator decided so, for the reason above.")),

@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
+use ocb_sandbox::text::one_line;
+
 use super::Engine;
 use super::people::said;
 use super::plugin_notices::of_decision;
@@ -18,6 +20,8 @@ use crate::{EngineError, Result, signature};
 /// Largest plugin file that may be sent, and bytes of all that one account keeps.
 pub const MAX_PLUGIN_BYTES: usize = 64 << 20;
 const QUOTA: u64 = 1 << 30;
+/// Longest name of a file that is kept.
+const MAX_NAME_BYTES: usize = 255;
 /// Checks of one account that wait at a time.
 const MAX_WAITING: usize = 5;
 
@@ -72,7 +76,7 @@ impl Engine {
             id: uuid::Uuid::now_v7().to_string(),
             account: account.id.clone(),
             blob,
-            file: file.to_owned(),
+            file: one_line(file, MAX_NAME_BYTES),
             bytes: length as u64,
             manifest,
             signed_by,
@@ -212,20 +216,11 @@ impl Engine {
     pub async fn decide(&self, id: &str, by: &AccountInfo, decision: Decision) -> Result<PluginInfo> {
         let row = self.visible(id, Some(by)).await?;
         let Decision { action, reason } = decision;
-        let mine = row.account == by.id;
         let step = step(action);
-        if step.by_author && !mine {
-            return Err(EngineError::Forbidden("Only who sent this plugin may do that.".into()));
-        }
-        if !step.by_author && by.role < Role::Curator {
-            return Err(EngineError::Forbidden("Only curators may do that.".into()));
-        }
-        if !step.by_author && mine {
-            return Err(EngineError::Forbidden(
-                "Nobody decides about a plugin of their own; another curator has to.".into(),
-            ));
-        }
-        let reason = if step.wants_reason {
+        may_take(&step, row.account == by.id, by.role)?;
+        let reason = if action == Action::EndCheck {
+            ended_by(row.account == by.id, &reason)
+        } else if step.wants_reason {
             said(&reason, "say why, for the author and for the log")?
         } else {
             reason.trim().chars().take(2000).collect()
@@ -241,10 +236,20 @@ impl Engine {
         }
         let store = &self.inner.store;
         let note = Note { actor: &by.name, action: step.word, subject: id, detail: &reason };
-        let notice = of_decision(&row, action, &reason);
-        let telling = notice.as_ref().map(|notice| self.inner.telling(&row.account, notice));
-        if !store.move_submission(id, row.state, step.to, &reason, telling, Some(note)).await? {
+        // Nobody is told of a step of one's own.
+        let notice = of_decision(&row, action, &reason).filter(|_| row.account != by.id);
+        let mut moved = false;
+        // A check goes on while its end is asked for.
+        let from = if action == Action::EndCheck { step.from } else { &[row.state] };
+        for from in from {
+            let telling = notice.as_ref().map(|notice| self.inner.telling(&row.account, notice));
+            moved = moved || store.move_submission(id, *from, step.to, &reason, telling, Some(note)).await?;
+        }
+        if !moved {
             return Err(EngineError::Busy("Somebody else has just decided about this plugin; look again.".into()));
+        }
+        if action == Action::EndCheck {
+            self.inner.stop_current(Some(id));
         }
         self.inner.post_soon();
         self.inner.renew_plugins().await?;
@@ -291,29 +296,65 @@ fn signed_by(account: &AccountInfo, file: &[u8], signature: &str) -> Result<Stri
     signature::check(file, signature, &key).map(|()| key)
 }
 
+/// Who takes a step.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum By {
+    /// Who sent the plugin.
+    Author,
+    /// A curator who did not.
+    Curator,
+    /// Either, and a curator about an own plugin, too.
+    Both,
+}
+
 /// What a step needs and does.
 struct Step {
-    by_author: bool,
+    by: By,
     wants_reason: bool,
     from: &'static [PluginState],
     to: PluginState,
     word: &'static str,
 }
 
-fn step(action: Action) -> Step {
-    use PluginState::*;
-    let (by_author, wants_reason, from, to, word): (_, _, &'static [PluginState], _, _) = match action {
-        Action::Offer => (true, false, &[Validated], Awaiting, "offered"),
-        Action::Answer => (true, true, &[Asked], Awaiting, "answered"),
-        Action::Withdraw => (true, false, &[Public, Suspended, Excluded], Withdrawn, "withdrew"),
-        Action::Approve => (false, false, &[Awaiting], Public, "approved"),
-        Action::Ask => (false, true, &[Awaiting], Asked, "asked"),
-        Action::Reject => (false, true, &[Awaiting, Asked], Rejected, "rejected"),
-        Action::Suspend => (false, true, &[Public], Suspended, "suspended"),
-        Action::Exclude => (false, true, &[Public], Excluded, "excluded"),
-        Action::Reinstate => (false, true, &[Suspended, Excluded, Rejected], Public, "reinstated"),
+/// May somebody of this role take it, about an own plugin or another's?
+fn may_take(step: &Step, mine: bool, role: Role) -> Result<()> {
+    let refused = match step.by {
+        By::Author if !mine => "Only who sent this plugin may do that.",
+        By::Curator if role < Role::Curator => "Only curators may do that.",
+        By::Curator if mine => "Nobody decides about a plugin of their own; another curator has to.",
+        By::Both if !mine && role < Role::Curator => "Only who sent this plugin and curators may do that.",
+        _ => return Ok(()),
     };
-    Step { by_author, wants_reason, from, to, word }
+    Err(EngineError::Forbidden(refused.into()))
+}
+
+/// Why a check has no result.
+fn ended_by(mine: bool, reason: &str) -> String {
+    let by = if mine { "its author" } else { "a curator" };
+    let reason: String = reason.trim().chars().take(2000).collect();
+    if reason.is_empty() {
+        format!("The check was ended by {by}.")
+    } else {
+        format!("The check was ended by {by}: {reason}")
+    }
+}
+
+fn step(action: Action) -> Step {
+    use By::{Author, Both, Curator};
+    use PluginState::*;
+    let (by, wants_reason, from, to, word): (_, _, &'static [PluginState], _, _) = match action {
+        Action::Offer => (Author, false, &[Validated], Awaiting, "offered"),
+        Action::Answer => (Author, true, &[Asked], Awaiting, "answered"),
+        Action::Withdraw => (Author, false, &[Public, Suspended, Excluded], Withdrawn, "withdrew"),
+        Action::Approve => (Curator, false, &[Awaiting], Public, "approved"),
+        Action::Ask => (Curator, true, &[Awaiting], Asked, "asked"),
+        Action::Reject => (Curator, true, &[Awaiting, Asked], Rejected, "rejected"),
+        Action::Suspend => (Curator, true, &[Public], Suspended, "suspended"),
+        Action::Exclude => (Curator, true, &[Public], Excluded, "excluded"),
+        Action::Reinstate => (Curator, true, &[Suspended, Excluded, Rejected], Public, "reinstated"),
+        Action::EndCheck => (Both, false, &[Uploaded, Vetted], Failed, "ended the check"),
+    };
+    Step { by, wants_reason, from, to, word }
 }
 
 fn ids(row: &SubmissionRow) -> impl Iterator<Item = &str> {

@@ -167,6 +167,8 @@ pub enum Action {
     Exclude,
     /// A curator brings it back.
     Reinstate,
+    /// The author or a curator ends its check, whether it waits or is under way.
+    EndCheck,
 }
 
 /// A step, and why it is taken.

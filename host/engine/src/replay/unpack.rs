@@ -8,6 +8,7 @@ use std::path::Path;
 use ocb_core::configuration::Configuration;
 use ocb_core::instance;
 use ocb_core::mesh::obj;
+use ocb_sandbox::given;
 use zip::ZipArchive;
 
 use super::{FORMAT, RECIPE};
@@ -64,7 +65,7 @@ impl Unpacked {
 }
 
 fn read(path: &Path) -> std::result::Result<Unpacked, String> {
-    let file = File::open(path).map_err(|e| format!("it cannot be opened ({e})"))?;
+    let file = given::open(path).map_err(|e| format!("it cannot be opened ({e})"))?;
     let mut zip = ZipArchive::new(file).map_err(|e| format!("it is no zip archive ({e})"))?;
     if zip.len() > MOST_FILES + 1 || zip.has_duplicate_names() {
         return Err(format!("it holds a file twice, or more than {MOST_FILES} files"));

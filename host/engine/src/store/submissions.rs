@@ -209,13 +209,17 @@ impl Store {
         Ok(())
     }
 
-    /// Takes the submission that waits longest for its check and forgets the lines of an earlier attempt; one that was
-    /// begun `most` times is not begun again.
+    /// Takes the next submission to be checked and forgets the lines of an earlier attempt; one that was begun `most` times
+    /// is not begun again. Authors take turns, so that who sends many holds up nobody's first: next is the one whose latest
+    /// check was begun longest ago.
     pub async fn claim_check(&self, most: i64) -> Result<Option<SubmissionRow>> {
         let id: Option<String> = sqlx::query_scalar(
-            "UPDATE submissions SET attempts = attempts + 1 WHERE id = (SELECT id FROM submissions \
-             WHERE state = 'uploaded' AND attempts < $1 ORDER BY created_us, id LIMIT 1) RETURNING id",
+            "UPDATE submissions SET attempts = attempts + 1, begun_us = $1 WHERE id = (SELECT waiting.id \
+             FROM submissions waiting WHERE waiting.state = 'uploaded' AND waiting.attempts < $2 ORDER BY \
+             (SELECT MAX(other.begun_us) FROM submissions other WHERE other.account = waiting.account), \
+             waiting.created_us, waiting.id LIMIT 1) RETURNING id",
         )
+        .bind(now_us())
         .bind(most)
         .fetch_optional(&self.pool)
         .await?;
@@ -234,12 +238,15 @@ impl Store {
         rows.iter().map(read_submission).collect()
     }
 
-    /// A check that was stopped with the service counts as no attempt.
+    /// A check that was stopped with the service counts as no attempt; one that somebody ended stays so.
     pub async fn put_back_check(&self, id: &str) -> Result<()> {
-        sqlx::query("UPDATE submissions SET state = 'uploaded', attempts = attempts - 1 WHERE id = $1")
-            .bind(id)
-            .execute(&self.pool)
-            .await?;
+        sqlx::query(
+            "UPDATE submissions SET state = 'uploaded', attempts = attempts - 1 \
+             WHERE id = $1 AND state IN ('uploaded', 'vetted')",
+        )
+        .bind(id)
+        .execute(&self.pool)
+        .await?;
         Ok(())
     }
 

@@ -97,6 +97,7 @@ on_both!(
     an_address_counts_once_its_link_was_opened,
     a_link_turns_off_the_mails_of_its_account_alone,
     a_submission_is_checked_three_times_at_most,
+    authors_take_turns_with_their_checks,
     only_what_is_public_is_in_the_lists_of_others,
     what_an_object_hid_stays_hidden_without_it,
     lists_go_on_where_they_were_left,

@@ -837,7 +837,10 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Takes a step on a plugin's way. The author offers, answers and withdraws; curators decide, but not about their own. */
+        /**
+         * Takes a step on a plugin's way. The author offers, answers and withdraws; curators decide, but not about their own; either
+         *     ends its check.
+         */
         post: operations["decide"];
         delete?: never;
         options?: never;
@@ -1448,7 +1451,7 @@ export interface components {
          * @description A step on a plugin's way.
          * @enum {string}
          */
-        Action: "offer" | "answer" | "withdraw" | "approve" | "ask" | "reject" | "suspend" | "exclude" | "reinstate";
+        Action: "offer" | "answer" | "withdraw" | "approve" | "ask" | "reject" | "suspend" | "exclude" | "reinstate" | "end_check";
         /** @description What is advised for a scene. */
         Advice: {
             /**

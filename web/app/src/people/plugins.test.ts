@@ -11,6 +11,13 @@ describe('steps', () => {
     expect(actions(true, 'public', 'developer')).toEqual(['withdraw'])
     expect(actions(true, 'failed', 'developer')).toEqual([])
   })
+  test('author and curators end a check', () => {
+    expect(actions(true, 'uploaded', 'developer')).toEqual(['end_check'])
+    expect(actions(true, 'vetted', 'curator')).toEqual(['end_check'])
+    expect(actions(false, 'vetted', 'administrator')).toEqual(['end_check'])
+    expect(actions(false, 'vetted', 'developer')).toEqual([])
+    expect(steps({ mine: false, state: 'uploaded' }, 'curator')[0]?.reason).toBeDefined()
+  })
   test('curators decide, but not about their own', () => {
     expect(actions(false, 'awaiting', 'curator')).toEqual(['approve', 'ask', 'reject'])
     expect(actions(true, 'awaiting', 'curator')).toEqual([])

@@ -54,12 +54,15 @@ const SUSPEND: Step = { action: 'suspend', text: 'Suspend', reason: 'Why, for ev
 const EXCLUDE: Step = { action: 'exclude', text: 'Exclude on this hardware class', reason: 'Why, for everybody to read' }
 const REINSTATE: Step = { action: 'reinstate', text: 'Make public after all', reason: 'Why, for the log' }
 
+const END_OWN_CHECK: Step = { action: 'end_check', text: 'End the check' }
+const END_CHECK: Step = { action: 'end_check', text: 'End the check', reason: 'Why, for the author' }
+
 const AUTHORS: Partial<Record<PluginState, Step[]>> = {
-  validated: [OFFER], asked: [ANSWER], public: [WITHDRAW], suspended: [WITHDRAW], excluded: [WITHDRAW],
+  uploaded: [END_OWN_CHECK], vetted: [END_OWN_CHECK], validated: [OFFER], asked: [ANSWER], public: [WITHDRAW], suspended: [WITHDRAW], excluded: [WITHDRAW],
 }
 const CURATORS: Partial<Record<PluginState, Step[]>> = {
-  awaiting: [APPROVE, ASK, REJECT], asked: [REJECT], public: [SUSPEND, EXCLUDE], suspended: [REINSTATE],
-  excluded: [REINSTATE], rejected: [REINSTATE],
+  uploaded: [END_CHECK], vetted: [END_CHECK], awaiting: [APPROVE, ASK, REJECT], asked: [REJECT], public: [SUSPEND, EXCLUDE],
+  suspended: [REINSTATE], excluded: [REINSTATE], rejected: [REINSTATE],
 }
 
 /** What this viewer may do with the plugin now; nobody decides about their own. */

@@ -157,7 +157,8 @@ impl Follower {
     }
 }
 
-/// Takes a step on a plugin's way. The author offers, answers and withdraws; curators decide, but not about their own.
+/// Takes a step on a plugin's way. The author offers, answers and withdraws; curators decide, but not about their own; either
+/// ends its check.
 #[utoipa::path(post, path = "/plugins/{id}/decisions", tag = "plugins", request_body = Decision,
     params(("id" = String, Path, description = "Plugin id")),
     responses(

@@ -2,17 +2,20 @@
 
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use ocb_core::instance::Presented;
 use ocb_core::query::{Answer, Counters, Query, Semantics};
-use ocb_sandbox::{Ending, Launcher, Outcome, PassPlan, Session, Trial, integrity};
+use ocb_sandbox::{Ending, Killer, Launcher, Outcome, PassPlan, Session, Trial, integrity};
 
 use super::suite::{Scene, suite};
+use super::term::share;
 use super::{Checking, hint_for, with_output};
 use crate::model::{AlgorithmInfo, CheckVerdict};
 use crate::{EngineError, Result};
 
+/// Processes that are started here; each has a share of the time like a scene of the reference.
+pub const PARTS: usize = 3;
 /// Time for the timed pass.
 const PASS: Duration = Duration::from_millis(1500);
 /// So often each configuration is in the order of the timed pass.
@@ -27,8 +30,14 @@ struct Heard {
 
 impl Checking<'_> {
     /// The first scene in two fresh processes, then timed.
-    pub(super) fn conduct(&mut self, launcher: &Launcher, file: &Path, algorithm: &AlgorithmInfo) -> Result<()> {
-        let Some(&query) = algorithm.queries.first().filter(|_| !self.stopped) else { return Ok(()) };
+    pub(super) fn conduct(
+        &mut self,
+        launcher: &Launcher,
+        file: &Path,
+        algorithm: &AlgorithmInfo,
+        until: Instant,
+    ) -> Result<()> {
+        let Some(&query) = algorithm.queries.first().filter(|_| !self.is_stopped()) else { return Ok(()) };
         let scene = &suite()?.scenes[0];
         let id = &algorithm.id;
         let trial = Trial {
@@ -40,10 +49,19 @@ impl Checking<'_> {
             semantics: Semantics::Surface,
         };
         let mut heard = Vec::new();
-        for _ in 0..2 {
-            match hear(launcher, &trial, query, scene) {
+        for i in 0..2 {
+            match hear(launcher, &trial, query, scene, &self.term.killer(share(until, PARTS - i))) {
                 Ok(once) => heard.push(once),
                 Err(ending) if ending.outcome.ours() => return Err(EngineError::Fault(ending.to_string())),
+                Err(ending) if ending.outcome == Outcome::Cancelled => {
+                    let all = scene.placed.len();
+                    self.not_reached(
+                        format!("{id}: determinism"),
+                        CheckVerdict::Fail,
+                        &format!("{all} questions, asked twice, were not"),
+                    );
+                    return Ok(());
+                }
                 Err(ending) => {
                     let evidence = with_output(&ending.to_string(), &ending.stderr);
                     self.line(format!("{id}: determinism"), CheckVerdict::Fail, evidence, hint_for(&ending.outcome));
@@ -58,7 +76,7 @@ impl Checking<'_> {
         let build = heard.iter().map(|once| once.build_ns).fold(0.0, f64::max) / 1e6;
         let evidence = format!("Builds an object in {build:.2} ms and takes {memory} of memory at most.");
         self.line(format!("{id}: limits"), CheckVerdict::Pass, evidence, None);
-        self.timing(launcher, &trial, query, scene)
+        self.timing(launcher, &trial, query, scene, until)
     }
 
     fn determinism(&mut self, id: &str, heard: &[Heard]) {
@@ -105,11 +123,24 @@ impl Checking<'_> {
     }
 
     /// What the clock shows from outside fits together.
-    fn timing(&mut self, launcher: &Launcher, trial: &Trial, query: Query, scene: &Scene) -> Result<()> {
+    fn timing(
+        &mut self,
+        launcher: &Launcher,
+        trial: &Trial,
+        query: Query,
+        scene: &Scene,
+        until: Instant,
+    ) -> Result<()> {
         let check = format!("{}: timing integrity", trial.algorithm);
-        let mut session = match launcher.start(trial) {
+        // Every run looks again, so no plugin fails for this.
+        let late = "the timed questions were not";
+        let mut session = match launcher.start_with(trial, &self.term.killer(until)) {
             Ok(session) => session,
             Err(ending) if ending.outcome.ours() => return Err(EngineError::Fault(ending.to_string())),
+            Err(ending) if ending.outcome == Outcome::Cancelled => {
+                self.not_reached(check, CheckVerdict::Note, late);
+                return Ok(());
+            }
             Err(ending) => {
                 self.line(check, CheckVerdict::Fail, ending.to_string(), hint_for(&ending.outcome));
                 return Ok(());
@@ -122,6 +153,10 @@ impl Checking<'_> {
             |number: u32, _| Presented { configuration: scene.placed[number as usize].configuration, swapped: false };
         let (facts, _) = session.pass(&plan, &present, &mut |_| ControlFlow::Continue(()));
         let ending = session.finish();
+        if ending.outcome == Outcome::Cancelled {
+            self.not_reached(check, CheckVerdict::Note, late);
+            return Ok(());
+        }
         if ending.outcome != Outcome::Completed {
             self.line(check, CheckVerdict::Fail, ending.to_string(), hint_for(&ending.outcome));
             return Ok(());
@@ -148,8 +183,14 @@ impl Checking<'_> {
 }
 
 /// Asks one fresh process the whole scene, with counters.
-fn hear(launcher: &Launcher, trial: &Trial, query: Query, scene: &Scene) -> std::result::Result<Heard, Ending> {
-    let mut session: Session = launcher.start(trial)?;
+fn hear(
+    launcher: &Launcher,
+    trial: &Trial,
+    query: Query,
+    scene: &Scene,
+    killer: &Killer,
+) -> std::result::Result<Heard, Ending> {
+    let mut session: Session = launcher.start_with(trial, killer)?;
     let build_ns = session.set_up().build_ns;
     let mut answers = Vec::with_capacity(scene.placed.len());
     for placed in &scene.placed {

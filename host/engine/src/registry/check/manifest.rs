@@ -1,6 +1,7 @@
 //! What the author says against what the file says.
 
 use ocb_core::query::Query;
+use ocb_sandbox::text::is_label;
 
 use super::{Checking, query_name};
 use crate::model::{CheckVerdict, Manifest};
@@ -22,8 +23,11 @@ pub fn check_manifest(manifest: &Manifest) -> Result<()> {
     for (field, text) in
         [("name", name), ("authors", authors), ("license", license), ("paper", paper), ("source", source)]
     {
-        if text.chars().count() > WORDS || text.chars().any(char::is_control) {
-            return bad(format!("{field:?} must be one line of at most {WORDS} characters"));
+        if text.chars().count() > WORDS || !is_label(text) {
+            return bad(format!(
+                "{field:?} must be one line of at most {WORDS} characters, without < and > and without characters that \
+                 cannot be seen"
+            ));
         }
     }
     if version.len() > VERSION || !version.chars().all(|c| c.is_ascii_alphanumeric() || ".+-_".contains(c)) {
@@ -82,6 +86,37 @@ impl Checking<'_> {
         } else {
             let evidence = format!("Manifest and descriptor differ: {}.", differs.join("; "));
             self.line("manifest", CheckVerdict::Note, evidence, Some("A curator will ask; say the same in both."));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn manifest(change: impl Fn(&mut Manifest)) -> Manifest {
+        let said =
+            r#"{"name": "Zoë's tree", "version": "1.0", "authors": "Zoë", "license": "MIT", "queries": ["proximity"]}"#;
+        let mut manifest = serde_json::from_str(said).expect("a manifest");
+        change(&mut manifest);
+        manifest
+    }
+
+    #[test]
+    fn text_for_people_holds_no_markup_and_nothing_unseen() {
+        assert!(check_manifest(&manifest(|_| {})).is_ok());
+        let fields: [fn(&mut Manifest, &str); 5] = [
+            |m, odd| m.name += odd,
+            |m, odd| m.authors += odd,
+            |m, odd| m.license += odd,
+            |m, odd| m.paper += odd,
+            |m, odd| m.source += odd,
+        ];
+        for set in fields {
+            for odd in ["<b>", "\u{202e}", "\u{200b}", "\u{feff}", "\u{e000}", "\u{2028}", "\n"] {
+                let refused = check_manifest(&manifest(|m| set(m, odd))).unwrap_err().to_string();
+                assert!(refused.contains("without < and >"), "{odd:?}: {refused}");
+            }
         }
     }
 }

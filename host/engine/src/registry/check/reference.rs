@@ -15,19 +15,24 @@ use ocb_core::record::Verdict;
 use ocb_core::validation::{Terms, judge};
 use ocb_sandbox::{Launcher, MAX_BATCH, Outcome, Session, Trial};
 
+use super::conduct::PARTS as CONDUCT;
 use super::repro::{Question, reduced};
 use super::suite::{Scene, suite};
+use super::term::share;
 use super::{Checking, hint_for, query_name, with_output};
 use crate::measure::precision;
-use crate::model::{AlgorithmInfo, CheckLine, CheckVerdict};
+use crate::model::{AlgorithmInfo, CheckLine, CheckVerdict, Repro};
 use crate::{EngineError, Result};
 
 /// Processes per scene.
 const PROCESSES: u32 = 2;
 /// Questions to the small pair: enough to meet one wrong answer in a hundred thousand with a probability of 98 in 100.
 const MANY: usize = 400_000;
-/// A slow algorithm is asked for so long on each scene; the report says how far it came.
+/// A slow algorithm is asked for so long on each scene at most; the report says how far it came.
 const LONGEST: Duration = Duration::from_secs(20);
+/// Questions that are released together have one limit, so a slow algorithm is asked for no more of them than it answers in
+/// this time.
+const BATCH: Duration = Duration::from_millis(200);
 
 /// What asking one scene has shown.
 #[derive(Default)]
@@ -47,8 +52,10 @@ impl Checking<'_> {
         launcher: &Launcher,
         file: &Path,
         algorithm: &AlgorithmInfo,
+        until: Instant,
     ) -> Result<()> {
         let suite = suite()?;
+        let mut left = algorithm.queries.len() * (1 + suite.scenes.len()) + CONDUCT;
         for query in algorithm.queries.clone() {
             let check = format!("{}: {}, many times", algorithm.id, query_name(query));
             let small = (&suite.small, MANY / PROCESSES as usize, check);
@@ -57,10 +64,12 @@ impl Checking<'_> {
             });
             for (scene, questions, check) in std::iter::once(small).chain(scenes) {
                 // One wrong answer is enough to look for.
-                if self.has_failed() {
-                    break;
+                if self.has_failed() || self.is_stopped() {
+                    return Ok(());
                 }
-                self.scene(launcher, file, algorithm, query, scene, questions, check)?;
+                let until = share(until, left).min(Instant::now() + LONGEST);
+                left -= 1;
+                self.scene(launcher, file, algorithm, query, scene, questions, until, check)?;
             }
         }
         Ok(())
@@ -75,14 +84,16 @@ impl Checking<'_> {
         query: Query,
         scene: &Scene,
         questions: usize,
+        until: Instant,
         check: String,
     ) -> Result<()> {
-        let begun = Instant::now();
         let mut asked = Asked::default();
         for process in 0..PROCESSES {
-            if self.stopped || asked.first.is_some() || asked.ending.is_some() {
+            if self.is_stopped() || asked.first.is_some() || asked.ending.is_some() {
                 break;
             }
+            // Half of the time for each process, so that a slow algorithm shows both instances.
+            let until = share(until, (PROCESSES - process) as usize);
             let seed = seed_of(&algorithm.plugin_sha256) ^ u64::from(process);
             let shown = Presentation::drawn(
                 &scene.mesh_a,
@@ -100,27 +111,28 @@ impl Checking<'_> {
                 parameters: &[],
                 semantics: Semantics::Surface,
             };
-            let mut session = match launcher.start(&trial) {
+            let mut session = match launcher.start_with(&trial, &self.term.killer(until)) {
                 Ok(session) => session,
                 Err(ending) if ending.outcome.ours() => return Err(EngineError::Fault(ending.to_string())),
+                Err(ending) if ending.outcome == Outcome::Cancelled => continue,
                 Err(ending) => {
                     asked.ending = Some((ending.outcome, ending.stderr));
                     break;
                 }
             };
-            let going = || begun.elapsed() < LONGEST;
-            ask(&mut session, &shown, scene, algorithm, query, questions, &going, &mut asked);
+            ask(&mut session, &shown, scene, algorithm, query, questions, until, &mut asked);
             let ending = session.finish();
             if ending.outcome.ours() {
                 return Err(EngineError::Fault(ending.to_string()));
             }
-            if ending.outcome != Outcome::Completed {
+            if !matches!(ending.outcome, Outcome::Completed | Outcome::Cancelled) {
                 asked.ending = Some((ending.outcome, ending.stderr));
             }
         }
-        self.said(launcher, file, algorithm, query, asked, check)
+        self.said(launcher, file, algorithm, query, asked, until, check)
     }
 
+    #[expect(clippy::too_many_arguments, reason = "who was asked what, what came of it, and until when")]
     fn said(
         &mut self,
         launcher: &Launcher,
@@ -128,25 +140,34 @@ impl Checking<'_> {
         algorithm: &AlgorithmInfo,
         query: Query,
         asked: Asked,
+        until: Instant,
         check: String,
     ) -> Result<()> {
         let Asked { answers, silent, wrong, first, ending } = asked;
+        if self.is_stopped() {
+            return Ok(());
+        }
         if let Some((question, verdict)) = first {
-            let repro = reduced(launcher, file, algorithm, query, question, verdict)?;
-            let [a, b] = repro.triangles;
-            let size = if repro.alone {
-                format!("It fails still with {a} and {b} triangles.")
-            } else {
-                "Asked alone in a fresh process it is answered rightly: answers depend on what was asked before.".into()
+            let repro = reduced(self.term, until, launcher, file, algorithm, query, question, verdict)?;
+            let size = match &repro {
+                None => "There was no time left to look for a small repro.".to_owned(),
+                Some(Repro { alone: true, triangles: [a, b], .. }) => {
+                    format!("It fails still with {a} and {b} triangles.")
+                }
+                Some(_) => "Asked alone in a fresh process it is answered rightly: answers depend on what was asked \
+                            before."
+                    .to_owned(),
             };
             let name = verdict.name().replace('_', " ");
             let evidence = format!("{wrong} of {answers} answers are wrong, the first is a {name}. {size}");
             let hint = "Take the repro and ask it again: ocb plugin check FILE.so --repro REPRO.json";
-            let (hint, repro) = (Some(hint.to_owned()), Some(Box::new(repro)));
+            let (hint, repro) = (repro.is_some().then(|| hint.to_owned()), repro.map(Box::new));
             self.add(CheckLine { check, verdict: CheckVerdict::Fail, evidence, hint, repro });
         } else if let Some((outcome, stderr)) = ending {
             let hint = hint_for(&outcome);
             self.line(check, CheckVerdict::Fail, with_output(&outcome.to_string(), &stderr), hint);
+        } else if answers == 0 {
+            self.not_reached(check, CheckVerdict::Fail, "not one question was");
         } else if silent > 0 {
             let evidence = format!("No answer to {silent} of {answers} questions, the others are right.");
             self.line(
@@ -155,7 +176,7 @@ impl Checking<'_> {
                 evidence,
                 Some("An algorithm that offers a question should answer it."),
             );
-        } else if !self.stopped {
+        } else {
             self.line(check, CheckVerdict::Pass, format!("All {answers} answers agree with the reference."), None);
         }
         Ok(())
@@ -177,7 +198,7 @@ fn ask(
     algorithm: &AlgorithmInfo,
     query: Query,
     questions: usize,
-    going: &dyn Fn() -> bool,
+    until: Instant,
     asked: &mut Asked,
 ) {
     let pair = Pair::new(&scene.a, &scene.b);
@@ -188,15 +209,16 @@ fn ask(
         let (number, instance) = which(i);
         shown.present(&scene.placed[number as usize].configuration, number, instance)
     };
-    let mut next = 0;
-    while next < questions && asked.first.is_none() && going() {
-        // Lists of contacts cannot be asked for together.
-        let size = if query == Query::CollisionAll { 1 } else { MAX_BATCH.min(questions - next) };
+    let (mut next, mut most) = (0, 1);
+    while next < questions && asked.first.is_none() && Instant::now() < until {
+        let size = most.min(questions - next);
+        let begun = Instant::now();
         let batch: Vec<Presented> = (next..next + size).map(present).collect();
         let answers: Vec<Answer> = match session.batch(query, &batch) {
             Ok(batch) => batch.answers,
             Err(_) => break,
         };
+        let took = begun.elapsed();
         for (i, answer) in (next..).zip(answers) {
             let (number, instance) = which(i);
             let placed = &scene.placed[number as usize];
@@ -209,5 +231,10 @@ fn ask(
             }
         }
         next += size;
+        // Lists of contacts cannot be asked for together.
+        if query != Query::CollisionAll {
+            let each = took.as_secs_f64().max(1e-9) / size as f64;
+            most = ((BATCH.as_secs_f64() / each) as usize).clamp(1, MAX_BATCH);
+        }
     }
 }

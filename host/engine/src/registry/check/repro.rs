@@ -2,6 +2,7 @@
 
 use std::path::Path;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use ocb_core::configuration::{Configuration, Placed};
 use ocb_core::instance::{Presentation, Presented};
@@ -12,15 +13,21 @@ use ocb_core::query::{Answer, Query, Semantics};
 use ocb_core::record::Verdict;
 use ocb_core::reduce::reduce;
 use ocb_core::validation::{Terms, judge};
-use ocb_sandbox::{Launcher, Outcome, Trial};
+use ocb_sandbox::{Killer, Launcher, Outcome, Trial};
 
-use super::{Checking, certified, query_name};
+use super::smoke::certified;
+use super::term::Term;
+use super::{Checking, query_name};
 use crate::measure::precision;
 use crate::model::{AlgorithmInfo, CheckVerdict, Repro};
 use crate::{EngineError, Result};
 
 /// Processes started at most to find fewer triangles.
 const TRIES: usize = 150;
+/// Time for that at most; an algorithm that is slow to build is left with a larger repro.
+const LONGEST: Duration = Duration::from_secs(20);
+/// And at least, though its own share of the check is over: a wrong answer without its question helps no author.
+const LEAST: Duration = Duration::from_secs(2);
 
 /// A question as the plugin saw it, and what it said.
 pub struct Question {
@@ -39,25 +46,34 @@ impl Question {
     }
 }
 
-/// Asks with ever fewer triangles as long as the answer stays wrong.
+/// Asks with ever fewer triangles as long as the answer stays wrong and there is time; `None` when there was none even to
+/// ask once.
+#[expect(clippy::too_many_arguments, reason = "who is asked what, and until when")]
 pub fn reduced(
+    term: &Term<'_>,
+    until: Instant,
     launcher: &Launcher,
     file: &Path,
     algorithm: &AlgorithmInfo,
     query: Query,
     question: Question,
     verdict: Verdict,
-) -> Result<Repro> {
+) -> Result<Option<Repro>> {
+    let until = until.max(Instant::now() + LEAST).min(Instant::now() + LONGEST);
+    let over = || term.is_stopped() || Instant::now() >= until.min(term.ends());
     let Question { mesh_a, mesh_b, configuration, answer } = question;
     let a = mesh_a.triangles().len();
     let mut fault = None;
     let mut last: Option<(Mesh, Mesh, Asked)> = None;
     let mut fails = |kept: &[usize]| {
+        if over() {
+            return false;
+        }
         let (of_a, of_b) = kept.split_at(kept.partition_point(|i| *i < a));
         let parts = part(&mesh_a, of_a.iter().copied()).zip(part(&mesh_b, of_b.iter().map(|i| i - a)));
         let Some((part_a, part_b)) = parts else { return false };
-        match ask_once(launcher, file, algorithm, query, [&part_a, &part_b], &configuration) {
-            Ok(asked) if asked.verdict.is_wrong() => {
+        match ask_once(launcher, &term.killer(until), file, algorithm, query, [&part_a, &part_b], &configuration) {
+            Ok(Some(asked)) if asked.verdict.is_wrong() => {
                 last = Some((part_a, part_b, asked));
                 true
             }
@@ -76,11 +92,14 @@ pub fn reduced(
         return Err(fault);
     }
     let alone = last.is_some();
+    if !alone && over() {
+        return Ok(None);
+    }
     let (mesh_a, mesh_b, asked) = last.unwrap_or_else(|| {
         let placed = truth(&mesh_a, &mesh_b, configuration);
         (mesh_a, mesh_b, Asked { answer, verdict, placed })
     });
-    Ok(Repro {
+    Ok(Some(Repro {
         algorithm: algorithm.id.clone(),
         query,
         object_a: obj::write(&mesh_a),
@@ -92,7 +111,7 @@ pub fn reduced(
         got: got(&asked.answer),
         verdict: asked.verdict,
         alone,
-    })
+    }))
 }
 
 /// One answer with its truth.
@@ -107,15 +126,16 @@ fn truth(a: &Mesh, b: &Mesh, configuration: Configuration) -> Placed {
     certified(&Pair::new(&a, &b), configuration)
 }
 
-/// Asks a fresh process one question.
+/// Asks a fresh process one question; `None` when it was ended before it answered.
 fn ask_once(
     launcher: &Launcher,
+    killer: &Killer,
     file: &Path,
     algorithm: &AlgorithmInfo,
     query: Query,
     [a, b]: [&Mesh; 2],
     configuration: &Configuration,
-) -> Result<Asked> {
+) -> Result<Option<Asked>> {
     let trial = Trial {
         plugin: file,
         algorithm: &algorithm.id,
@@ -128,20 +148,25 @@ fn ask_once(
     let placed = truth(a, b, *configuration);
     // A plugin that dies of this question answers nothing, and it is another failure than the one that is looked for.
     let nothing = Asked { answer: Answer::GaveUp, verdict: Verdict::GaveUp, placed };
-    let mut session = match launcher.start(&trial) {
+    let mut session = match launcher.start_with(&trial, killer) {
         Ok(session) => session,
         Err(ending) if ending.outcome.ours() => return Err(fault(&ending.outcome)),
-        Err(_) => return Ok(nothing),
+        Err(ending) if ending.outcome == Outcome::Cancelled => return Ok(None),
+        Err(_) => return Ok(Some(nothing)),
     };
     let answer = session.query(query, configuration);
     let ending = session.finish();
     let Ok(sample) = answer else {
-        return if ending.outcome.ours() { Err(fault(&ending.outcome)) } else { Ok(nothing) };
+        return match &ending.outcome {
+            Outcome::Cancelled => Ok(None),
+            outcome if outcome.ours() => Err(fault(outcome)),
+            _ => Ok(Some(nothing)),
+        };
     };
     let [shape_a, shape_b] = [a, b].map(|mesh| Shape::new(Arc::new(mesh.clone())));
     let terms = Terms { query, semantics: Semantics::Surface, precision: precision(algorithm) };
     let verdict = judge(&Pair::new(&shape_a, &shape_b), &placed, terms, &sample.answer).verdict;
-    Ok(Asked { answer: sample.answer, verdict, placed })
+    Ok(Some(Asked { answer: sample.answer, verdict, placed }))
 }
 
 /// The mesh of these triangles and their vertices; none when nothing with area is left.
@@ -184,8 +209,13 @@ impl Checking<'_> {
         let configuration = Configuration { pose_a: pose(&repro.pose_a)?, pose_b: pose(&repro.pose_b)? };
         let known = self.report.algorithms.iter().find(|known| known.id == repro.algorithm).cloned();
         let algorithm = known.ok_or_else(|| bad("algorithm", &format!("{:?} is not in this file", repro.algorithm)))?;
-        let asked = ask_once(launcher, file, &algorithm, repro.query, [&a, &b], &configuration)?;
+        let killer = self.term.killer(self.term.ends());
+        let asked = ask_once(launcher, &killer, file, &algorithm, repro.query, [&a, &b], &configuration)?;
         let check = format!("{}: {}, the question of the repro", algorithm.id, query_name(repro.query));
+        let Some(asked) = asked else {
+            self.not_reached(check, CheckVerdict::Fail, "the question was not");
+            return Ok(());
+        };
         let verdict =
             if asked.verdict.is_wrong() || asked.verdict.is_silent() { CheckVerdict::Fail } else { CheckVerdict::Pass };
         let evidence = format!("Expected: {} Got: {}", expected(&asked.placed), got(&asked.answer));

@@ -10,7 +10,7 @@ use ocb_core::oracle::{Pair, Shape};
 use ocb_core::sampling::Plan;
 use rayon::prelude::*;
 
-use super::{TRIANGLES, certified, smoke_object};
+use super::smoke::{TRIANGLES, certified, smoke_object};
 use crate::{EngineError, Result};
 
 /// Pairs of stock objects with their sizes: like and unlike, the larger one first and second.

@@ -136,3 +136,21 @@ pub async fn a_state_and_its_history_are_of_one_moment(store: Store) {
     futures::join!(mover(), reader(), reader());
     assert_eq!(store.whole_submission("q").await.unwrap(), None);
 }
+
+pub async fn authors_take_turns_with_their_checks(store: Store) {
+    store.add_account(&account("1", "ada"), "hash").await.unwrap();
+    store.add_account(&account("2", "bob"), "hash").await.unwrap();
+    for (id, of, created_us) in [("a", "1", 1), ("b", "1", 2), ("c", "1", 3), ("d", "2", 4), ("e", "2", 5)] {
+        store.add_blob(id, 1, "x").await.unwrap();
+        let row = SubmissionRow { created_us, ..submission(id, of, id) };
+        assert!(store.add_submission(&row, NOTE).await.unwrap());
+    }
+    let mut order = String::new();
+    while let Some(row) = store.claim_check(3).await.unwrap() {
+        order += &row.id;
+        assert!(store.move_submission(&row.id, row.state, PluginState::Failed, "", None, None).await.unwrap());
+        // What was ended meanwhile does not wait again.
+        store.put_back_check(&row.id).await.unwrap();
+    }
+    assert_eq!(order, "adbec");
+}

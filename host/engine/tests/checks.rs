@@ -1,0 +1,187 @@
+//! Checks of uploaded plugins end: by their limit, by a stop of the service, by somebody's order.
+
+mod common;
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use ocb_core::query::Query;
+use ocb_engine::model::{
+    AccountInfo, Action, CheckVerdict, Decision, Manifest, Page, PluginInfo, PluginReport, PluginState, Role,
+};
+use ocb_engine::{Engine, EngineConfig, EngineError, Profile};
+use tokio::sync::{Mutex, MutexGuard};
+
+/// One check at a time on a machine.
+async fn alone() -> MutexGuard<'static, ()> {
+    static ALONE: Mutex<()> = Mutex::const_new(());
+    ALONE.lock().await
+}
+
+/// A right plugin that takes so many milliseconds to build an object and to answer, under so many names.
+#[expect(clippy::disallowed_methods, reason = "the test compiles a plugin")]
+fn slow(folder: &Path, build: u32, query: u32, algorithms: u32) -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let file = folder.join(format!("slow-{build}-{query}-{algorithms}.so"));
+    let mut cc = std::process::Command::new("cc");
+    cc.args(["-std=gnu11", "-O1", "-fPIC", "-shared", "-fvisibility=hidden"]);
+    cc.args([("BUILD_MS", build), ("QUERY_MS", query), ("OFFERED", algorithms)].map(|(k, v)| format!("-D{k}={v}")));
+    cc.arg("-I").arg(here.join("../../plugin-api/include")).arg("-I").arg(here.join("../../plugin-api/templates/c"));
+    assert!(cc.arg(here.join("tests/fixtures/slow.c")).arg("-o").arg(&file).status().unwrap().success());
+    file
+}
+
+fn config(data: &Path) -> EngineConfig {
+    EngineConfig { plugins: Vec::new(), profile: Profile::Dev, ..common::config(data) }
+}
+
+fn manifest() -> Manifest {
+    Manifest {
+        name: "Slow".into(),
+        version: "1.0".into(),
+        authors: "Somebody".into(),
+        license: "MIT OR Apache-2.0".into(),
+        paper: String::new(),
+        source: String::new(),
+        queries: vec![Query::CollisionFirst],
+        threads: false,
+    }
+}
+
+async fn sent(engine: &Engine, author: &AccountInfo, file: &Path) -> PluginInfo {
+    let bytes = std::fs::read(file).unwrap();
+    engine.submit_plugin(author, "slow.so", bytes, manifest(), None).await.unwrap().0
+}
+
+async fn developer(engine: &Engine, name: &str) -> AccountInfo {
+    engine.add_account(name, "a long enough password", Role::Developer).await.unwrap()
+}
+
+/// Waits until the check is so far that the plugin answers questions, or builds.
+async fn under_way(engine: &Engine, id: &str, viewer: &AccountInfo) {
+    let begun = Instant::now();
+    while engine.plugin(id, Some(viewer)).await.unwrap().state != PluginState::Vetted {
+        assert!(begun.elapsed() < Duration::from_secs(60), "the check did not begin");
+        tokio::time::sleep(Duration::from_millis(20)).await;
+    }
+    tokio::time::sleep(Duration::from_millis(500)).await;
+}
+
+async fn checked_within(limit: Duration, file: &Path, quick: bool) -> (PluginReport, Duration) {
+    let data = tempfile::tempdir().unwrap();
+    let engine =
+        Engine::open(EngineConfig { check_limit: limit, dispatch: false, ..config(data.path()) }).await.unwrap();
+    let begun = Instant::now();
+    let report = engine.check_plugin(file, ocb_engine::Extent { quick, ..Default::default() }).await.unwrap();
+    let took = begun.elapsed();
+    engine.shutdown().await;
+    (report, took)
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn many_slow_algorithms_share_one_limit() {
+    let _alone = alone().await;
+    let folder = tempfile::tempdir().unwrap();
+    let limit = Duration::from_secs(12);
+    let (report, took) = checked_within(limit, &slow(folder.path(), 0, 800, 64), false).await;
+    // Where nothing is shared it takes 64 times 36 questions of 0.8 s.
+    assert!(took < limit + Duration::from_secs(3), "{took:?}");
+    assert!(!report.passed);
+    let late: Vec<_> =
+        report.lines.iter().filter(|line| line.evidence.starts_with("Not reached within the limit")).collect();
+    assert_eq!(late.len(), 64, "each algorithm had its turn: {:?}", report.lines);
+    assert!(late.iter().all(|line| line.verdict == CheckVerdict::Fail && line.evidence.contains("12 seconds")));
+    assert!(late[0].hint.as_ref().unwrap().contains("fewer algorithms"));
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn one_slow_algorithm_is_asked_as_long_as_there_is_time() {
+    let _alone = alone().await;
+    let folder = tempfile::tempdir().unwrap();
+    let limit = Duration::from_secs(30);
+    let (report, took) = checked_within(limit, &slow(folder.path(), 0, 60, 1), false).await;
+    assert!(report.passed, "{:?}", report.lines);
+    assert!(took < limit + Duration::from_secs(3), "{took:?}");
+    // It is too slow for all four hundred thousand questions, but every scene was reached.
+    let reached = report.lines.iter().filter(|line| line.evidence.contains("answers agree with the reference"));
+    assert_eq!(reached.count(), 1 + 1 + 5, "{:?}", report.lines);
+}
+
+/// The service is stopped in the middle of this plugin's check: in time, and the check waits again.
+async fn check_stopped(file: &Path) {
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(config(data.path())).await.unwrap();
+    let author = developer(&engine, "author").await;
+    let plugin = sent(&engine, &author, file).await;
+    under_way(&engine, &plugin.id, &author).await;
+    let begun = Instant::now();
+    engine.shutdown().await;
+    assert!(begun.elapsed() < Duration::from_secs(1), "{:?}", begun.elapsed());
+    let engine = Engine::open(EngineConfig { dispatch: false, ..config(data.path()) }).await.unwrap();
+    let now = engine.plugin(&plugin.id, Some(&author)).await.unwrap();
+    assert_eq!(now.state, PluginState::Uploaded, "{}", now.reason);
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_stop_ends_a_slow_answer_within_a_second() {
+    let _alone = alone().await;
+    let folder = tempfile::tempdir().unwrap();
+    check_stopped(&slow(folder.path(), 0, 800, 1)).await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_stop_ends_a_slow_build_within_a_second() {
+    let _alone = alone().await;
+    let folder = tempfile::tempdir().unwrap();
+    check_stopped(&slow(folder.path(), 15_000, 0, 1)).await;
+}
+
+fn end(reason: &str) -> Decision {
+    Decision { action: Action::EndCheck, reason: reason.into() }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn author_and_curators_end_a_check() {
+    let _alone = alone().await;
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(config(data.path())).await.unwrap();
+    let (author, other) = (developer(&engine, "author").await, developer(&engine, "other").await);
+    let curator = engine.add_account("curator", "a long enough password", Role::Curator).await.unwrap();
+    // One under way, and one that waits behind it.
+    let first = sent(&engine, &author, &slow(data.path(), 0, 800, 1)).await;
+    under_way(&engine, &first.id, &author).await;
+    let second = sent(&engine, &author, &slow(data.path(), 0, 801, 1)).await;
+    let refused = engine.decide(&second.id, &other, end("")).await.unwrap_err();
+    assert!(matches!(refused, EngineError::NotFound(_)), "{refused:?}");
+
+    let ended = engine.decide(&second.id, &author, end("")).await.unwrap();
+    assert_eq!((ended.state, ended.reason.as_str()), (PluginState::Failed, "The check was ended by its author."));
+    let begun = Instant::now();
+    let ended = engine.decide(&first.id, &curator, end("Too slow.")).await.unwrap();
+    let reason = "The check was ended by a curator: Too slow.";
+    assert_eq!((ended.state, ended.reason.as_str()), (PluginState::Failed, reason));
+    let done = ended.history.last().unwrap();
+    assert_eq!(
+        (done.actor.as_str(), done.action.as_str(), done.detail.as_str()),
+        ("curator", "ended the check", reason)
+    );
+    // The author is told of what another did, and of that alone.
+    let notices = engine.notices(&author, &Page::default()).await.unwrap().entries;
+    assert_eq!(notices.len(), 1, "{notices:?}");
+    assert!(notices[0].subject.ends_with("was not checked") && notices[0].text.contains("Too slow."), "{notices:?}");
+
+    // The queue goes on at once, and what was ended stays so.
+    let third = sent(&engine, &other, &slow(data.path(), 0, 802, 1)).await;
+    under_way(&engine, &third.id, &other).await;
+    assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
+    let again = engine.decide(&first.id, &author, end("")).await.unwrap_err();
+    assert!(matches!(again, EngineError::Busy(_)), "{again:?}");
+    engine.shutdown().await;
+    let engine = Engine::open(EngineConfig { dispatch: false, ..config(data.path()) }).await.unwrap();
+    for (plugin, state) in [(first, PluginState::Failed), (second, PluginState::Failed), (third, PluginState::Uploaded)]
+    {
+        assert_eq!(engine.plugin(&plugin.id, Some(&curator)).await.unwrap().state, state);
+    }
+    engine.shutdown().await;
+}
