@@ -393,6 +393,11 @@ pub struct AlgorithmResult {
 }
 
 impl AlgorithmResult {
+    /// A control question was answered wrongly.
+    pub fn guessed(&self) -> bool {
+        self.controls.is_some_and(|controls| controls.wrong > 0)
+    }
+
     /// Its time was over before its first answer: nothing is known of it.
     pub fn had_no_time(&self) -> bool {
         self.n == 0 && self.budget_limited && self.outcome.name == "Completed"

@@ -1,7 +1,7 @@
 //! What the board makes of given results.
 
 use ocb_engine::board::{self, Measured, Named, add_stability, board};
-use ocb_engine::model::{Accuracy, Board, BoardRequest, BoardRow, Tally};
+use ocb_engine::model::{Accuracy, Board, BoardRequest, BoardRow, Controls, Tally, UnrankedCause};
 use ocb_engine::suite::Suite;
 use serde_json::{Value, json};
 
@@ -67,6 +67,32 @@ fn ask(measured: Vec<Measured>, request: &Value) -> Board {
 
 fn row<'a>(board: &'a Board, algorithm: &str) -> &'a BoardRow {
     board.rows.iter().find(|row| row.algorithm == algorithm).unwrap_or_else(|| panic!("{algorithm} in {board:#?}"))
+}
+
+/// With so many of 50 control questions answered wrongly.
+fn guessing(mut of: Measured, wrong: u32) -> Measured {
+    of.result.controls = Some(Controls { n: 50, of: 50, crossing: 25, wrong, silent: 0, guess: 1e-6 });
+    of.result.unranked = Some(UnrankedCause::WrongControls { wrong, n: 50 }.into());
+    of
+}
+
+#[test]
+fn what_guesses_has_neither_a_place_nor_a_mark() {
+    let mut all = five();
+    all.push(guessing(measured("guesser", 10.0, 200, &[]), 25));
+    // One wrong answer more would otherwise buy the mark of a method that approximates.
+    all.push(guessing(measured("sly", 10.0, 200, &[("false_negative", 1)]), 25));
+    all.push(guessing(measured("distance-field", 500.0, 200, &[("false_negative", 40)]), 12));
+    let board = ask(all, &json!({}));
+    for algorithm in ["guesser", "sly"] {
+        let row = row(&board, algorithm);
+        assert_eq!((row.rank, row.frontier), (None, false), "{row:?}");
+        assert_eq!(row.reason.as_deref(), Some("25 of 50 control questions were answered wrongly."));
+        assert!(board.chart.series.iter().all(|series| !series.name.contains(algorithm)), "{:#?}", board.chart);
+    }
+    assert!(row(&board, "distance-field").reason.as_deref().is_some_and(|why| why.contains("wrong answers")));
+    assert!(row(&board, "voxmap-pointshell").frontier && !board.finding.contains("guesser"), "{}", board.finding);
+    assert_eq!(row(&board, "box-tree").rank, Some(1));
 }
 
 #[test]

@@ -71,3 +71,23 @@ pub fn unranked(controls: &Controls) -> Option<Unranked> {
     };
     Some(cause.into())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wrong_one_weighs_more_than_a_missing_one_and_that_more_than_too_few() {
+        let why = |n, wrong, silent| {
+            let controls = Controls { n, of: 30, crossing: 0, wrong, silent, guess: 0.0 };
+            unranked(&controls).map(|unranked| unranked.cause)
+        };
+        assert_eq!(why(30, 0, 0), None);
+        assert_eq!(why(LEAST, 0, 0), None);
+        assert_eq!(why(20, 1, 1), Some(UnrankedCause::WrongControls { wrong: 1, n: 20 }));
+        assert_eq!(why(20, 0, 1), Some(UnrankedCause::SilentControls { silent: 1, n: 20 }));
+        assert_eq!(why(20, 0, 0), Some(UnrankedCause::FewControls { n: 20, of: 30, least: LEAST }));
+        let few = |n, of| Unranked::from(UnrankedCause::FewControls { n, of, least: LEAST }).message;
+        assert!(few(20, 30).contains("give it more time") && few(9, 9).contains("these objects"));
+    }
+}

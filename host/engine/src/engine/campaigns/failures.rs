@@ -87,6 +87,9 @@ fn failing(result: &AlgorithmResult, of_suite: bool, before: Option<&AlgorithmRe
             let (wrong, n) = (result.wrong, result.n);
             Some(format!("{wrong} of its {n} answers {} wrong.", if wrong == 1 { "is" } else { "are" }))
         }
+        "Completed" if of_suite && result.guessed() => {
+            result.unranked.as_ref().map(|unranked| unranked.message.clone())
+        }
         "Completed" => None,
         // Ours, or such that the machine may have done it: times that do not fit together, a stop, a kill from outside.
         _ if outcome.ours || outcome.message.contains("SIGKILL") => None,
@@ -107,6 +110,7 @@ fn report(campaign: &CampaignRow, run: &RunRow, algorithm: &str, why: &str) -> S
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{Controls, UnrankedCause};
 
     fn result(outcome: &str, message: &str, ours: bool, wrong: u32) -> AlgorithmResult {
         serde_json::from_value(serde_json::json!({
@@ -144,5 +148,13 @@ mod tests {
         assert!(failing(&crash, false, Some(&crash)).is_none() && failing(&crash, false, None).is_none());
         assert_eq!(failing(&wrong, true, None).as_deref(), Some("1 of its 9 answers is wrong."));
         assert_eq!(failing(&wrong, false, Some(&well)), None);
+        let mut guessing = well.clone();
+        guessing.controls = Some(Controls { n: 24, of: 24, crossing: 12, wrong: 12, silent: 0, guess: 1e-3 });
+        guessing.unranked = Some(UnrankedCause::WrongControls { wrong: 12, n: 24 }.into());
+        assert_eq!(
+            failing(&guessing, true, None).as_deref(),
+            Some("12 of 24 control questions were answered wrongly.")
+        );
+        assert_eq!(failing(&guessing, false, Some(&well)), None);
     }
 }
