@@ -41,7 +41,7 @@ use tracing_subscriber::filter::{LevelFilter, Targets};
 use tracing_subscriber::prelude::*;
 
 use args::{Cli, Command};
-use failure::{Failure, Result};
+use failure::Result;
 
 #[tokio::main]
 async fn main() -> ExitCode {
