@@ -18,10 +18,9 @@ use crate::control::{Control, Order, Report};
 use crate::cpus::Places;
 use crate::doorbell::futex_wait;
 use crate::evidence::{Launched, Messages, status_kib};
-use crate::gate::MAX_BYTES;
-use crate::given;
 use crate::layers::Layers;
 use crate::memory::MemoryGroup;
+use crate::opened::{self, Opened};
 use crate::outcome::{Ending, Outcome};
 use crate::policy::Policy;
 use crate::protocol::{answer, request};
@@ -87,20 +86,11 @@ impl Jail {
         namespaces: bool,
     ) -> Result<Jail, Ending> {
         let fault = |step: &'static str| move |error: io::Error| Ending::from(Outcome::fault(step, error));
-        let unreadable = |error: io::Error| {
-            Ending::from(Outcome::LoadError { reason: format!("{} cannot be read: {error}", plugin.display()) })
-        };
         if killer.asked() {
             return Err(Outcome::Cancelled.into());
         }
-        let plugin_path = plugin.canonicalize().map_err(unreadable)?;
-        let plugin_file = given::open(&plugin_path).map_err(unreadable)?;
-        let metadata = plugin_file.metadata().map_err(unreadable)?;
-        if metadata.len() > MAX_BYTES {
-            let reason =
-                format!("it has {} bytes, at most {MAX_BYTES} may be; strip its debug symbols", metadata.len());
-            return Err(Outcome::LoadError { reason }.into());
-        }
+        let Opened { path: plugin_path, file: plugin_file, bytes: plugin_bytes } =
+            opened::open(plugin, policy.plugin_sha256.as_deref())?;
         let libraries = if policy.trusted { brought::beside(&plugin_path)? } else { Vec::new() };
         let whole = libc::F_SEAL_SHRINK | libc::F_SEAL_GROW | libc::F_SEAL_SEAL;
         // What is sealed so has no other writable mapping than the one that is there: ours.
@@ -170,7 +160,7 @@ impl Jail {
             supervisor: std::process::id() as i32,
             namespaces,
             plugin_path: plugin_path.to_string_lossy().into_owned(),
-            plugin_bytes: metadata.len(),
+            plugin_bytes,
             libraries,
             cpus: places.runner.clone(),
             startable_threads,

@@ -28,6 +28,7 @@ pub mod launcher;
 pub mod layers;
 mod memory;
 mod null;
+mod opened;
 pub mod outcome;
 pub mod pass;
 pub mod policy;

@@ -6,7 +6,7 @@ use crate::integrity::Finding;
 
 /// How a runner ended. `Display` is one sentence for the person who asked for the run.
 ///
-/// Every variant except [`Outcome::SandboxFault`] and [`Outcome::Cancelled`] speaks about the plugin. All evidence is
+/// Every variant except [`Outcome::SandboxFault`], [`Outcome::FileReplaced`] and [`Outcome::Cancelled`] speaks about the plugin. All evidence is
 /// taken outside the jail: exit statuses from the jail's init, the memory group's counters, the seccomp listener, the
 /// supervisor's clock.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +23,12 @@ pub enum Outcome {
     /// The file could not be loaded as a plugin of this interface.
     LoadError {
         /// The loader's or the runner's reason.
+        reason: String,
+    },
+    /// The plugin file is not the one that was meant: it was replaced or removed after it had been read. Nobody's fault but of
+    /// who changed it: such a run says nothing about the plugin, and nothing about us.
+    FileReplaced {
+        /// What is there instead.
         reason: String,
     },
     /// Killed by a signal of its own making.
@@ -124,6 +130,7 @@ impl Outcome {
             Outcome::Completed => "Completed",
             Outcome::Failed { .. } => "Failed",
             Outcome::LoadError { .. } => "LoadError",
+            Outcome::FileReplaced { .. } => "FileReplaced",
             Outcome::Signaled { .. } => "Signaled",
             Outcome::TimedOut { .. } => "TimedOut",
             Outcome::OutOfMemory { .. } => "OutOfMemory",
@@ -152,6 +159,12 @@ impl fmt::Display for Outcome {
             Outcome::Completed => write!(f, "The plugin answered everything it was asked."),
             Outcome::Failed { phase, reason } => write!(f, "The plugin gave up {phase}: {reason}."),
             Outcome::LoadError { reason } => write!(f, "The file could not be loaded as a plugin: {reason}."),
+            Outcome::FileReplaced { reason } => {
+                write!(
+                    f,
+                    "The plugin file was replaced after it had been read: {reason}. Start the service or command again."
+                )
+            }
             Outcome::Signaled { phase, signal } => {
                 write!(f, "The plugin crashed {phase} ({}).", signal_name(*signal))
             }

@@ -31,6 +31,8 @@ pub struct Policy {
     /// The plugin was built from our own sources: it may run even where this machine forbids namespaces, under the
     /// layers that remain ([`crate::Session::layers`] lists them). Never set it for a file that somebody brought.
     pub trusted: bool,
+    /// SHA-256 (hex) that the plugin file must have when it is opened; any when absent.
+    pub plugin_sha256: Option<String>,
     /// How much a foreign plugin needs of this machine.
     pub profile: Profile,
 }
@@ -72,6 +74,7 @@ impl Default for Policy {
             clock: ClockChoice::Auto,
             rough_clock: false,
             trusted: false,
+            plugin_sha256: None,
             profile: Profile::Production,
         }
     }

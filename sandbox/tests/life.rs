@@ -85,6 +85,25 @@ fn a_missing_runner_is_our_fault() {
 }
 
 #[test]
+fn a_file_that_was_replaced_is_told_from_faults() {
+    use sha2::{Digest, Sha256};
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("plugin.so");
+    std::fs::copy(fixture(&[]), &file).unwrap();
+    let hash: String = Sha256::digest(std::fs::read(&file).unwrap()).iter().map(|b| format!("{b:02x}")).collect();
+    let launcher = launcher_with(Policy { plugin_sha256: Some(hash), ..policy() });
+    assert_eq!(start(&launcher, &file).unwrap().finish().outcome, Outcome::Completed);
+    std::fs::copy(fixture(&["ATTACK=loop"]), &file).unwrap();
+    let replaced = start(&launcher, &file).err().unwrap().outcome;
+    std::fs::remove_file(&file).unwrap();
+    let removed = start(&launcher, &file).err().unwrap().outcome;
+    for (outcome, words) in [(replaced, "its SHA-256 is"), (removed, "cannot be read")] {
+        assert!(matches!(&outcome, Outcome::FileReplaced { reason } if reason.contains(words)), "{outcome:?}");
+        assert!(!outcome.ours() && outcome.name() == "FileReplaced", "{outcome}");
+    }
+}
+
+#[test]
 fn starting_is_cheap() {
     let plugin = fixture(&[]);
     let mut times: Vec<Duration> = (0..10)

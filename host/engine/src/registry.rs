@@ -184,7 +184,10 @@ impl Registry {
 
     /// A launcher for this plugin under the given policy; only our own plugins may run under a weaker jail.
     pub fn launcher(&self, contestant: &Contestant, policy: Policy) -> Launcher {
-        Launcher::new(self.runner.clone(), Policy { trusted: contestant.trusted, profile: self.profile, ..policy })
+        // What is measured is what was described, and nothing that came to lie there since.
+        let plugin_sha256 = Some(contestant.info.plugin_sha256.clone());
+        let trusted = contestant.trusted;
+        Launcher::new(self.runner.clone(), Policy { trusted, plugin_sha256, profile: self.profile, ..policy })
     }
 
     async fn describe(&self, file: &Path, store: &Store) -> Result<Vec<Contestant>> {

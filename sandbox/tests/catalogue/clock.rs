@@ -43,5 +43,11 @@ pub const ALL: &[Attack] = &[
     ),
     attack!("T10", "fill the caches for whoever comes next", "pollute_caches", Twice, Harmless),
     attack!("T11", "slow the processor's clock down with wide vectors", "heavy_vectors", Query, Harmless),
-    attack!("T12", "tell one trial from another by all that it can see", "fingerprint", Twice, SaysAlike("process ")),
+    attack!(
+        "T12",
+        "tell one trial from another by process, limits, and inodes and times of files",
+        "fingerprint",
+        Twice,
+        SaysAlike("process ")
+    ),
 ];

@@ -93,7 +93,7 @@ fn failing(result: &AlgorithmResult, of_suite: bool, before: Option<&AlgorithmRe
         "Completed" => None,
         // Ours, or such that the machine may have done it: times that do not fit together, a stop, a kill from outside.
         _ if outcome.ours || outcome.message.contains("SIGKILL") => None,
-        "SandboxFault" | "Cancelled" | "TimingIntegrity" => None,
+        "SandboxFault" | "FileReplaced" | "Cancelled" | "TimingIntegrity" => None,
         _ => counts.then(|| outcome.message.clone()),
     }
 }
@@ -133,9 +133,14 @@ mod tests {
         }
         let ours = result("SandboxFault", "The sandbox failed at step 'Watch'.", true, 0);
         let killed = result("Signaled", "The plugin crashed (SIGKILL, signal 9).", false, 0);
-        for innocent in
-            [&well, &ours, &killed, &result("Cancelled", "m", false, 0), &result("TimingIntegrity", "m", false, 0)]
-        {
+        for innocent in [
+            &well,
+            &ours,
+            &killed,
+            &result("Cancelled", "m", false, 0),
+            &result("FileReplaced", "m", false, 0),
+            &result("TimingIntegrity", "m", false, 0),
+        ] {
             assert_eq!(failing(innocent, true, Some(&well)), None, "{:?}", innocent.outcome);
         }
     }
