@@ -72,7 +72,7 @@ fn compare(mesh: &Arc<Mesh>, rays: u32, distance: f64, mut fcl: Option<&mut Fcl>
         ours.add(clock, 1.0, placed.is_some());
         let Some(placed) = placed else { continue };
         exact += u32::from(placed.truth.exact_used);
-        let ray = Ray::to(&placed, &pair, mesh, distance);
+        let ray = Ray::to(&placed, &pair, mesh);
         let clock = Instant::now();
         let (queries, way) = advance(&ray, |pose| {
             let a = plugin::Placed { object: &object, pose: &plugin::Pose::IDENTITY };
@@ -96,14 +96,15 @@ fn compare(mesh: &Arc<Mesh>, rays: u32, distance: f64, mut fcl: Option<&mut Fcl>
 
 impl Ray {
     /// The ray on which a configuration was found: it runs through both centres.
-    fn to(placed: &Placed, pair: &Pair, mesh: &Mesh, distance: f64) -> Self {
+    fn to(placed: &Placed, pair: &Pair, mesh: &Mesh) -> Self {
         let pose = placed.configuration.pose_b;
         let centre = mesh.bounds().center();
         let between = pose.apply(&centre) - centre;
         let direction = between.normalize();
         let tau = pair.tau(&placed.configuration, U32);
         let radius = mesh.positions().iter().map(|p| (p - centre).norm()).fold(0.0, f64::max);
-        let wanted = if distance == 0.0 { 3.0 * tau } else { distance * mesh.longest_side() };
+        // Every ray has a place of its own in the window.
+        let wanted = f64::midpoint(placed.truth.distance_lo, placed.truth.distance_hi);
         let start = 2.02 * radius + wanted;
         let from: Vector3<f64> = pose.translation + direction * (start - between.norm());
         let row_major = pose.linear.transpose();

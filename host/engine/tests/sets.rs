@@ -45,7 +45,7 @@ fn golden() -> Vec<(RunSpec, &'static str)> {
     vec![
         (
             spec("stock:sponge@600", counted("sphere"), json!({})),
-            "8b7fbd80b8016c0d8815d22e5333095f4756229aef2e8d7315f6d67884d2da98",
+            "4a9f986c5d6436adddbeb14c0c71352cad89dac2f4a93af27f7505bde77ae43a",
         ),
         (
             spec(
@@ -53,19 +53,19 @@ fn golden() -> Vec<(RunSpec, &'static str)> {
                 json!({ "kind": "sphere", "sampling": steps }),
                 json!({ "relative_distance": 0.2 }),
             ),
-            "d0994eba8a57ac61cb7e994bd13c431564a66160eda4a90e93434a8a68ae2dc7",
+            "4c3aa956dac82a60dda81812e3144c433f6c6fda54fa5d722e59d430700c44b5",
         ),
         (
             spec("stock:sponge@600", counted("grid"), json!({ "ladder": true })),
-            "203620550271a89304935ea2d48d45afcd2ef25c33eac65cfe71e5cb4c5e2c76",
+            "2a66549c8f927a05f8bee530736ad0ca6e9a0f6540b6f39d4edf7ecde0624f72",
         ),
         (
             spec("stock:sponge@600", json!({ "kind": "trajectory", "center_distance": 0.9, "count": 40 }), json!({})),
-            "9c879176f2098b4fd61380a5fc043bae8f53dc91d98f9ef0f7fb28043ff10116",
+            "10e0382cc56344480857f4d3254377a320f87a26b16a90ec31bcdda918919166",
         ),
         (
             spec("stock:sponge@600", json!({ "kind": "random", "count": 40, "hit_share": 0.3 }), json!({})),
-            "fa8fdac4423c12814cde7334ced4ca621d9763aa77704f82b1f8c38428042488",
+            "4d300cd27851033b42414dd7e8225778eae45ae2f1fb167f8971ce5138741c22",
         ),
     ]
 }

@@ -98,7 +98,7 @@ impl Turn<'_> {
             let own = order[..reached].iter().filter(|number| (**number as usize) < n).count();
             let controls = self.piece.controls.start + reached - own;
             lane.reach = Reach { own: self.piece.own.start + own, controls };
-            lane.cut |= reached < part.len();
+            lane.cut |= reached < part.questions();
         }
         lane.end_turn(&ending);
         if ending.outcome != Outcome::Completed {
@@ -219,7 +219,7 @@ impl Turn<'_> {
         let all = self.task.piece(0, self.task.most());
         let reach = if lane.cut || self.counting() { all.before(lane.reach) } else { all };
         let counted = if lane.contestant.info.counters { reach.own.len() as u64 } else { 0 };
-        let total = (reach.len() as u64 * u64::from(self.task.passes) + counted).max(lane.done);
+        let total = (reach.questions() as u64 * u64::from(self.task.passes) + counted).max(lane.done);
         let _ = self.news.send(News::Progress { lane: self.index, done: lane.done, total });
     }
 }

@@ -27,8 +27,8 @@ impl Piece {
         self.own.is_empty()
     }
 
-    /// All its questions.
-    pub fn len(&self) -> usize {
+    /// How many questions it has, controls included.
+    pub fn questions(&self) -> usize {
         self.own.len() + self.controls.len()
     }
 
@@ -134,6 +134,6 @@ mod tests {
         let all = |own, controls| piece.before(Reach { own, controls });
         assert_eq!(all(14, 5), Piece { own: 10..14, controls: 4..5 });
         assert_eq!(all(50, 50), piece);
-        assert!(all(3, 1).is_empty() && all(3, 1).len() == 0 && piece.len() == 13);
+        assert!(all(3, 1).is_empty() && all(3, 1).questions() == 0 && piece.questions() == 13);
     }
 }
