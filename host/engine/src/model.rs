@@ -3,6 +3,7 @@
 //! Ids are UUIDv7 text, times are microseconds since the Unix epoch (UTC), durations say their unit in their name.
 
 mod advice;
+mod agreement;
 mod board;
 mod campaign;
 mod chart;
@@ -40,6 +41,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 pub use advice::{AdviceInfo, AdviceSpec, Asked};
+pub use agreement::{Agreement, ContactQuality};
 pub use board::{Accuracy, Board, BoardFilter, BoardOption, BoardRequest, BoardRow, StabilityPassed};
 pub use campaign::{CampaignInfo, CampaignPreview, CampaignRequest, CampaignRuns, Compared, ComparedResult};
 pub use chart::{ChartKind, ChartRequest};
@@ -402,29 +404,6 @@ impl AlgorithmResult {
     pub fn had_no_time(&self) -> bool {
         self.n == 0 && self.budget_limited && self.outcome.name == "Completed"
     }
-}
-
-/// How many of some answers agree with exact arithmetic.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-pub struct Agreement {
-    /// Answers.
-    pub n: u32,
-    /// Those that say what exact arithmetic says.
-    pub agree: u32,
-}
-
-/// Lists of contacts against the complete ones, all configurations together. Pairs within the precision band are free.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct ContactQuality {
-    /// Share of the listed pairs that meet or are within tau of it; absent when nothing was listed.
-    pub precision: Option<f64>,
-    /// Pairs listed.
-    pub listed: u64,
-    /// Share of the pairs crossing by more than tau that were listed, over the lists that fit the host's buffer; absent
-    /// when there is no such pair.
-    pub recall: Option<f64>,
-    /// Such pairs.
-    pub robust: u64,
 }
 
 /// Count of one verdict.
