@@ -1692,7 +1692,8 @@ export interface components {
             budget_limited: boolean;
             /**
              * Format: double
-             * @description Build time of both structures, milliseconds.
+             * @description Time to build both structures, milliseconds, from the moment on at which the meshes could be seen: median over the
+             *     processes. What a process built while it was asked is part of it.
              */
             build_ms?: number | null;
             /**
@@ -1705,6 +1706,11 @@ export interface components {
             controls?: components["schemas"]["Controls"] | null;
             /** @description The answers that are not scored, because the configuration is narrower than the precision of the algorithm. */
             grazing?: components["schemas"]["Agreement"];
+            /**
+             * Format: double
+             * @description Time to load the plugin's file, with all that it does before it sees a mesh, milliseconds: median over the processes.
+             */
+            load_ms?: number | null;
             /**
              * Format: int64
              * @description Peak memory of the runner above its baseline, bytes.
@@ -2457,7 +2463,8 @@ export interface components {
             cpus: number;
             /**
              * Format: int64
-             * @description Times that stand although something disturbed the runner at every attempt.
+             * @description Times that are longer than the plugin took, because the supervisor was kept from looking; they count only where a
+             *     question has no other.
              */
             disturbed: number;
             draw?: components["schemas"]["Draw"] | null;
