@@ -116,7 +116,8 @@ async fn check_stopped(file: &Path) {
     under_way(&engine, &plugin.id, &author).await;
     let begun = Instant::now();
     engine.shutdown().await;
-    assert!(begun.elapsed() < Duration::from_secs(1), "{:?}", begun.elapsed());
+    // A second, and what other work on the machine adds; without obeying it would be minutes.
+    assert!(begun.elapsed() < Duration::from_secs(4), "{:?}", begun.elapsed());
     let engine = Engine::open(EngineConfig { dispatch: false, ..config(data.path()) }).await.unwrap();
     let now = engine.plugin(&plugin.id, Some(&author)).await.unwrap();
     assert_eq!(now.state, PluginState::Uploaded, "{}", now.reason);

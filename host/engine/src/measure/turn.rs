@@ -12,7 +12,7 @@ use super::weave::{self, Piece, Reach};
 use super::{Lane, News, Stop, Task, order, outcome_info};
 use crate::machine::Machine;
 use crate::model::OutcomeInfo;
-use crate::registry::{Registry, plugin_hash};
+use crate::registry::Registry;
 
 /// How often a lane may report, so that pages live and nothing else suffers.
 const REPORT_EVERY: Duration = Duration::from_millis(200);
@@ -165,14 +165,6 @@ impl Turn<'_> {
 
     fn start(&self, lane: &Lane, killer: &Killer) -> Result<Session, OutcomeInfo> {
         let contestant = &lane.contestant;
-        let ours = |message: String| OutcomeInfo { name: "SandboxFault".into(), message, ours: true };
-        match plugin_hash(&contestant.file) {
-            Ok(hash) if hash == contestant.info.plugin_sha256 => {}
-            Ok(_) => {
-                return Err(ours("The plugin file was replaced after the service had read it; start it again.".into()));
-            }
-            Err(e) => return Err(ours(e.to_string())),
-        }
         let policy = Policy {
             runner_cpu: Some(self.machine.measuring_cpu()),
             supervisor_cpu: Some(self.machine.supervisor_cpu()),
