@@ -15,6 +15,7 @@ use std::time::{Duration, Instant};
 use ocb_core::instance::{Instance, Presented};
 use ocb_core::numbers::Numbers;
 use ocb_core::query::{Answer, Query};
+use ocb_core::statistics::quantile;
 
 use crate::exchange::{Poses, Resting};
 use crate::outcome::Outcome;
@@ -80,7 +81,7 @@ pub struct Time {
 pub struct Batched {
     /// How many questions.
     pub questions: u32,
-    /// The time that they took one by one, nanoseconds.
+    /// The time that they took one by one, nanoseconds: as many times their median.
     pub alone_ns: f64,
     /// The time that they took together.
     pub together_ns: f64,
@@ -268,6 +269,10 @@ impl Pass<'_, '_> {
         if members.len() < SMALLEST_BATCH {
             return Ok(ControlFlow::Break(()));
         }
+        // One that met a time slice of something else took a thousand times its own time.
+        let mut alone: Vec<f64> = members.iter().map(|(_, ns)| *ns).collect();
+        alone.sort_by(f64::total_cmp);
+        let usual_ns = quantile(&alone, 0.5);
         self.instances += 1;
         let instance = Instance { number: self.instances, aside: true };
         let configurations: Vec<u32> = members.iter().map(|(place, _)| self.plan.order[*place]).collect();
@@ -278,7 +283,7 @@ impl Pass<'_, '_> {
         if waited_ns <= WAITED * batch.time_ns && !batch.disturbed {
             self.facts.batches.push(Batched {
                 questions: members.len() as u32,
-                alone_ns: members.iter().map(|(_, ns)| ns).sum(),
+                alone_ns: usual_ns * members.len() as f64,
                 together_ns: batch.time_ns,
             });
         }
