@@ -92,7 +92,8 @@ fn another_user(part: &str) {
     place(&runner(), "ocb-runner");
     place(&fixture(&[]), "honest.so");
     place(&fixture(&["ATTACK=raw_call", "RAW=41"]), "socket.so");
-    place(&fixture(&["ATTACK=open_passwd"]), "open.so");
+    // While it is loaded: later nothing is opened, whatever the files allow.
+    place(&fixture(&["ATTACK=open_passwd", "IN_CONSTRUCTOR"]), "open.so");
     place(&fixture(&["ATTACK=many_threads"]), "threads.so");
     // In a user namespace of its own a process may forbid further ones to itself and its children.
     let refuse = "echo 0 > /proc/sys/user/max_user_namespaces && exec \"$@\"";
