@@ -84,7 +84,7 @@ fn too_few_controls_within_the_budget_are_no_rank_either() {
     let folder = tempfile::tempdir().expect("a folder");
     house(folder.path());
     let mut ocb = command(folder.path().join("ocb"));
-    ocb.arg("--data").arg(folder.path().join("data")).args(["--json", "bench", "stock:torus-knot@10000"]);
+    ocb.arg("--data").arg(folder.path().join("data")).args(["--json", "bench", "stock:torus-knot@60000"]);
     ocb.args([
         "--count",
         "400",
