@@ -65,8 +65,9 @@ struct Waits {
 pub struct Sample {
     /// From the question's release to the seen answer, by the supervisor's clock.
     pub raw_ns: f64,
-    /// `raw_ns` without the time in which the runner waited for its CPU, minus the session's median null round trip; the
-    /// clock's resolution when below it, never 0.
+    /// The part of it in which the runner certainly waited for its CPU, as the kernel counts it.
+    pub waited_ns: f64,
+    /// `raw_ns` without `waited_ns`, minus the session's median null round trip; the clock's resolution when below it, never 0.
     pub time_ns: f64,
     /// `time_ns` is only an upper bound.
     pub below_resolution: bool,
@@ -150,7 +151,7 @@ impl Session {
         let (time_ns, below_resolution) = self.clock.subtract(timed.raw_ns - waited_ns, 1);
         let disturbed = self.exchange.disturbed(&timed);
         let answer = answers.remove(0).0;
-        Ok(Sample { raw_ns: timed.raw_ns, time_ns, below_resolution, disturbed, answer })
+        Ok(Sample { raw_ns: timed.raw_ns, waited_ns, time_ns, below_resolution, disturbed, answer })
     }
 
     /// Releases up to [`MAX_BATCH`](crate::MAX_BATCH) questions together and times them as one. Lists of all contacts
