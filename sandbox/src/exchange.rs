@@ -25,6 +25,7 @@ const MISSED_NS: f64 = 5000.0;
 const COPY_NS: f64 = 20.0;
 /// How long a runner may take to fall asleep when it is told to rest, and before it is asked by the sleeping clock.
 const REST: Duration = Duration::from_millis(5);
+const LEAVING: Duration = Duration::from_micros(20);
 /// What a runner computes between its answer and its sleep, at most.
 const FALLING_ASLEEP_NS: f64 = 20_000.0;
 const SETTLE: Duration = Duration::from_secs(2);
@@ -142,6 +143,11 @@ impl Exchange {
         self.obeyed(Command::Rest, Phase::Query, limit_seconds)?;
         let told = Instant::now();
         self.resting = true;
+        // A thread says that it sleeps a little before it leaves its CPU, and until then its counters lag by up to a tick.
+        let said = self.settles(REST).then(Instant::now);
+        while said.is_some_and(|said| said.elapsed() < LEAVING) {
+            std::hint::spin_loop();
+        }
         self.settles(REST);
         Ok(Resting { told, usage: self.meter.read() })
     }

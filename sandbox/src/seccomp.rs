@@ -70,12 +70,21 @@ struct Allowed {
 enum Track {
     /// In the multi-threaded track.
     Threads,
+    /// In the single-threaded track.
+    OneThread,
+}
+
+impl Track {
+    fn holds(track: Option<&Track>, threads: bool) -> bool {
+        track.is_none_or(|track| matches!(track, Track::Threads) == threads)
+    }
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Quiet {
     call: String,
+    track: Option<Track>,
     errno: String,
     #[serde(rename = "because")]
     _because: String,
@@ -96,7 +105,7 @@ struct Refused {
 pub fn compile(own_pid: i32, threads: bool) -> Result<BpfProgram, FilterError> {
     let list: List = serde_json::from_str(LIST)?;
     let mut rules: BTreeMap<i64, Vec<SeccompRule>> = BTreeMap::new();
-    for allowed in list.allow.iter().filter(|allowed| allowed.track.is_none() || threads) {
+    for allowed in list.allow.iter().filter(|allowed| Track::holds(allowed.track.as_ref(), threads)) {
         // A call may have a second line for one of the tracks.
         let alternatives = rules.entry(i64::from(number(&allowed.call)?)).or_default();
         alternatives.extend(alternatives_of(&allowed.call, &allowed.when, own_pid)?);
@@ -106,7 +115,7 @@ pub fn compile(own_pid: i32, threads: bool) -> Result<BpfProgram, FilterError> {
     let compiled: Result<BpfProgram, _> = filter.and_then(BpfProgram::try_from);
     let mut program = compiled.map_err(|e| FilterError::Compile(e.to_string()))?;
     notify_instead_of_trace(&mut program)?;
-    insert_quiet(&mut program, &list.quiet)?;
+    insert_quiet(&mut program, list.quiet.iter().filter(|quiet| Track::holds(quiet.track.as_ref(), threads)))?;
     Ok(program)
 }
 
@@ -159,7 +168,7 @@ fn notify_instead_of_trace(program: &mut BpfProgram) -> Result<(), FilterError> 
 }
 
 /// Puts the quiet calls in front of the rules: behind the architecture check and the load of the call's number.
-fn insert_quiet(program: &mut BpfProgram, quiet: &[Quiet]) -> Result<(), FilterError> {
+fn insert_quiet<'a>(program: &mut BpfProgram, quiet: impl Iterator<Item = &'a Quiet>) -> Result<(), FilterError> {
     let number_loaded = program.iter().position(|i| i.code == LOAD_WORD && i.k == 0);
     let at = 1 + number_loaded.ok_or_else(|| FilterError::Compile("the filter never loads the number".into()))?;
     let mut front = Vec::new();
