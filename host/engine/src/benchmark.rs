@@ -299,8 +299,10 @@ impl Bench<'_> {
             self.log.wait(self.inner.store.preview_of_run(&self.row.id, preview.as_ref()))?;
         }
         let asked_for = || finished.iter().zip(&compared).filter(|((lane, _), _)| *lane < algorithms.len());
-        let mut results: Vec<AlgorithmResult> =
-            asked_for().map(|((_, measured), compared)| measure::summarise(measured, asked, *compared)).collect();
+        let of_reference = of_reference.map(|(_, measured)| measured);
+        let mut results: Vec<AlgorithmResult> = asked_for()
+            .map(|((_, measured), compared)| measure::summarise(measured, asked, *compared, of_reference))
+            .collect();
         measure::rank(&mut results, profile);
         let mut nothing = None;
         let mut any = false;

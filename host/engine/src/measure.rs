@@ -20,6 +20,7 @@ mod preview;
 mod summary;
 mod surplus;
 mod turn;
+mod waiting;
 mod weave;
 
 use std::sync::mpsc::Sender;

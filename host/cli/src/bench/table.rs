@@ -11,7 +11,7 @@ use ocb_engine::model::{
 
 use crate::{output, plugin, run, units};
 
-const HEADINGS: [&str; 14] = [
+const HEADINGS: [&str; 15] = [
     "rank",
     "algorithm",
     "n of N",
@@ -23,6 +23,7 @@ const HEADINGS: [&str; 14] = [
     "eps*",
     "BV tests",
     "primitive tests",
+    "load",
     "build",
     "memory",
     "outcome",
@@ -35,9 +36,11 @@ pub fn summary(run: &RunInfo) -> String {
     text.extend(run.preview.as_ref().map(|preview| self::preview(preview, &run.id)));
     let rows: Vec<Vec<String>> = run.results.iter().map(row).collect();
     if !rows.is_empty() {
-        text.push(output::table(&HEADINGS, rows, &[0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]));
+        text.push(output::table(&HEADINGS, rows, &[0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13]));
         text.push(
-            "Times per query with 95 % interval, tests are means per query, build is of both structures.".to_owned(),
+            "Times per query with 95 % interval, tests are means per query, load is of the plugin's file, build of both \
+             structures."
+                .to_owned(),
         );
         text.extend(run.environment.as_ref().and_then(|machine| machine.reference.as_ref()).map(|reference| {
             format!(
@@ -161,6 +164,7 @@ fn row(result: &AlgorithmResult) -> Vec<String> {
         result.resolution.as_ref().map_or_else(dash, epsilon),
         result.bv_tests_mean.map_or_else(dash, units::mean),
         result.primitive_tests_mean.map_or_else(dash, units::mean),
+        result.load_ms.map_or_else(dash, |ms| units::time(ms * 1e6)),
         result.build_ms.map_or_else(dash, |ms| units::time(ms * 1e6)),
         result.memory_bytes.map_or_else(dash, units::bytes),
         result.outcome.name.clone(),

@@ -14,6 +14,7 @@ use ocb_sandbox::{PassFacts, Profile, SetUp, integrity};
 
 use super::contract::contract;
 use super::lane::precision;
+use super::waiting::kept_waiting;
 use super::{Measured, controls};
 use crate::machine::Machine;
 use crate::model::{
@@ -38,8 +39,13 @@ pub struct Asked<'a> {
     pub coherent: bool,
 }
 
-/// The numbers of one algorithm.
-pub fn summarise(measured: &Measured, asked: Asked, compared: Option<Comparison>) -> AlgorithmResult {
+/// The numbers of one algorithm, and of the reference algorithm what was measured in the same rounds.
+pub fn summarise(
+    measured: &Measured,
+    asked: Asked,
+    compared: Option<Comparison>,
+    reference: Option<&Measured>,
+) -> AlgorithmResult {
     let records = &measured.records;
     let Asked { pair, placed, query, semantics, coherent, .. } = asked;
     let controls = controls::summary(&measured.controls, &asked);
@@ -71,7 +77,9 @@ pub fn summarise(measured: &Measured, asked: Asked, compared: Option<Comparison>
         class: Some(contract(&measured.contestant, records.iter().map(|r| &r.answer), query, coherent)),
         rank: None,
         // Of one that failed the outcome says enough.
-        unranked: controls::unranked(&controls).filter(|_| measured.outcome.is_none()),
+        unranked: controls::unranked(&controls)
+            .or_else(|| Some(kept_waiting(&measured.passes, &reference?.passes)?.into()))
+            .filter(|_| measured.outcome.is_none()),
         controls: Some(controls),
         timing: Some(timing(&measured.passes)),
         verdicts: verdicts(measured),

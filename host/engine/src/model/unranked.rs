@@ -58,6 +58,14 @@ pub enum UnrankedCause {
         /// Needed.
         least: u32,
     },
+    /// It waited for its CPU far more than the reference algorithm in the same rounds. Nobody is accused: something else on the
+    /// machine may have met its processes alone.
+    KeptWaiting {
+        /// Share of its processes' time, the median over them.
+        share: f64,
+        /// The same of the reference algorithm, over all its processes.
+        reference: f64,
+    },
 }
 
 impl From<UnrankedCause> for Unranked {
@@ -77,6 +85,12 @@ impl UnrankedCause {
             Self::FewControls { n, least, .. } => format!(
                 "Only {n} control questions were answered within the time budget, and a rank needs {least}; give it more \
                  time."
+            ),
+            Self::KeptWaiting { share, reference } => format!(
+                "Its processes waited for their CPU for {:.0} % of the time, those of the reference algorithm for {:.1} %, so \
+                 that too much would rest on what was taken off; measure it again.",
+                100.0 * share,
+                100.0 * reference
             ),
         }
     }

@@ -4289,6 +4289,19 @@ export interface components {
              * @description Drawn.
              */
             of: number;
+        } | {
+            /** @enum {string} */
+            cause: "kept_waiting";
+            /**
+             * Format: double
+             * @description The same of the reference algorithm, over all its processes.
+             */
+            reference: number;
+            /**
+             * Format: double
+             * @description Share of its processes' time, the median over them.
+             */
+            share: number;
         };
         /**
          * @description The comparison of one answer with the oracle.
