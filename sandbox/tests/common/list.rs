@@ -66,6 +66,7 @@ impl List {
         let holds = |entry: &&Value| match entry["track"].as_str() {
             None => true,
             Some("threads") => threads,
+            Some("one_thread") => !threads,
             Some(other) => panic!("{other}"),
         };
         let entries = |name: &str| list[name].as_array().unwrap().iter().filter(holds).cloned().collect::<Vec<_>>();
