@@ -4,7 +4,7 @@
 # pairs of triangles for the oracle's filters (OCB_PAIRS), a hundred thousand configurations that no certified level of detail
 # may contradict (OCB_HELD_OUT), a hundred runs that end early (OCB_REPETITIONS); the power goes two hundred times
 # (OCB_POWER_CUTS), two hundred visitors come for a minute and must not change what is measured meanwhile (OCB_LOAD_SECONDS),
-# every route is asked a hundred times and more (OCB_API_EXAMPLES); two hundred runs of forged plugins, in hours (OCB_FORGERS),
+# every route is asked a hundred times and more (OCB_API_EXAMPLES); two hundred runs of forged plugins, in an hour and a half (OCB_FORGERS),
 # which want a machine with nothing else on it. Then the restart tests (the service is killed at every
 # stage of a run) over and over. The first failure ends it; the last line says how often they passed.
 set -euo pipefail

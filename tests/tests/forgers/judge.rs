@@ -99,13 +99,15 @@ fn entry(found: &Found, twins: &[&Found], busy: bool) -> Entry {
     let halved = |of: Number, least_gain: f64| {
         of(found).is_some_and(|mine| 2.0 * mine < least(of) && least(of) - mine > least_gain)
     };
+    // Who builds while it is asked may have a shorter build: what its questions take longer is what it pays for that.
+    let paid = gain(time).is_some_and(|[_, share]| share < -SHARE);
     Entry {
         ranked,
         gain: gain(time),
-        build_gain: gain(build),
+        build_gain: gain(build).filter(|_| !paid),
         twin_ns: mean(time),
         // A build is one stretch of time, which other work may double.
-        gross: ranked && (halved(time, NO_GAIN_NS) || !busy && halved(build, NO_GAIN_MS)),
+        gross: ranked && (halved(time, NO_GAIN_NS) || !busy && !paid && halved(build, NO_GAIN_MS)),
         ending: found.ending.clone(),
     }
 }

@@ -13,6 +13,8 @@ mod objects;
 mod plan;
 mod table;
 
+use std::time::Instant;
+
 use judge::Ledger;
 use kit::Kit;
 
@@ -24,8 +26,10 @@ fn forgers_gain_nothing_and_honest_twins_keep_their_rank() {
     objects::write(folder.path());
     let mut ledger = Ledger::default();
     for run in rounds.map_or_else(plan::slice, plan::soak) {
+        let begun = Instant::now();
         let results = bench::measure(folder.path(), &kit, &run);
         ledger.enter(&run, &results);
+        eprintln!("{:?} {:?} {:?}: {:.0} s", run.classes, run.question, run.condition, begun.elapsed().as_secs_f64());
     }
     println!("{}", table::of(&ledger));
     let complaints = ledger.complaints();
