@@ -6,7 +6,7 @@ use std::time::Duration;
 use tokio::runtime::Handle;
 
 use crate::benchmark::{self, End};
-use crate::engine::{INTERACTIVE, Inner};
+use crate::engine::Inner;
 use crate::measure::Stop;
 use crate::model::State;
 use crate::runlog::plain_event;
@@ -87,7 +87,7 @@ async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
     if inner.closing() {
         stop.stop();
     }
-    announce(inner).await?;
+    inner.bell.queue_moved();
     let (sender, ended) = tokio::sync::oneshot::channel();
     let (for_run, for_id, handle) = (inner.clone(), id.to_owned(), Handle::current());
     let thread = std::thread::Builder::new().name("run".into()).spawn(move || {
@@ -117,16 +117,7 @@ async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
     if let Err(e) = inner.run_of_campaign_ended(id).await {
         tracing::error!("run {id}: its campaign could not take note of its end: {e}");
     }
-    announce(inner).await
-}
-
-/// Tells those who wait how many are ahead of them; nobody waits for what the service wants for itself, which comes last.
-pub async fn announce(inner: &Inner) -> Result<()> {
-    let running = inner.store.running().await?.len() as u32;
-    let queued = inner.store.queued().await?;
-    for (ahead, run) in (running..).zip(queued.iter().filter(|run| run.priority <= INTERACTIVE)) {
-        inner.bell.tell(&inner.store, &run.id, plain_event(State::Queued, ahead)).await?;
-    }
+    inner.bell.queue_moved();
     Ok(())
 }
 

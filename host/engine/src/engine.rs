@@ -208,7 +208,7 @@ impl Engine {
             version: env!("CARGO_PKG_VERSION").into(),
             hardware_class: self.inner.machine.hardware_class.clone(),
             running: self.inner.store.running().await?.len() as u32,
-            queued: self.inner.store.queued().await?.len() as u32,
+            queued: self.inner.store.waiting(i64::MAX).await?.0,
             algorithms: self.inner.registry.algorithms(None).len() as u32,
             problems: self.inner.registry.problems().to_vec(),
         })

@@ -57,12 +57,10 @@ pub async fn estimate(inner: &Inner, checked: &Checked) -> Result<Estimate> {
 /// Runs ahead of an interactive one that is asked for now, and the seconds until they are done.
 async fn queue_ahead(inner: &Inner) -> Result<(u32, f64)> {
     let running = inner.store.running().await?;
-    let queued = inner.store.queued().await?;
-    let ahead: Vec<_> = queued.iter().filter(|run| run.priority <= crate::engine::INTERACTIVE).collect();
+    let (ahead, seconds) = inner.store.waiting(crate::engine::INTERACTIVE).await?;
     let left =
         |(_, started_us, expected): &(String, i64, f64)| (expected - (now_us() - started_us) as f64 / 1e6).max(1.0);
-    let seconds = running.iter().map(left).sum::<f64>() + ahead.iter().map(|run| run.expected_seconds).sum::<f64>();
-    Ok(((running.len() + ahead.len()) as u32, seconds))
+    Ok((running.len() as u32 + ahead, running.iter().map(left).sum::<f64>() + seconds))
 }
 
 /// The rate seen with the most similar number of triangles. Rates are not scaled: how an algorithm grows with its

@@ -13,6 +13,9 @@ use crate::store::{Store, now_us};
 /// So often a page learns of progress.
 const TELL_EVERY: Duration = Duration::from_millis(200);
 
+/// What is rung when the queue moves; no run has this id.
+pub const QUEUE: &str = "";
+
 /// Wakes those who follow runs: the id of a run that has a new event.
 #[derive(Clone)]
 pub struct Bell {
@@ -28,6 +31,11 @@ impl Bell {
     /// Hears of every run from now on.
     pub fn listen(&self) -> broadcast::Receiver<Arc<str>> {
         self.sender.subscribe()
+    }
+
+    /// The queue has moved: those who follow a waiting run look at its place anew.
+    pub fn queue_moved(&self) {
+        let _ = self.sender.send(QUEUE.into());
     }
 
     /// Writes an event and rings.

@@ -127,6 +127,7 @@ fn migrations() -> Migrator {
         one(18, "off links", include_str!("../migrations/0018_off_links.sql")),
         one(19, "farewells", include_str!("../migrations/0019_farewells.sql")),
         one(20, "check turns", include_str!("../migrations/0020_check_turns.sql")),
+        one(21, "turns", include_str!("../migrations/0021_turns.sql")),
     ])
 }
 

@@ -10,6 +10,8 @@ use super::Engine;
 use crate::Result;
 use crate::boxed;
 use crate::model::{RunEvent, State};
+use crate::runlog::{QUEUE, plain_event};
+use crate::store::now_us;
 
 /// The database is looked at this often even if no bell was heard: a missed ring must not end in silence.
 const LOOK_AGAIN: Duration = Duration::from_secs(5);
@@ -39,6 +41,7 @@ impl Engine {
             after: after_seq,
             read: VecDeque::new(),
             bell,
+            place: None,
             ended: false,
         };
         Ok(futures::stream::unfold(follower, async |mut follower| {
@@ -54,6 +57,8 @@ struct Follower {
     after: i64,
     read: VecDeque<RunEvent>,
     bell: Receiver<std::sync::Arc<str>>,
+    /// The runs ahead of a waiting one that were told last. Places are computed when somebody looks, and no event is kept.
+    place: Option<u32>,
     ended: bool,
 }
 
@@ -75,10 +80,22 @@ impl Follower {
                     return Some(Err(e));
                 }
             }
+            if self.read.is_empty() && self.place_has_changed().await {
+                let event = plain_event(State::Queued, self.place.unwrap_or(0));
+                return Some(Ok(RunEvent { seq: self.after, at_us: now_us(), ..event }));
+            }
             if self.read.is_empty() && !self.more_may_come().await {
                 return None;
             }
         }
+    }
+
+    /// Looks at the place of a run that waits.
+    async fn place_has_changed(&mut self) -> bool {
+        // A database that cannot tell it now is asked again with the next look.
+        let now = self.engine.inner.store.runs_before(&self.id).await.unwrap_or(self.place);
+        let told = std::mem::replace(&mut self.place, now);
+        now.is_some() && now != told
     }
 
     /// Waits for news; false when the run has ended and everything was read.
@@ -95,7 +112,7 @@ impl Follower {
         }
         let heard = async {
             while let Ok(run) = self.bell.recv().await {
-                if *run == *self.id {
+                if *run == *self.id || (*run == *QUEUE && self.place.is_some()) {
                     return;
                 }
             }

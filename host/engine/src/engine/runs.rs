@@ -7,7 +7,7 @@ use crate::boxed;
 use crate::model::{Cursor, Page, Part, RunInfo, RunSpec, State, Visibility};
 use crate::runlog::{fresh_stages, plain_event};
 use crate::store::{RunRow, now_us};
-use crate::{EngineError, Result, dispatcher, draw, estimate};
+use crate::{EngineError, Result, draw, estimate};
 
 /// How long `cancel` waits for a run under way to end before it answers.
 const CANCEL_PATIENCE: Duration = Duration::from_secs(3);
@@ -75,6 +75,7 @@ impl Engine {
                 Visibility::default()
             },
             priority,
+            turn: owner.filter(|_| campaign.is_none()).unwrap_or_default().to_owned(),
             suite: suite.map(str::to_owned),
             campaign: campaign.map(str::to_owned),
             rerun_of: rerun_of.map(str::to_owned),
@@ -96,9 +97,7 @@ impl Engine {
         if !self.inner.store.add_run(&row, &fresh_stages(&row.spec.algorithms), key).await? {
             return self.asked_before(&row, key.unwrap_or_default()).await.map(|run| (run, false));
         }
-        if priority <= INTERACTIVE {
-            dispatcher::announce(&self.inner).await?;
-        }
+        self.inner.bell.queue_moved();
         self.inner.wake.notify_one();
         Ok((row.id, true))
     }
@@ -139,7 +138,7 @@ impl Engine {
         if !self.inner.store.queue_again(&row, &fresh_stages(&row.spec.algorithms)).await? {
             return Err(nothing());
         }
-        dispatcher::announce(&self.inner).await?;
+        self.inner.bell.queue_moved();
         self.inner.wake.notify_one();
         self.run(id, caller).await
     }
@@ -194,7 +193,7 @@ impl Engine {
             let ended = row.after(State::Cancelled);
             if self.inner.store.end_run(id, State::Queued, ended, None).await? {
                 self.inner.bell.tell(&self.inner.store, id, plain_event(ended, 0)).await?;
-                dispatcher::announce(&self.inner).await?;
+                self.inner.bell.queue_moved();
                 break;
             }
             // Between the claim and the start there is a moment in which neither works; so it is tried until it does.
@@ -213,13 +212,7 @@ impl Engine {
 
     async fn info(&self, row: RunRow, viewer: Option<&str>) -> Result<RunInfo> {
         let store = &self.inner.store;
-        let runs_ahead = if row.state == State::Queued {
-            let running = store.running().await?.len();
-            let place = store.queued().await?.iter().position(|run| run.id == row.id);
-            (running + place.unwrap_or(0)) as u32
-        } else {
-            0
-        };
+        let runs_ahead = if row.state == State::Queued { store.runs_before(&row.id).await?.unwrap_or(0) } else { 0 };
         Ok(RunInfo {
             stages: store.stages(&row.id).await?,
             results: store.results(&row.id).await?.into_iter().map(|stored| stored.result).collect(),

@@ -1,47 +1,29 @@
 //! The queue: which run is next, and what becomes of interrupted ones.
 
-use std::collections::HashMap;
-
 use super::{Store, now_us};
 use crate::Result;
 
-/// A waiting run, as far as its place in the queue depends on it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct QueuedRun {
-    /// Its id.
-    pub id: String,
-    /// Its owner; the empty text for runs of the service itself and of campaigns, which take nobody's turn.
-    pub owner: String,
-    /// Smaller is served first.
-    pub priority: i64,
-    /// When it was asked for.
-    pub created_us: i64,
-    /// What it was expected to take when it was asked for.
-    pub expected_seconds: f64,
-}
-
 impl Store {
-    /// Takes the next run: smallest priority, then the owner served longest ago, then the oldest.
+    /// Takes the next run: smallest priority, then whose turn was longest ago, then the oldest.
     pub async fn claim(&self) -> Result<Option<String>> {
         let now = now_us();
         let claimed: Option<(String, String)> = sqlx::query_as(
             "UPDATE runs SET state = 'running', attempts = attempts + 1, started_us = $1, message = NULL \
              WHERE state = 'queued' AND id = ( \
-                 SELECT r.id FROM runs r LEFT JOIN served s \
-                 ON s.owner = CASE WHEN r.campaign IS NULL THEN COALESCE(r.owner, '') ELSE '' END \
+                 SELECT r.id FROM runs r LEFT JOIN served s ON s.owner = r.turn \
                  WHERE r.state = 'queued' \
                  ORDER BY r.priority, COALESCE(s.served_us, 0), r.created_us, r.id LIMIT 1) \
-             RETURNING id, CASE WHEN campaign IS NULL THEN COALESCE(owner, '') ELSE '' END",
+             RETURNING id, turn",
         )
         .bind(now)
         .fetch_optional(&self.pool)
         .await?;
-        let Some((id, owner)) = claimed else { return Ok(None) };
+        let Some((id, turn)) = claimed else { return Ok(None) };
         sqlx::query(
             "INSERT INTO served (owner, served_us) VALUES ($1, $2) \
              ON CONFLICT (owner) DO UPDATE SET served_us = excluded.served_us",
         )
-        .bind(owner)
+        .bind(turn)
         .bind(now)
         .execute(&self.pool)
         .await?;
@@ -82,27 +64,56 @@ impl Store {
         Ok(count as u64)
     }
 
-    /// All waiting runs in the order in which they will be served if nothing else is asked for.
-    pub async fn queued(&self) -> Result<Vec<QueuedRun>> {
-        let rows: Vec<(String, String, i64, i64, f64)> = sqlx::query_as(
-            "SELECT id, CASE WHEN campaign IS NULL THEN COALESCE(owner, '') ELSE '' END, priority, created_us, \
-             expected_seconds FROM runs WHERE state = 'queued'",
+    /// How many runs wait for a turn at this priority or a smaller one, and the seconds that they were expected to take.
+    pub async fn waiting(&self, priority: i64) -> Result<(u32, f64)> {
+        let text = "SELECT COUNT(*), COALESCE(SUM(expected_seconds), 0.0) FROM runs \
+                    WHERE state = 'queued' AND priority <= $1";
+        let (count, seconds): (i64, f64) = sqlx::query_as(text).bind(priority).fetch_one(&self.pool).await?;
+        Ok((count as u32, seconds))
+    }
+
+    /// The same with those under way.
+    pub async fn runs_before(&self, id: &str) -> Result<Option<u32>> {
+        let Some(waiting) = self.waiting_before(id).await? else { return Ok(None) };
+        Ok(Some(waiting + self.running().await?.len() as u32))
+    }
+
+    /// How many of the waiting runs are served before this one if nothing else is asked for; nothing when it does not wait.
+    pub async fn waiting_before(&self, id: &str) -> Result<Option<u32>> {
+        let own: Option<(String, i64, i64)> =
+            sqlx::query_as("SELECT turn, priority, created_us FROM runs WHERE id = $1 AND state = 'queued'")
+                .bind(id)
+                .fetch_optional(&self.pool)
+                .await?;
+        let Some((turn, priority, created_us)) = own else { return Ok(None) };
+        let sooner: i64 = sqlx::query_scalar("SELECT COUNT(*) FROM runs WHERE state = 'queued' AND priority < $1")
+            .bind(priority)
+            .fetch_one(&self.pool)
+            .await?;
+        let of_turn: i64 = sqlx::query_scalar(
+            "SELECT COUNT(*) FROM runs WHERE state = 'queued' AND priority = $1 AND turn = $2 \
+             AND (created_us, id) < ($3, $4)",
         )
+        .bind(priority)
+        .bind(&turn)
+        .bind(created_us)
+        .bind(id)
+        .fetch_one(&self.pool)
+        .await?;
+        let turns: Vec<(String, i64, i64, i64, String)> = sqlx::query_as(
+            "SELECT r.turn, COUNT(*), MIN(COALESCE(s.served_us, 0)), MIN(r.created_us), MIN(r.id) \
+             FROM runs r LEFT JOIN served s ON s.owner = r.turn WHERE r.state = 'queued' AND r.priority = $1 \
+             GROUP BY r.turn",
+        )
+        .bind(priority)
         .fetch_all(&self.pool)
         .await?;
-        let served: Vec<(String, i64)> =
-            sqlx::query_as("SELECT owner, served_us FROM served").fetch_all(&self.pool).await?;
-        let waiting = rows
-            .into_iter()
-            .map(|(id, owner, priority, created_us, expected_seconds)| QueuedRun {
-                id,
-                owner,
-                priority,
-                created_us,
-                expected_seconds,
-            })
-            .collect();
-        Ok(in_order(waiting, served.into_iter().collect()))
+        let turns = turns.into_iter().map(|(turn, waiting, served_us, created_us, id)| Turn {
+            turn,
+            waiting,
+            since: (served_us, created_us, id),
+        });
+        Ok(Some((sooner + of_turn + of_others(&turn, of_turn, turns.collect())) as u32))
     }
 
     /// Runs under way: their ids, when they were started and what they were expected to take.
@@ -113,41 +124,40 @@ impl Store {
     }
 }
 
-/// Plays the claims: serving an owner moves that owner behind all others of the same priority.
-fn in_order(mut waiting: Vec<QueuedRun>, mut served: HashMap<String, i64>) -> Vec<QueuedRun> {
-    let mut clock = served.values().copied().max().unwrap_or(0).max(0);
-    let mut order = Vec::with_capacity(waiting.len());
-    while let Some(next) = (0..waiting.len()).min_by_key(|&i| {
-        let run = &waiting[i];
-        (run.priority, served.get(&run.owner).copied().unwrap_or(0), run.created_us, run.id.clone())
-    }) {
-        let run = waiting.swap_remove(next);
-        clock += 1;
-        served.insert(run.owner.clone(), clock);
-        order.push(run);
-    }
-    order
+/// Who waits for a turn.
+struct Turn {
+    turn: String,
+    /// So many runs.
+    waiting: i64,
+    /// Who has the smallest is served first: when it was served last, then what it waits with.
+    since: (i64, i64, String),
+}
+
+/// How many runs of others come before the run of this turn that has so many of its own before it: turns go round, so that
+/// those whose turn is sooner have one more than it, as far as they have any.
+fn of_others(turn: &str, before: i64, turns: Vec<Turn>) -> i64 {
+    let Some(own) = turns.iter().find(|other| other.turn == turn) else { return 0 };
+    let others = turns.iter().filter(|other| other.turn != turn);
+    others.map(|other| other.waiting.min(before + i64::from(other.since < own.since))).sum()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn run(id: &str, owner: &str, priority: i64, created_us: i64) -> QueuedRun {
-        QueuedRun { id: id.into(), owner: owner.into(), priority, created_us, expected_seconds: 1.0 }
-    }
-
     #[test]
-    fn an_owner_with_many_runs_does_not_keep_others_waiting() {
-        let waiting = vec![run("a1", "a", 1, 1), run("a2", "a", 1, 2), run("a3", "a", 1, 3), run("b1", "b", 1, 4)];
-        let ids: Vec<String> = in_order(waiting, HashMap::new()).into_iter().map(|r| r.id).collect();
-        assert_eq!(ids, ["a1", "b1", "a2", "a3"]);
-    }
-
-    #[test]
-    fn priority_goes_before_fairness() {
-        let waiting = vec![run("quick", "", 3, 1), run("b1", "b", 1, 4)];
-        let ids: Vec<String> = in_order(waiting, HashMap::from([("b".into(), 9)])).into_iter().map(|r| r.id).collect();
-        assert_eq!(ids, ["b1", "quick"]);
+    fn who_has_many_runs_does_not_keep_others_waiting() {
+        let turns = || {
+            let turn = |turn: &str, waiting, served_us| Turn {
+                turn: turn.into(),
+                waiting,
+                since: (served_us, 1, turn.into()),
+            };
+            vec![turn("a", 100, 5), turn("b", 2, 7), turn("c", 1, 0)]
+        };
+        // c1 a1 b1 a2 b2 a3 ...
+        let place = |turn, before| before + of_others(turn, before, turns());
+        assert_eq!([place("c", 0), place("a", 0), place("b", 0)], [0, 1, 2]);
+        assert_eq!([place("a", 1), place("b", 1), place("a", 2), place("a", 99)], [3, 4, 5, 102]);
     }
 }

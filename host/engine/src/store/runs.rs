@@ -23,6 +23,8 @@ pub struct RunRow {
     pub visibility: Visibility,
     /// Smaller is served first.
     pub priority: i64,
+    /// Whose turn it takes; the empty text for runs of the service itself and of campaigns, which take nobody's.
+    pub turn: String,
     /// The suite that it belongs to, by its hash.
     pub suite: Option<String>,
     /// The campaign that it belongs to.
@@ -88,7 +90,7 @@ impl RunRow {
 macro_rules! select_runs {
     ($rest:literal) => {
         concat!(
-            "SELECT id, owner, featured, private, visibility, priority, state, attempts, message, spec, object_a_name, object_b_name, ",
+            "SELECT id, owner, featured, private, visibility, priority, turn, state, attempts, message, spec, object_a_name, object_b_name, ",
             "set_info, set_blob, environment, preview, secret, expected_seconds, created_us, finished_us, suite, campaign, rerun_of FROM runs ",
             $rest
         )
@@ -103,8 +105,8 @@ impl Store {
         let mut transaction = self.pool.begin().await?;
         let added = sqlx::query(
             "INSERT INTO runs (id, owner, featured, priority, state, attempts, spec, object_a_name, object_b_name, \
-             secret, expected_seconds, created_us, private, request_key, visibility, suite, campaign, rerun_of) \
-             VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17) \
+             secret, expected_seconds, created_us, private, request_key, visibility, suite, campaign, rerun_of, turn) \
+             VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17, $18) \
              ON CONFLICT DO NOTHING",
         )
         .bind(&run.id)
@@ -124,6 +126,7 @@ impl Store {
         .bind(run.suite.as_deref())
         .bind(run.campaign.as_deref())
         .bind(run.rerun_of.as_deref())
+        .bind(&run.turn)
         .execute(&mut *transaction)
         .await?;
         if added.rows_affected() == 0 {
@@ -338,6 +341,7 @@ pub(super) fn read_run(row: &AnyRow) -> Result<RunRow> {
         private: row.try_get::<i64, _>("private")? != 0,
         visibility: visibility(row.try_get("visibility")?)?,
         priority: row.try_get("priority")?,
+        turn: row.try_get("turn")?,
         suite: row.try_get("suite")?,
         campaign: row.try_get("campaign")?,
         rerun_of: row.try_get("rerun_of")?,

@@ -303,7 +303,13 @@ mod contract {
         }
         add(&store, run("b1", Some("b"), 1, 9)).await;
         assert_eq!((store.waiting_runs("a").await.unwrap(), store.waiting_runs("none").await.unwrap()), (3, 0));
-        let foretold: Vec<String> = store.queued().await.unwrap().into_iter().map(|r| r.id).collect();
+        let mut foretold = Vec::new();
+        for id in ["background", "a1", "a2", "a3", "b1"] {
+            foretold.push((store.runs_before(id).await.unwrap().unwrap(), id));
+        }
+        foretold.sort_unstable();
+        assert_eq!(foretold.iter().map(|(before, _)| *before).collect::<Vec<_>>(), [0, 1, 2, 3, 4]);
+        let foretold: Vec<String> = foretold.into_iter().map(|(_, id)| id.to_owned()).collect();
         let mut served = Vec::new();
         while let Some(id) = store.claim().await.unwrap() {
             assert_eq!(store.running().await.unwrap().len(), 1);
@@ -312,6 +318,7 @@ mod contract {
         }
         assert_eq!(served, ["a1", "b1", "a2", "a3", "background"]);
         assert_eq!(foretold, served, "what the pages say about the queue is what happens");
+        assert_eq!(store.runs_before("a1").await.unwrap(), None, "it waits no more");
     }
 
     pub async fn interrupted_runs_are_tried_three_times(store: Store) {
@@ -375,7 +382,7 @@ mod contract {
         let before = all.len();
         all.dedup();
         assert_eq!(all.len(), before);
-        assert_eq!(before + store.queued().await.unwrap().len(), 20);
+        assert_eq!(before as u32 + store.waiting(1).await.unwrap().0, 20);
     }
 }
 

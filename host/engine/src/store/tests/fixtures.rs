@@ -43,6 +43,7 @@ pub(crate) fn run(id: &str, owner: Option<&str>, priority: i64, created_us: i64)
         private: false,
         visibility: Visibility::Unlisted,
         priority,
+        turn: owner.unwrap_or_default().to_owned(),
         suite: None,
         campaign: None,
         rerun_of: None,
