@@ -54,7 +54,7 @@ fn launch_with(control: &Control) -> Result<(), Report> {
     let mut file = || files.next().ok_or_else(|| talk(io::Error::other("the order came without its four files")));
     let [trial, request, answer, plugin] = [file()?, file()?, file()?, file()?];
     // Init and runner are born into it.
-    if let Some(entrance) = files.next() {
+    for entrance in files {
         confine::enter_group(entrance).map_err(fault)?;
     }
     let files = Files { trial, request, answer, plugin };
@@ -62,7 +62,7 @@ fn launch_with(control: &Control) -> Result<(), Report> {
         return Ok(()); // It died before the parent-death signal was set.
     }
     // Ctrl-C in a terminal is for the host, which then ends the jail in its own way.
-    let _ = nix::unistd::setsid();
+    let _ = nix::unistd::setpgid(nix::unistd::Pid::from_raw(0), nix::unistd::Pid::from_raw(0));
     // SAFETY: an integer; the runner must be able to read what init creates.
     unsafe { libc::umask(0o022) };
     let mut libraries = root::find_libraries(order.startable_threads > 0).map_err(fault)?;
