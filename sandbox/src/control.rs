@@ -20,7 +20,7 @@ const MESSAGE_BYTES: usize = 16 << 10;
 pub struct Control(OwnedFd);
 
 /// Supervisor to launcher, first message; comes with four descriptors, trial, request, answer and plugin file, and with the
-/// memory group's entrance when there is a group.
+/// memory group's entrances when there is a group.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Order {
     /// Process id of the supervisor, to notice that it died before the parent-death signal was set.

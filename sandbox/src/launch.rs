@@ -30,6 +30,8 @@ use crate::verify::{Expected, verify};
 
 /// How long our own part of the start may take; more means that the machine is broken.
 const START: Duration = Duration::from_secs(20);
+/// Launcher, init and runner.
+const TASKS: usize = 3;
 /// Bytes of a page of memory.
 const PAGE: usize = 4096;
 
@@ -130,7 +132,8 @@ impl Jail {
         drop(launcher);
         let pid = child.id() as i32;
         let handle = process_descriptor(pid).map_err(fault("Start"))?;
-        let group = MemoryGroup::new(policy.memory_bytes).ok();
+        let startable_threads = policy.startable_threads();
+        let group = MemoryGroup::new(policy.memory_bytes, TASKS + startable_threads).ok();
         let mut jail = Jail {
             trial,
             request,
@@ -150,7 +153,6 @@ impl Jail {
         };
         // With a group the address space only has to stop absurd reservations; without one it is the memory limit.
         let meshes = sheet.len as u64;
-        let startable_threads = policy.startable_threads();
         let address_space_bytes = match jail.group {
             // glibc reserves a stack and a heap for each thread, of which little is ever touched.
             Some(_) => 2 * policy.memory_bytes + meshes + (1 << 30) + startable_threads as u64 * (128 << 20),
@@ -169,10 +171,10 @@ impl Jail {
             futex: places.kind == ClockKind::Futex,
         };
         let mut started = || -> Result<(), Outcome> {
-            let entrance = jail.group.as_ref().map(MemoryGroup::entrance).transpose();
-            let entrance = entrance.map_err(|e| Outcome::fault("MemoryGroup", e))?;
+            let entrances = jail.group.as_ref().map(MemoryGroup::entrances).transpose();
+            let entrances = entrances.map_err(|e| Outcome::fault("MemoryGroup", e))?.unwrap_or_default();
             let mut files = vec![trial_file.as_fd(), request_file.as_fd(), answer_file.as_fd(), plugin_file.as_fd()];
-            files.extend(entrance.iter().map(OwnedFd::as_fd));
+            files.extend(entrances.iter().map(OwnedFd::as_fd));
             jail.control.send(&order, &files).map_err(|e| Outcome::fault("Start", e))?;
             jail.admit()?;
             jail.take_listener(namespaces)
@@ -276,6 +278,7 @@ impl Jail {
         self.layers = Layers {
             namespaces,
             group: self.group.as_ref().map(MemoryGroup::version),
+            counted: self.group.as_ref().is_some_and(MemoryGroup::counts_processes),
             landlock_abi: fact(0),
             sealed_mappings: fact(1),
             no_new_code: fact(2) != 0,

@@ -41,6 +41,8 @@ pub(crate) struct Layers {
     pub own_ids: bool,
     /// Version of the memory group's hierarchy.
     pub group: Option<&'static str>,
+    /// It limits the number of processes, too.
+    pub counted: bool,
     /// ABI of Landlock; 0: none.
     pub landlock_abi: u32,
     /// Mappings of code that can no longer be changed.
@@ -63,6 +65,7 @@ impl Layers {
         }
         phrases.push(if self.own_ids { "ids of its own" } else { "ids of this user" }.into());
         phrases.push(match self.group {
+            Some(version) if self.counted => format!("memory group ({version}), its processes counted"),
             Some(version) => format!("memory group ({version})"),
             None => "address space limit instead of a memory group".to_string(),
         });
@@ -132,6 +135,7 @@ mod tests {
         namespaces: true,
         own_ids: true,
         group: Some("v2"),
+        counted: true,
         landlock_abi: LANDLOCK_ABI,
         sealed_mappings: 1,
         no_new_code: true,

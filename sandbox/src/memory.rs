@@ -1,4 +1,6 @@
-//! The memory group: a control group of its own for each jail, where this process may make one.
+//! The memory group: a control group of its own for each jail, where this process may make one. It limits the number of
+//! processes, too, where it may; never processor time: a group of the scheduler's own was seen to get no CPU for minutes beside
+//! one loop (Linux 6.18), and a runner has only the CPUs that it is kept on.
 
 use std::fs;
 use std::io;
@@ -17,6 +19,8 @@ pub(crate) const ITSELF: &[u8] = b"0";
 pub struct MemoryGroup {
     folder: PathBuf,
     version: Version,
+    /// Where its processes are counted; with one hierarchy that is `folder`.
+    counted: Option<PathBuf>,
 }
 
 /// Which generation of control groups.
@@ -29,17 +33,24 @@ pub enum Version {
 }
 
 impl MemoryGroup {
-    /// Makes a group limited to `bytes`. An error means that this machine lets us make none.
-    pub fn new(bytes: u64) -> io::Result<Self> {
+    /// Makes a group limited to `bytes`, and to `tasks` processes and threads where these can be counted. An error means that this
+    /// machine lets us make none.
+    pub fn new(bytes: u64, tasks: usize) -> io::Result<Self> {
         static COUNT: AtomicU32 = AtomicU32::new(0);
-        let (parent, version) = parent()?;
+        let (parent, version) = parent("memory")?;
+        let counting = match version {
+            Version::V1 => {
+                self::parent("pids").ok().filter(|(_, version)| *version == Version::V1).map(|(folder, _)| folder)
+            }
+            Version::V2 => None,
+        };
         if COUNT.load(Ordering::Relaxed) == 0 {
-            sweep(&parent);
+            [Some(&parent), counting.as_ref()].into_iter().flatten().for_each(|parent| sweep(parent));
         }
         let name = format!("{PREFIX}{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
-        let folder = parent.join(name);
+        let folder = parent.join(&name);
         fs::create_dir(&folder)?;
-        let group = MemoryGroup { folder, version };
+        let mut group = MemoryGroup { folder, version, counted: None };
         let limit = bytes.to_string();
         match version {
             Version::V1 => {
@@ -52,17 +63,29 @@ impl MemoryGroup {
                 let _ = group.write("memory.swap.max", "0");
             }
         }
+        let counted = match version {
+            Version::V1 => counting.map(|parent| parent.join(&name)).filter(|folder| fs::create_dir(folder).is_ok()),
+            Version::V2 => Some(group.folder.clone()).filter(|folder| hands_down(&parent, "pids") && folder.exists()),
+        };
+        group.counted = counted.filter(|folder| fs::write(folder.join("pids.max"), tasks.to_string()).is_ok());
         Ok(group)
     }
 
-    /// The file through which a process with a single thread moves itself in, by writing [`ITSELF`]. Moving another
+    /// The files through which a process with a single thread moves itself in, by writing [`ITSELF`] into each. Moving another
     /// process, or one that may have several threads, waits until the whole kernel has stood still once (some 10 ms).
-    pub fn entrance(&self) -> io::Result<OwnedFd> {
+    pub fn entrances(&self) -> io::Result<Vec<OwnedFd>> {
         let file = match self.version {
             Version::V1 => "tasks",
             Version::V2 => "cgroup.procs",
         };
-        fs::OpenOptions::new().write(true).open(self.folder.join(file)).map(OwnedFd::from)
+        let elsewhere = self.counted.iter().filter(|folder| **folder != self.folder);
+        let folders = [&self.folder].into_iter().chain(elsewhere);
+        folders.map(|folder| fs::OpenOptions::new().write(true).open(folder.join(file)).map(OwnedFd::from)).collect()
+    }
+
+    /// Are its processes counted?
+    pub fn counts_processes(&self) -> bool {
+        self.counted.is_some()
     }
 
     /// How many of its processes the kernel has killed for want of memory.
@@ -115,46 +138,53 @@ impl MemoryGroup {
 
 impl Drop for MemoryGroup {
     fn drop(&mut self) {
-        // The kernel lets go of a group a moment after its last process has been reaped.
-        for _ in 0..200 {
-            match fs::remove_dir(&self.folder) {
-                Err(error) if error.raw_os_error() == Some(libc::EBUSY) => std::thread::sleep(Duration::from_millis(2)),
-                _ => return,
-            }
+        remove(&self.folder);
+        if let Some(counted) = &self.counted {
+            remove(counted);
         }
     }
 }
 
-/// Where groups with a memory controller can be made.
-fn parent() -> io::Result<(PathBuf, Version)> {
+/// The kernel lets go of a group a moment after its last process has been reaped.
+fn remove(folder: &Path) {
+    for _ in 0..200 {
+        match fs::remove_dir(folder) {
+            Err(error) if error.raw_os_error() == Some(libc::EBUSY) => std::thread::sleep(Duration::from_millis(2)),
+            _ => return,
+        }
+    }
+}
+
+/// Where groups with this controller can be made.
+fn parent(controller: &str) -> io::Result<(PathBuf, Version)> {
     let mounts = fs::read_to_string("/proc/self/mountinfo")?;
     let groups = fs::read_to_string("/proc/self/cgroup")?;
-    let places = memory_hierarchies(&mounts, &groups);
+    let places = hierarchies(controller, &mounts, &groups);
     let usable = places.into_iter().find(|(folder, version)| match version {
         Version::V1 => writable(folder),
-        Version::V2 => writable(folder) && hands_memory_down(folder),
+        Version::V2 => writable(folder) && hands_down(folder, controller),
     });
-    usable.ok_or_else(|| io::Error::other("no control group with a memory controller can be made here"))
+    usable.ok_or_else(|| io::Error::other(format!("no control group with a {controller} controller can be made here")))
 }
 
 fn writable(folder: &Path) -> bool {
     nix::unistd::access(folder, nix::unistd::AccessFlags::W_OK).is_ok()
 }
 
-fn hands_memory_down(folder: &Path) -> bool {
+fn hands_down(folder: &Path, controller: &str) -> bool {
     let file = folder.join("cgroup.subtree_control");
-    let has = || fs::read_to_string(&file).is_ok_and(|text| text.split_whitespace().any(|c| c == "memory"));
-    has() || (fs::write(&file, "+memory").is_ok() && has())
+    let has = || fs::read_to_string(&file).is_ok_and(|text| text.split_whitespace().any(|c| c == controller));
+    has() || (fs::write(&file, format!("+{controller}")).is_ok() && has())
 }
 
-/// Candidate folders: our own group where version 1 limits memory, the root of version 2 (a group with processes of its
+/// Candidate folders: our own group where version 1 has the controller, the root of version 2 (a group with processes of its
 /// own cannot hand controllers down).
-fn memory_hierarchies(mountinfo: &str, own_groups: &str) -> Vec<(PathBuf, Version)> {
+fn hierarchies(controller: &str, mountinfo: &str, own_groups: &str) -> Vec<(PathBuf, Version)> {
     let own = own_groups.lines().find_map(|line| {
         let mut parts = line.splitn(3, ':').skip(1);
         let controllers = parts.next()?;
         let path = parts.next()?;
-        controllers.split(',').any(|c| c == "memory").then(|| path.trim_start_matches('/').to_string())
+        controllers.split(',').any(|c| c == controller).then(|| path.trim_start_matches('/').to_string())
     });
     let mut places = Vec::new();
     for line in mountinfo.lines() {
@@ -162,7 +192,7 @@ fn memory_hierarchies(mountinfo: &str, own_groups: &str) -> Vec<(PathBuf, Versio
         let Some(folder) = before.split_whitespace().nth(4).map(PathBuf::from) else { continue };
         let mut after = after.split_whitespace();
         match (after.next(), after.nth(1)) {
-            (Some("cgroup"), Some(options)) if options.split(',').any(|o| o == "memory") => {
+            (Some("cgroup"), Some(options)) if options.split(',').any(|o| o == controller) => {
                 // A container may mount a part of the hierarchy: then our own path may not be below it.
                 places.extend(own.iter().map(|own| (folder.join(own), Version::V1)).filter(|(f, _)| f.exists()));
                 places.push((folder, Version::V1));
@@ -194,11 +224,12 @@ mod tests {
         let hybrid = "30 29 0:27 / /sys/fs/cgroup/memory rw,relatime - cgroup cgroup rw,memory\n\
                       31 29 0:28 / /sys/fs/cgroup/unified rw - cgroup2 cgroup2 rw\n";
         assert_eq!(
-            memory_hierarchies(hybrid, "4:memory:/not-there\n0::/\n"),
+            hierarchies("memory", hybrid, "4:memory:/not-there\n0::/\n"),
             [("/sys/fs/cgroup/memory".into(), Version::V1), ("/sys/fs/cgroup/unified".into(), Version::V2)]
         );
         let unified = "31 29 0:28 / /sys/fs/cgroup rw - cgroup2 cgroup2 rw\n";
-        assert_eq!(memory_hierarchies(unified, "0::/user.slice\n"), [("/sys/fs/cgroup".into(), Version::V2)]);
-        assert_eq!(memory_hierarchies("nonsense\n- x\n", ""), []);
+        assert_eq!(hierarchies("memory", unified, "0::/user.slice\n"), [("/sys/fs/cgroup".into(), Version::V2)]);
+        assert_eq!(hierarchies("pids", hybrid, "0::/\n"), [("/sys/fs/cgroup/unified".into(), Version::V2)]);
+        assert_eq!(hierarchies("memory", "nonsense\n- x\n", ""), []);
     }
 }

@@ -2,9 +2,10 @@
 
 mod common;
 
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use common::{alive, apart, fixture, launcher, launcher_with, mesh, policy, start};
+use common::{alive, apart, fixture, groups_of, launcher, launcher_with, mesh, policy, start};
 use ocb_core::query::{Query, Semantics};
 use ocb_sandbox::{Killer, Launcher, Outcome, Phase, Policy, Trial};
 
@@ -117,4 +118,25 @@ fn starting_is_cheap() {
     println!("a trial without questions: median {:?}, from {:?} to {:?}", times[5], times[0], times[9]);
     // A sanity bound for a busy machine; the aim is 20 ms on an idle one.
     assert!(times[5] < Duration::from_secs(2), "{times:?}");
+}
+
+#[test]
+fn a_jail_is_counted_where_groups_allow() {
+    let session = start(&launcher(), &fixture(&[])).unwrap();
+    let counted = session.layers().iter().any(|layer| layer.contains("processes counted"));
+    let own = std::fs::read_to_string(format!("/proc/{}/cgroup", session.pid())).unwrap();
+    let mut groups = groups_of(std::process::id());
+    groups.retain(|group| own.lines().any(|line| Path::new(line).file_name() == group.file_name()));
+    let number = |group: &PathBuf, file: &str| -> Option<u64> {
+        std::fs::read_to_string(group.join(file)).ok()?.trim().parse().ok()
+    };
+    let limits: Vec<[u64; 2]> =
+        groups.iter().filter_map(|group| Some([number(group, "pids.max")?, number(group, "pids.current")?])).collect();
+    let expected = if counted { vec![[3, 3]] } else { Vec::new() };
+    assert_eq!(limits, expected, "launcher, init and runner in {groups:?}");
+    // SAFETY: takes no arguments.
+    let root = unsafe { libc::geteuid() } == 0;
+    assert!(counted || !root, "root's jails are counted");
+    session.finish();
+    assert!(groups.iter().all(|group| !group.exists()), "{groups:?}");
 }
