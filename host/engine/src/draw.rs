@@ -30,6 +30,12 @@ pub fn seed(row: &RunRow, set_sha256: &str, contestants: &[Arc<Contestant>]) -> 
     row.spec.seed.unwrap_or_else(|| follow(row.secret.as_deref().unwrap_or_default(), set_sha256, plugins))
 }
 
+/// The seed of the configurations of a run whose suite names none.
+pub fn configurations(row: &RunRow, contestants: &[Arc<Contestant>]) -> u64 {
+    let plugins = contestants.iter().map(|c| c.info.plugin_sha256.as_str());
+    follow(row.secret.as_deref().unwrap_or_default(), "configurations", plugins)
+}
+
 fn follow<'a>(secret: &'a str, set_sha256: &'a str, plugins: impl Iterator<Item = &'a str>) -> u64 {
     let text: String = [secret, set_sha256].into_iter().chain(plugins).collect();
     u64::from_str_radix(&sha256_hex(text.as_bytes())[..16], 16).unwrap_or(0) >> (64 - BITS)

@@ -271,6 +271,16 @@ impl Store {
         Ok(())
     }
 
+    /// Notes what the run asks, once the rest of it is drawn.
+    pub async fn spec_of_run(&self, id: &str, spec: &RunSpec) -> Result<()> {
+        sqlx::query("UPDATE runs SET spec = $1 WHERE id = $2")
+            .bind(to_json(spec)?)
+            .bind(id)
+            .execute(&self.pool)
+            .await?;
+        Ok(())
+    }
+
     /// Notes what the run's results are a preview of, if so.
     pub async fn preview_of_run(&self, id: &str, preview: Option<&Preview>) -> Result<()> {
         sqlx::query("UPDATE runs SET preview = $1 WHERE id = $2")
