@@ -134,6 +134,30 @@ async fn only_the_owner_cancels_and_the_next_run_goes_on() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn a_plugin_file_that_was_replaced_is_told_and_blames_nobody() {
+    let (data, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let mut config = common::config(data.path());
+    let brought = folder.path().join("libocb_parry.so");
+    let theirs = config.plugins.iter_mut().find(|file| file.ends_with("libocb_parry.so")).unwrap();
+    std::fs::copy(&*theirs, &brought).unwrap();
+    theirs.clone_from(&brought);
+    let engine = Engine::open(config.clone()).await.unwrap();
+    // Somebody installs another version while the service is up.
+    std::fs::remove_file(&brought).unwrap();
+    std::fs::copy(&config.plugins[0], &brought).unwrap();
+    let algorithms = vec!["box-tree".into(), "parry".into()];
+    let spec = RunSpec { algorithms, passes: 5, ..common::spec("proximity", 60, 1) };
+    let run = engine.submit(spec, Some("guest")).await.unwrap();
+    let (run, _) = common::finish(&engine, &run.id).await;
+    assert_eq!(run.state, State::Done, "{:?}", run.message);
+    let [ours, replaced] = &run.results[..] else { panic!("{:?}", run.results) };
+    assert_eq!((ours.outcome.name.as_str(), ours.rank), ("Completed", Some(1)), "{:?}", ours.unranked);
+    assert_eq!((replaced.outcome.name.as_str(), replaced.rank, replaced.n), ("FileReplaced", None, 0));
+    assert!(replaced.outcome.message.contains("SHA-256"), "{}", replaced.outcome.message);
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn the_start_page_has_a_measured_run_without_being_asked() {
     let data = tempfile::tempdir().unwrap();
     let config = EngineConfig { featured: true, ..common::config(data.path()) };

@@ -53,7 +53,8 @@ fn every_answer_comes_back_bit_for_bit() {
     let lists =
         ["stock:torus-knot@600", "--contacts", "all", "--step", "-0.0001", "--algorithm", "box-tree,brute-force"];
     let hits = [&own[..], "--distance", "0", "--algorithm", "box-tree,brute-force"];
-    for question in [&distances[..], &lists, &hits] {
+    let frames = ["stock:torus-knot@600", "--method", "trajectory", "--query", "pq", "--algorithm", "box-tree"];
+    for question in [&distances[..], &lists, &hits, &frames] {
         let replay = elsewhere.json(&["replay", &packed(&desk, question)]);
         assert_eq!(replay["identical"], true, "{replay:#}");
         let algorithms = replay["algorithms"].as_array().expect("a list");
