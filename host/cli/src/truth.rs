@@ -65,7 +65,7 @@ async fn configurations(store: &Store, args: &TruthArgs, json: bool) -> Result<E
         return Err(Failure::Input("Name an object and its --configurations, or `ocb truth pairs FILE`.".to_owned()));
     };
     let bytes = read_bounded(file, MAX_CONFIGURATION_BYTES)?;
-    let poses = truth::read_file(&bytes).map_err(|e| Failure::Input(format!("{}: {e}", file.display())))?;
+    let poses = truth::read_matrices(&bytes).map_err(|e| Failure::Input(format!("{}: {e}", file.display())))?;
     let mesh_a = object(store, a).await?;
     let mesh_b = match args.b.as_ref().filter(|b| *b != a) {
         Some(b) => object(store, b).await?,

@@ -15,6 +15,13 @@ pub struct Pose {
     pub translation: Vector3<f64>,
 }
 
+/// A rotation up to rounding is no further off than this.
+const ROUNDING: f64 = 2e-15;
+/// What is no further off a rotation is taken as it is.
+pub const AS_IT_IS: f64 = 1e-12;
+/// What is no further off was meant as a rotation, in single precision.
+pub const STRAIGHTENED: f64 = 1e-5;
+
 /// Why 16 numbers are no pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PoseError {
@@ -67,6 +74,30 @@ impl Pose {
             0.0,
             1.0,
         ]
+    }
+
+    /// How far the linear part is off a rotation: the largest entry of `R^T R - 1`, and infinity for a mirror.
+    pub fn off_rotation(&self) -> f64 {
+        if self.linear.determinant() > 0.0 {
+            (self.linear.tr_mul(&self.linear) - Matrix3::identity()).amax()
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// By how much of a coordinate two honest programs may differ because the linear part is no rotation, one of which inverts it
+    /// and one transposes it. Nothing for a rotation up to rounding, and for what is bent on purpose: there only the numbers
+    /// as they are count.
+    pub fn bend(&self) -> f64 {
+        let off = self.off_rotation();
+        if (ROUNDING..=AS_IT_IS).contains(&off) { 4.0 * off } else { 0.0 }
+    }
+
+    /// The same with the nearest rotation; `None` for what is none by far.
+    pub fn straightened(&self) -> Option<Self> {
+        let svd = self.linear.svd(true, true);
+        let linear = svd.u? * svd.v_t?;
+        (self.off_rotation() <= STRAIGHTENED).then_some(Self { linear, ..*self })
     }
 
     /// Where a point of the world lies in the object's own frame, rounded likewise; `None` when the pose flattens.

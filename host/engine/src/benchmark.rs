@@ -9,14 +9,14 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use ocb_core::comparison::{Comparison, compare};
-use ocb_core::configuration::{ConfigurationSet, Method};
+use ocb_core::configuration::{Configuration, ConfigurationSet, Method};
 use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::sampling::controls::{self, Control};
 use tokio::runtime::Handle;
 
 use crate::columns::{RecordsOf, records_parquet};
-use crate::configurations::{self, Gauge};
+use crate::configurations::{self, Brought, Gauge};
 use crate::draw;
 use crate::engine::Inner;
 use crate::machine::{MakingWay, MeasuringRight};
@@ -50,7 +50,7 @@ pub fn run(inner: &Arc<Inner>, id: &str, stop: &Stop, handle: &Handle) -> Result
         handle.block_on(inner.store.run(id))?.ok_or_else(|| EngineError::Fault(format!("The run {id} is gone.")))?;
     let log = RunLog::begin(id, &row.spec.algorithms, inner.store.clone(), inner.bell.clone(), handle.clone())?;
     let mut bench = Bench { inner, row, stop, log };
-    let ended = bench.stages();
+    let ended = bench.stages().map_err(EngineError::for_visitors);
     match &ended {
         Ok(End::Done) => {}
         Ok(End::Stopped) if inner.closing() => {}
@@ -133,6 +133,8 @@ impl Bench<'_> {
         let (a, b) = (&pairing.mesh_a, &pairing.mesh_b);
         let (sha_a, sha_b) = (a.sha256(), b.sha256());
         let key = configurations::set_key(&sha_a, &sha_b, &self.row.spec)?;
+        let brought = self.brought()?;
+        let straightened = brought.as_ref().and_then(Brought::note);
         let store = self.inner.store.clone();
         let keeping = self.log.wait(self.inner.blobs.keeping());
         if let Some(stored) = self.log.wait(store.set(&key))? {
@@ -141,12 +143,14 @@ impl Bench<'_> {
             let set = self.log.wait(self.inner.set(&stored.blob))?;
             self.log.wait(store.set_of_run(&self.row.id, &stored.info, &stored.blob))?;
             self.log.progress(CONFIGURATIONS, n, n)?;
-            self.log.end(CONFIGURATIONS, State::Done, Some("Saved positions were used again.".into()), None)?;
+            let again = Some("Saved positions were used again.".to_owned());
+            self.log.end(CONFIGURATIONS, State::Done, sentences([again, straightened]), None)?;
             return Ok(Some((set, stored.info)));
         }
         drop(keeping);
         let started = Instant::now();
-        let Some(set) = self.find(pairing)? else { return Ok(None) };
+        let poses = brought.map(|brought| brought.poses);
+        let Some(set) = self.find(pairing, poses.as_deref())? else { return Ok(None) };
         let seconds = started.elapsed().as_secs_f64();
         let _keeping = self.log.wait(self.inner.blobs.keeping());
         let info = self.log.wait(self.inner.keep_set(&key, [a, b], &set, seconds))?;
@@ -154,18 +158,20 @@ impl Bench<'_> {
         self.log.wait(store.set_of_run(&self.row.id, &info, &blob))?;
         let missed = (info.missed_rays > 0)
             .then(|| format!("On {} rays the objects do not come to what is wanted.", info.missed_rays));
-        self.log.end(CONFIGURATIONS, State::Done, missed, None)?;
+        self.log.end(CONFIGURATIONS, State::Done, sentences([missed, straightened]), None)?;
         Ok(Some((self.inner.sets.put(&blob, set), info)))
     }
 
+    /// The file of configurations, if the run has one.
+    fn brought(&self) -> Result<Option<Brought>> {
+        let Method::File { sha256 } = &self.row.spec.method else { return Ok(None) };
+        configurations::read_file(&self.log.wait(self.inner.blobs.get(sha256))?).map(Some)
+    }
+
     /// Finds the set on all CPUs while this thread reports.
-    fn find(&mut self, pairing: &Pairing) -> Result<Option<ConfigurationSet>> {
+    fn find(&mut self, pairing: &Pairing, poses: Option<&[Configuration]>) -> Result<Option<ConfigurationSet>> {
         let spec: &RunSpec = &self.row.spec.clone();
-        let poses = match &spec.method {
-            Method::File { sha256 } => Some(configurations::read_file(&self.log.wait(self.inner.blobs.get(sha256))?)?),
-            _ => None,
-        };
-        let total = match &poses {
+        let total = match poses {
             Some(poses) => poses.len() as u64,
             None => ocb_core::sampling::count(&spec.finding())
                 .map_err(|e| EngineError::Invalid(format!("These configurations are not possible: {e}.")))?,
@@ -173,7 +179,7 @@ impl Bench<'_> {
         self.log.start(CONFIGURATIONS, total)?;
         let gauge = Gauge::default();
         let longest_side = pairing.mesh_a.longest_side();
-        let (gauge, poses) = (&gauge, poses.as_deref());
+        let gauge = &gauge;
         let set = thread::scope(|scope| {
             let mut way = MakingWay::begin(&self.inner.machine);
             let worker = scope.spawn(|| configurations::make(&pairing.a, &pairing.b, longest_side, spec, poses, gauge));
@@ -329,7 +335,8 @@ impl Bench<'_> {
             self.log.wait(self.inner.store.preview_of_run(&self.row.id, None))?;
         }
         match nothing {
-            Some(cause) if !any => Err(EngineError::Fault(format!("No algorithm could be measured. {cause}"))),
+            // What the algorithms came to is for whoever asked, and names nothing of this machine.
+            Some(cause) if !any => Err(EngineError::Invalid(format!("No algorithm could be measured. {cause}"))),
             _ => Ok(End::Done),
         }
     }
@@ -433,4 +440,10 @@ impl Bench<'_> {
         }
         self.log.end(lane, State::Done, None, None)
     }
+}
+
+/// What there is to say, as one text.
+fn sentences(said: [Option<String>; 2]) -> Option<String> {
+    let said: Vec<String> = said.into_iter().flatten().collect();
+    (!said.is_empty()).then(|| said.join(" "))
 }

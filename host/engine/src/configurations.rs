@@ -6,7 +6,7 @@ mod file;
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use ocb_core::configuration::{Class, Configuration, ConfigurationSet, Placed, Separation};
+use ocb_core::configuration::{Class, Configuration, ConfigurationSet, Method, Placed, Separation};
 use ocb_core::oracle::{self, Pair, Shape};
 use ocb_core::sampling::{self, Found, Plan, SamplingError};
 use rayon::prelude::*;
@@ -16,7 +16,7 @@ use crate::model::{ClassCount, RunSpec, SetInfo};
 use crate::{EngineError, Result};
 
 use coverage::Coverage;
-pub use file::read_file;
+pub use file::{Brought, read_file, read_matrices};
 
 /// What a set depends on beside the request. Stored sets of other versions stay readable but are not used again.
 #[derive(Clone, Copy)]
@@ -35,7 +35,9 @@ pub fn set_key(mesh_a: &str, mesh_b: &str, spec: &RunSpec) -> Result<String> {
 fn key(Versions { sampling, oracle }: Versions, mesh_a: &str, mesh_b: &str, spec: &RunSpec) -> Result<String> {
     let determines = serde_json::to_string(&(spec.finding(), spec.separation()))
         .map_err(|e| EngineError::fault("Naming the method failed", e))?;
-    Ok(sha256_hex(format!("{sampling}|{oracle}|{mesh_a}|{mesh_b}|{determines}").as_bytes()))
+    // What was read from files before matrices had to be rotations is not used again.
+    let rule = if matches!(spec.method, Method::File { .. }) { "|rotations" } else { "" };
+    Ok(sha256_hex(format!("{sampling}|{oracle}|{mesh_a}|{mesh_b}|{determines}{rule}").as_bytes()))
 }
 
 /// How far the work is, and whether it is still wanted. Shared between the workers and whoever reports.

@@ -139,7 +139,7 @@ pub async fn set_size(spec: &RunSpec, store: &Store, blobs: &Blobs) -> Result<u6
             return Err(none());
         }
         let read = configurations::read_file(&blobs.get(sha256).await?);
-        return Ok(read.map_err(|_| none())?.len() as u64);
+        return Ok(read.map_err(|_| none())?.poses.len() as u64);
     }
     sampling::count(&spec.method)
         .and_then(|_| sampling::count(&spec.finding()))
@@ -170,7 +170,7 @@ fn contestants(spec: &RunSpec, registry: &Registry, viewer: Option<&str>) -> Res
     if names.is_empty() {
         return Err(EngineError::Invalid(format!("No installed algorithm answers {question}.")));
     }
-    let mut chosen: Vec<Arc<Contestant>> = Vec::new();
+    let mut chosen: Vec<(&str, Arc<Contestant>)> = Vec::new();
     for name in names {
         let there_are = || fitting.join(", ");
         let contestant = registry.choose(name, viewer)?.ok_or_else(|| {
@@ -182,11 +182,18 @@ fn contestants(spec: &RunSpec, registry: &Registry, viewer: Option<&str>) -> Res
                 there_are()
             )));
         }
-        if chosen.iter().all(|c| c.info.id != contestant.info.id) {
-            chosen.push(contestant);
+        match chosen.iter().find(|(_, c)| c.info.id == contestant.info.id) {
+            Some((other, _)) if *other != name => {
+                return Err(EngineError::Invalid(format!(
+                    "{other:?} and {name:?} are the same: a setting that is as it is without being named makes no other \
+                     contestant; name it once."
+                )));
+            }
+            Some(_) => {}
+            None => chosen.push((name, contestant)),
         }
     }
-    Ok(chosen)
+    Ok(chosen.into_iter().map(|(_, contestant)| contestant).collect())
 }
 
 /// Our own algorithms that others are compared with, in the order of preference.

@@ -7,7 +7,7 @@ use ocb_core::oracle::{Pair, Shape};
 use rayon::prelude::*;
 
 pub use crate::columns::{contacts_parquet, csv, truths_parquet};
-pub use crate::configurations::{Gauge, read_file};
+pub use crate::configurations::{Gauge, read_matrices};
 pub use crate::machine::{Machine, MakingWay};
 use crate::model::{ContactRow, TruthRow};
 

@@ -4,7 +4,7 @@ mod common;
 
 use ocb_core::configuration::Method;
 use ocb_engine::model::{RunSpec, SetInfo};
-use ocb_engine::truth::{Gauge, read_file};
+use ocb_engine::truth::{Gauge, read_matrices};
 use ocb_engine::{Engine, EngineError};
 use serde_json::{Value, json};
 
@@ -89,7 +89,7 @@ async fn a_set_is_the_same_bytes_everywhere_and_found_once() {
         assert_eq!(info.box_side.is_some(), matches!(spec.method, Method::Random { .. }));
         assert_eq!(info.spacing.is_some(), matches!(spec.method, Method::Grid { .. }));
         // The file can be given as configurations: the same poses have the same truth.
-        let poses = read_file(&bytes).expect("our own file");
+        let poses = read_matrices(&bytes).expect("our own file");
         assert_eq!(poses.len() as u32, info.configurations);
         let method = engine.add_configurations(bytes.clone()).await.expect("our own file");
         let (again, _) =

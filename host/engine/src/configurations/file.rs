@@ -3,7 +3,7 @@
 //! Matrices are row-major and place an object in the world. Where only B is placed, A stands where its file puts it.
 
 use ocb_core::configuration::Configuration;
-use ocb_core::pose::Pose;
+use ocb_core::pose::{AS_IT_IS, Pose, STRAIGHTENED};
 use ocb_core::sampling::MAX_CONFIGURATIONS;
 use serde::Deserialize;
 
@@ -17,10 +17,64 @@ const SMALLEST: f64 = 1e-100;
 /// Bytes of one raw matrix.
 const MATRIX_BYTES: usize = 16 * 8;
 
+/// What a file of configurations holds.
+#[derive(Debug, PartialEq)]
+pub struct Brought {
+    /// Each with two rotations.
+    pub poses: Vec<Configuration>,
+    /// In so many a matrix was replaced by the nearest rotation, because it was one in single precision only.
+    pub straightened: usize,
+}
+
+impl Brought {
+    /// For the run that is measured with it; nothing where all were rotations.
+    pub fn note(&self) -> Option<String> {
+        let (some, all) = (self.straightened, self.poses.len());
+        (some > 0).then(|| {
+            format!("In {some} of {all} configurations a matrix is a rotation in single precision only; the nearest one is used.")
+        })
+    }
+}
+
 /// Reads a file of configurations.
-pub fn read_file(bytes: &[u8]) -> Result<Vec<Configuration>> {
-    let poses = read(bytes).and_then(checked);
-    poses.map_err(|why| EngineError::Invalid(format!("This is no file of configurations: {why}.")))
+pub fn read_file(bytes: &[u8]) -> Result<Brought> {
+    read(bytes).and_then(checked).and_then(straightened).map_err(none)
+}
+
+/// The same for who asks the oracle alone: it knows the truth for any matrix.
+pub fn read_matrices(bytes: &[u8]) -> Result<Vec<Configuration>> {
+    read(bytes).and_then(checked).map_err(none)
+}
+
+fn none(why: String) -> EngineError {
+    EngineError::Invalid(format!("This is no file of configurations: {why}."))
+}
+
+/// Plugins are promised rotations.
+fn straightened(mut poses: Vec<Configuration>) -> std::result::Result<Brought, String> {
+    let mut straightened = 0;
+    for (row, configuration) in (1..).zip(&mut poses) {
+        let mut bent = false;
+        for pose in [&mut configuration.pose_a, &mut configuration.pose_b] {
+            let off = pose.off_rotation();
+            if off > AS_IT_IS {
+                *pose = pose.straightened().ok_or_else(|| no_rotation(row, off))?;
+                bent = true;
+            }
+        }
+        straightened += usize::from(bent);
+    }
+    Ok(Brought { poses, straightened })
+}
+
+fn no_rotation(row: u32, off: f64) -> String {
+    if off.is_infinite() {
+        return format!("row {row}: the 3x3 part of a matrix mirrors or flattens, and must be a rotation");
+    }
+    format!(
+        "row {row}: the 3x3 part R of a matrix must be a rotation, and R^T R is off by {off:.1e} (at most {STRAIGHTENED:.0e}); \
+         scale and shear the object instead"
+    )
 }
 
 fn read(bytes: &[u8]) -> std::result::Result<Vec<Configuration>, String> {
@@ -219,14 +273,20 @@ mod tests {
             format!("[{{\"pose_a\": [1,0,0,0,0,1,0,0,0,0,1,0], \"pose_b\": {rows}}}]").into_bytes(),
         ];
         for file in files {
-            assert_eq!(read_file(&file).expect("a good file"), [shift()], "{:?}", String::from_utf8_lossy(&file));
+            let brought = read_file(&file).expect("a good file");
+            assert_eq!(
+                (brought.poses, brought.straightened),
+                (vec![shift()], 0),
+                "{:?}",
+                String::from_utf8_lossy(&file)
+            );
         }
         // A number that a hasty reader would round to its neighbour.
         let exact = 0.516_213_402_387_451_1_f64;
-        let turned = format!("[[{},{exact},-2.5e0,3]]", line(&SHIFT[..9], ","));
-        assert_eq!(read_file(turned.as_bytes()).expect("a good file")[0].pose_b.linear[(2, 1)], exact);
-        let turned = format!("[{{\"pose_a\": [{twelve}], \"pose_b\": [{twelve}]}}]");
-        assert_eq!(read_file(turned.as_bytes()).expect("a good file")[0].pose_a, shift().pose_b);
+        let moved = format!("[[1,0,0,{exact},0,1,0,-2.5e0,0,0,1,3]]");
+        assert_eq!(read_file(moved.as_bytes()).expect("a good file").poses[0].pose_b.translation.x, exact);
+        let both = format!("[{{\"pose_a\": [{twelve}], \"pose_b\": [{twelve}]}}]");
+        assert_eq!(read_file(both.as_bytes()).expect("a good file").poses[0].pose_a, shift().pose_b);
     }
 
     #[test]
@@ -263,5 +323,40 @@ mod tests {
             let file = [raw(SHIFT), raw(far)].concat();
             assert!(refused(&file).contains("row 2: the number"), "{}", refused(&file));
         }
+    }
+
+    /// A turn about z by so much, whose first column is longer by this share.
+    fn turned(angle: f64, longer: f64) -> [f64; 16] {
+        let (s, c) = angle.sin_cos();
+        let (x, y) = (c * (1.0 + longer), s * (1.0 + longer));
+        [x, -s, 0.0, 0.5, y, c, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+    }
+
+    #[test]
+    fn what_is_nearly_a_rotation_becomes_one_and_the_rest_is_refused() {
+        let read = |longer: f64| read_file(&[raw(SHIFT), raw(turned(0.7, longer))].concat());
+        for as_it_is in [0.0, 1e-13] {
+            let brought = read(as_it_is).expect("a good file");
+            assert_eq!(brought.straightened, 0);
+            assert_eq!(brought.poses[1].pose_b.to_row_major(), turned(0.7, as_it_is), "taken as it is");
+        }
+        let brought = read(1e-7).expect("a good file");
+        assert_eq!(brought.straightened, 1);
+        let [exact, mended] = [turned(0.7, 0.0), brought.poses[1].pose_b.to_row_major()];
+        assert!(exact.iter().zip(mended).all(|(a, b)| (a - b).abs() < 2e-7), "{mended:?}");
+        assert!(brought.poses[1].pose_b.off_rotation() < 1e-15);
+        assert!(brought.note().is_some_and(|note| note.contains("1 of 2 configurations")));
+        // As a program in single precision writes it.
+        let single = turned(0.7, 0.0).map(|x| f64::from(x as f32));
+        assert_eq!(read_file(&raw(single)).expect("a good file").straightened, 1);
+
+        let told = read(0.01).expect_err("it scales").to_string();
+        assert!(told.contains("row 2") && told.contains("off by 2.0e-2"), "{told}");
+        let mut mirror = SHIFT;
+        mirror[0] = -1.0;
+        assert!(refused(&raw(mirror)).contains("row 1: the 3x3 part of a matrix mirrors"));
+        let mut flat = SHIFT;
+        flat[0] = 0.0;
+        assert!(refused(&raw(flat)).contains("flattens"));
     }
 }

@@ -45,7 +45,7 @@ impl Engine {
             None => mesh_a.clone(),
         };
         let poses = match &spec.method {
-            Method::File { sha256 } => Some(read_file(&inner.blobs.get(sha256).await?)?),
+            Method::File { sha256 } => Some(read_file(&inner.blobs.get(sha256).await?)?.poses),
             _ => None,
         };
         let key = set_key(&mesh_a.sha256(), &mesh_b.sha256(), spec)?;
