@@ -34,6 +34,25 @@ pub(crate) fn each(scene: &Scene, mut visit: impl FnMut([u32; 2], &Triangle, &Tr
     }
 }
 
+/// How many pairs of triangles may be within a distance (in units): no fewer than are.
+pub(crate) fn count_within(scene: &Scene, distance: f64) -> u64 {
+    let Some(frame) = &scene.frame else { return scene.all_pairs().count() as u64 };
+    let (mut count, mut stack) = (0, vec![frame.roots()]);
+    while let Some((a, b)) = stack.pop() {
+        if let Some(pair) = frame.triangles(a, b) {
+            let (a, b) = scene.triangles(pair);
+            count += u64::from(closest(&a, &b).lo <= distance);
+        } else {
+            frame.expand(a, b, |a, b, bound| {
+                if f64::from(bound) <= distance {
+                    stack.push((a, b));
+                }
+            });
+        }
+    }
+    count
+}
+
 /// A pair of triangles that may be within a distance (in units); `None` when certainly none is.
 pub(crate) fn within(scene: &Scene, distance: f64) -> Option<[u32; 2]> {
     let near = |pair: &[u32; 2]| {

@@ -201,9 +201,11 @@ impl<'a> Pair<'a> {
         scene_size([self.a.largest, self.b.largest], configuration)
     }
 
-    /// Half-width of the band in which an answer is not scored: `32 u S`.
+    /// Half-width of the band in which an answer is not scored: `32 u S`, and where a pose is a little off a rotation what
+    /// two honest programs make of that.
     pub fn tau(&self, configuration: &Configuration, unit_roundoff: f64) -> f64 {
-        32.0 * unit_roundoff * self.scene_size(configuration)
+        let bend = configuration.pose_a.bend().max(configuration.pose_b.bend());
+        (32.0 * unit_roundoff + bend) * self.scene_size(configuration)
     }
 
     /// Do the surfaces meet?
@@ -229,6 +231,11 @@ impl<'a> Pair<'a> {
         });
         pairs.sort_unstable();
         pairs
+    }
+
+    /// How many pairs of triangles an honest program may count as contacts: all that are within this distance.
+    pub fn most_contacts(&self, configuration: &Configuration, tau: f64) -> u64 {
+        Scene::with(self, configuration, |scene| contacts::count_within(scene, tau / scene.unit))
     }
 
     /// Everything the oracle knows about one configuration; the interval is some ten `u S` wide.
