@@ -12,7 +12,35 @@ use crate::protocol::MAX_BATCH;
 #[derive(Clone, Copy, Debug)]
 pub struct Clock {
     nanoseconds_per_tick: f64,
-    counter: bool,
+    /// When it was compared with the kernel's clock, if it is the counter.
+    compared: Option<Moment>,
+}
+
+/// One moment by both clocks.
+#[derive(Clone, Copy, Debug)]
+struct Moment {
+    kernel_ns: u64,
+    ticks: u64,
+}
+
+/// Both clocks are read so often for one moment. What comes between the two readings, such as other work on the CPU, makes some
+/// of them useless, never all.
+const READINGS: usize = 32;
+
+impl Moment {
+    /// Now: the reading of the kernel's clock that took the shortest time, in the middle of which it was.
+    fn now() -> Moment {
+        let readings = (0..READINGS).map(|_| {
+            let (before, kernel_ns, after) = (counter(), raw_ns(), counter());
+            (after.wrapping_sub(before), Moment { kernel_ns, ticks: before + after.wrapping_sub(before) / 2 })
+        });
+        readings.min_by_key(|(took, _)| *took).expect("some readings").1
+    }
+
+    /// Nanoseconds of the kernel for each tick from one moment to a later one.
+    fn scale_to(self, later: Moment) -> f64 {
+        (later.kernel_ns - self.kernel_ns) as f64 / (later.ticks - self.ticks) as f64
+    }
 }
 
 /// Where the kernel says which counter it keeps time by.
@@ -25,24 +53,29 @@ impl Clock {
         *CLOCK.get_or_init(|| {
             let trusted = std::fs::read_to_string(CLOCKSOURCE).is_ok_and(|source| source.trim() == "tsc");
             if !trusted {
-                return Clock { nanoseconds_per_tick: 1.0, counter: false };
+                return Clock { nanoseconds_per_tick: 1.0, compared: None };
             }
-            let (t0, c0) = (raw_ns(), counter());
+            let compared = Moment::now();
             std::thread::sleep(Duration::from_millis(20));
-            let (t1, c1) = (raw_ns(), counter());
-            Clock { nanoseconds_per_tick: (t1 - t0) as f64 / (c1 - c0) as f64, counter: true }
+            Clock { nanoseconds_per_tick: compared.scale_to(Moment::now()), compared: Some(compared) }
         })
     }
 
     /// It reads the time stamp counter.
     pub fn is_counter(&self) -> bool {
-        self.counter
+        self.compared.is_some()
+    }
+
+    /// By which share its pace since it was compared with the kernel's clock differs from what was found then. Some millionths
+    /// are what the comparison can tell; more says that the counter or the kernel's clock has changed its pace.
+    pub fn drift(&self) -> f64 {
+        self.compared.map_or(0.0, |then| then.scale_to(Moment::now()) / self.nanoseconds_per_tick - 1.0)
     }
 
     /// Now. Later memory accesses are not begun before it, earlier ones are done.
     #[inline(always)]
     pub fn ticks(&self) -> u64 {
-        if self.counter { counter() } else { raw_ns() }
+        if self.compared.is_some() { counter() } else { raw_ns() }
     }
 
     /// Nanoseconds from one moment to a later one; 0 when the order is wrong.
@@ -196,10 +229,30 @@ mod tests {
     #[test]
     fn the_clock_agrees_with_the_kernel() {
         let clock = Clock::get();
-        let (t0, c0) = (std::time::Instant::now(), clock.ticks());
-        std::thread::sleep(Duration::from_millis(50));
-        let (expected, measured) = (t0.elapsed().as_nanos() as f64, clock.nanoseconds(c0, clock.ticks()));
-        // Both ends may be preempted between the two readings; a wrong scale would be off by far more.
-        assert!(measured > 0.5 * expected && measured < 2.0 * expected, "{measured} against {expected}");
+        let moment = || Moment { kernel_ns: raw_ns(), ticks: clock.ticks() };
+        let readings = |n| (0..n).map(|_| moment()).collect::<Vec<_>>();
+        // What comes between two readings makes a time longer on one side only, so the middle of many is right.
+        let (then, now) = (readings(99), {
+            std::thread::sleep(Duration::from_millis(50));
+            readings(99)
+        });
+        let mut ratios: Vec<f64> = then
+            .iter()
+            .zip(&now)
+            .map(|(a, b)| clock.nanoseconds(a.ticks, b.ticks) / (b.kernel_ns - a.kernel_ns) as f64)
+            .collect();
+        ratios.sort_by(f64::total_cmp);
+        assert!((ratios[49] - 1.0).abs() < 1e-3, "{ratios:?}");
+        assert!(clock.drift().abs() < 1e-3, "{}", clock.drift());
+    }
+
+    #[test]
+    fn a_scale_that_is_wrong_is_seen() {
+        let right = Clock::get();
+        if right.is_counter() {
+            let wrong = Clock { nanoseconds_per_tick: right.nanoseconds_per_tick * 1.02, ..right };
+            std::thread::sleep(Duration::from_millis(20));
+            assert!((wrong.drift() + 0.02).abs() < 1e-3, "{}", wrong.drift());
+        }
     }
 }

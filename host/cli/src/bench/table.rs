@@ -63,6 +63,12 @@ pub fn summary(run: &RunInfo) -> String {
         let null = units::time(machine.null_ns.value);
         let (cpu, class, clock) = (&machine.cpu, &machine.hardware_class, &machine.clock);
         text.push(format!("Measured on {cpu} (class {class}), clock {clock}, null round trip {null} subtracted."));
+        text.extend(machine.moved().map(|drift| {
+            format!(
+                "The clock's pace changed by {:.3} % meanwhile: take no time of this run for more exact.",
+                100.0 * drift.abs()
+            )
+        }));
         text.extend(machine.draw.as_ref().map(|draw| format!("Repeat it with --run-seed {}.", draw.seed)));
         if machine.profile != Profile::Production.as_str() {
             text.push(format!("UNRANKED: measured in the profile '{}'.", machine.profile));

@@ -10,6 +10,7 @@ use ocb_core::sampling::controls::Control;
 use ocb_core::statistics::{Statistic, maximum_interval, quantile, quantile_interval};
 use ocb_core::validation::Terms;
 
+use ocb_sandbox::clock::Clock;
 use ocb_sandbox::{PassFacts, Profile, SetUp, integrity};
 
 use super::contract::contract;
@@ -216,6 +217,7 @@ pub fn environment(
         kernel: machine.kernel.clone(),
         hardware_class: machine.hardware_class.clone(),
         clock: clocks.first()?.kind.as_str().to_owned(),
+        clock_drift: Some(Clock::get().drift()),
         null_ns: Estimated {
             value: median(|c| c.null_median_ns)?,
             lo: median(|c| c.null_p05_ns)?,

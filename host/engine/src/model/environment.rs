@@ -20,6 +20,10 @@ pub struct Environment {
     pub hardware_class: String,
     /// `spin` or `futex`.
     pub clock: String,
+    /// By which share the clock's pace, compared with the kernel's clock, differs at the end from what it was at the beginning;
+    /// some millionths are what can be told. Absent in results of older versions.
+    #[serde(default)]
+    pub clock_drift: Option<f64>,
     /// Null round trip that is subtracted: median, with p05 and p95 as its interval, nanoseconds.
     pub null_ns: Estimated,
     /// Times that are longer than the plugin took, because the supervisor was kept from looking; they count only where a
@@ -41,6 +45,13 @@ pub struct Environment {
     pub profile: String,
     /// Version of this program.
     pub version: String,
+}
+
+impl Environment {
+    /// The drift of a clock that has changed its pace: more than every honest reading can make of it.
+    pub fn moved(&self) -> Option<f64> {
+        self.clock_drift.filter(|drift| drift.abs() > 1e-4)
+    }
 }
 
 /// What results from before there were profiles were measured in.

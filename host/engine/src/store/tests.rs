@@ -232,6 +232,7 @@ mod contract {
             kernel: "k".into(),
             hardware_class: "h".into(),
             clock: "spin".into(),
+            clock_drift: Some(1e-6),
             null_ns: Estimated { value: 1.0, lo: 0.5, hi: 2.0 },
             disturbed: 3,
             calibration_ns: None,
@@ -302,7 +303,10 @@ mod contract {
             add(&store, run(id, Some("a"), 1, 2 + i as i64)).await;
         }
         add(&store, run("b1", Some("b"), 1, 9)).await;
-        assert_eq!((store.waiting_runs("a").await.unwrap(), store.waiting_runs("none").await.unwrap()), (3, 0));
+        assert_eq!(
+            (store.granted_to("a").await.unwrap().waiting, store.granted_to("none").await.unwrap().waiting),
+            (3, 0)
+        );
         let mut foretold = Vec::new();
         for id in ["background", "a1", "a2", "a3", "b1"] {
             foretold.push((store.runs_before(id).await.unwrap().unwrap(), id));
