@@ -210,8 +210,8 @@ fn landlock(answer: Result<i64, String>) -> Facility {
 fn memory_group() -> Facility {
     let found = MemoryGroup::new(64 << 20, 1).map(|group| group.version().to_string()).map_err(|e| e.to_string());
     let effect = "an exact limit and peak of memory; without it the address space is limited";
-    let get =
-        "run as root, or under systemd with Delegate=memory, or mount a writable control group into the container";
+    let get = "run as root, or in a group that systemd hands over (a unit with Delegate=yes, or `systemd-run --user --scope -p Delegate=yes \
+         ocb serve`), or mount a writable control group into the container";
     facility("memory group", true, found, effect, get)
 }
 

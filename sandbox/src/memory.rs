@@ -2,15 +2,19 @@
 //! processes, too, where it may; never processor time: a group of the scheduler's own was seen to get no CPU for minutes beside
 //! one loop (Linux 6.18), and a runner has only the CPUs that it is kept on.
 
+use std::ffi::{CStr, CString};
 use std::fs;
 use std::io;
 use std::os::fd::OwnedFd;
+use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 /// Groups are named `ocb-jail-<pid of the supervisor>-<count>`, so that a janitor can tell whose they were.
 const PREFIX: &str = "ocb-jail-";
+/// The group into which a supervisor and its neighbours move, so that the one above can hand controllers down.
+const HOST: &str = "ocb-host";
 /// What a process writes into [`MemoryGroup::entrance`].
 pub(crate) const ITSELF: &[u8] = b"0";
 
@@ -171,21 +175,66 @@ fn writable(folder: &Path) -> bool {
     nix::unistd::access(folder, nix::unistd::AccessFlags::W_OK).is_ok()
 }
 
+/// Can groups below this one of version 2 have the controller? A group with processes of its own cannot hand it down, so where
+/// the group is ours to arrange its processes move into one below it.
 fn hands_down(folder: &Path, controller: &str) -> bool {
-    let file = folder.join("cgroup.subtree_control");
-    let has = || fs::read_to_string(&file).is_ok_and(|text| text.split_whitespace().any(|c| c == controller));
-    has() || (fs::write(&file, format!("+{controller}")).is_ok() && has())
+    let names = |file: &str| {
+        fs::read_to_string(folder.join(file)).is_ok_and(|text| text.split_whitespace().any(|c| c == controller))
+    };
+    let has = || names("cgroup.subtree_control");
+    let ask = || fs::write(folder.join("cgroup.subtree_control"), format!("+{controller}")).is_ok() && has();
+    has() || names("cgroup.controllers") && (ask() || is_ours(folder) && make_room(folder).is_ok() && ask())
 }
 
-/// Candidate folders: our own group where version 1 has the controller, the root of version 2 (a group with processes of its
-/// own cannot hand controllers down).
+/// Handed over to whoever runs in it: by systemd (`Delegate=`), as the root of a container, or because nobody else is in it.
+fn is_ours(folder: &Path) -> bool {
+    let delegated = || [c"user.delegate", c"trusted.delegate"].iter().any(|name| is_marked(folder, name));
+    // The machine's own root has no type, and needs no room.
+    let is_group = |folder: &Path| folder.join("cgroup.procs").exists();
+    let root_of_namespace = || folder.join("cgroup.type").exists() && !folder.parent().is_some_and(is_group);
+    let alone = || processes(folder).is_ok_and(|all| all == [std::process::id().to_string()]);
+    delegated() || root_of_namespace() || alone()
+}
+
+fn is_marked(folder: &Path, name: &CStr) -> bool {
+    let Ok(path) = CString::new(folder.as_os_str().as_bytes()) else { return false };
+    let mut value = [0u8; 1];
+    // SAFETY: two live C strings, and a buffer of the length that is given.
+    let len = unsafe { libc::getxattr(path.as_ptr(), name.as_ptr(), value.as_mut_ptr().cast(), value.len()) };
+    len == 1 && value == *b"1"
+}
+
+/// Moves the processes of a group into one below it.
+fn make_room(folder: &Path) -> io::Result<()> {
+    let below = folder.join(HOST);
+    match fs::create_dir(&below) {
+        Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(error),
+        _ => {}
+    }
+    for process in processes(folder)? {
+        // One that has ended meanwhile need not move; one that may not keeps the controller from being handed down.
+        let _ = fs::write(below.join("cgroup.procs"), process);
+    }
+    Ok(())
+}
+
+fn processes(folder: &Path) -> io::Result<Vec<String>> {
+    Ok(fs::read_to_string(folder.join("cgroup.procs"))?.split_whitespace().map(str::to_owned).collect())
+}
+
+/// Candidate folders: our own group where version 1 has the controller; of version 2 our own group, or the one above it when we
+/// have made room there, and the root.
 fn hierarchies(controller: &str, mountinfo: &str, own_groups: &str) -> Vec<(PathBuf, Version)> {
-    let own = own_groups.lines().find_map(|line| {
-        let mut parts = line.splitn(3, ':').skip(1);
-        let controllers = parts.next()?;
-        let path = parts.next()?;
-        controllers.split(',').any(|c| c == controller).then(|| path.trim_start_matches('/').to_string())
-    });
+    let group = |is: &dyn Fn(&str) -> bool| {
+        own_groups.lines().find_map(|line| {
+            let mut parts = line.splitn(3, ':').skip(1);
+            let controllers = parts.next()?;
+            let path = parts.next()?;
+            is(controllers).then(|| path.trim_start_matches('/').to_string())
+        })
+    };
+    let own = group(&|controllers| controllers.split(',').any(|c| c == controller));
+    let unified = group(&str::is_empty);
     let mut places = Vec::new();
     for line in mountinfo.lines() {
         let Some((before, after)) = line.split_once(" - ") else { continue };
@@ -197,7 +246,14 @@ fn hierarchies(controller: &str, mountinfo: &str, own_groups: &str) -> Vec<(Path
                 places.extend(own.iter().map(|own| (folder.join(own), Version::V1)).filter(|(f, _)| f.exists()));
                 places.push((folder, Version::V1));
             }
-            (Some("cgroup2"), _) => places.push((folder, Version::V2)),
+            (Some("cgroup2"), _) => {
+                if let Some(own) = unified.as_deref().filter(|own| !own.is_empty()) {
+                    let own = Path::new(own);
+                    let above = if own.ends_with(HOST) { own.parent() } else { Some(own) };
+                    places.extend(above.map(|own| (folder.join(own), Version::V2)).filter(|(f, _)| *f != folder));
+                }
+                places.push((folder, Version::V2));
+            }
             _ => {}
         }
     }
@@ -228,8 +284,42 @@ mod tests {
             [("/sys/fs/cgroup/memory".into(), Version::V1), ("/sys/fs/cgroup/unified".into(), Version::V2)]
         );
         let unified = "31 29 0:28 / /sys/fs/cgroup rw - cgroup2 cgroup2 rw\n";
-        assert_eq!(hierarchies("memory", unified, "0::/user.slice\n"), [("/sys/fs/cgroup".into(), Version::V2)]);
+        let above = |own: &str| hierarchies("memory", unified, &format!("0::{own}\n"))[0].0.clone();
+        assert_eq!(above("/user.slice/a.scope"), Path::new("/sys/fs/cgroup/user.slice/a.scope"));
+        assert_eq!(above("/user.slice/a.scope/ocb-host"), Path::new("/sys/fs/cgroup/user.slice/a.scope"));
+        assert_eq!(hierarchies("memory", unified, "0::/\n"), [("/sys/fs/cgroup".into(), Version::V2)]);
+        assert_eq!(hierarchies("memory", unified, "0::/ocb-host\n"), [("/sys/fs/cgroup".into(), Version::V2)]);
         assert_eq!(hierarchies("pids", hybrid, "0::/\n"), [("/sys/fs/cgroup/unified".into(), Version::V2)]);
         assert_eq!(hierarchies("memory", "nonsense\n- x\n", ""), []);
+    }
+
+    /// With whatever controller version 2 has on this machine; needs root, who may arrange groups.
+    #[test]
+    #[expect(clippy::disallowed_methods, reason = "a process that sits in a group; it hangs on no thread of this test")]
+    fn a_delegated_group_makes_room_and_another_one_is_left_alone() {
+        let unified = ["/sys/fs/cgroup/unified", "/sys/fs/cgroup"].map(Path::new);
+        let root = unified.into_iter().find(|folder| folder.join("cgroup.controllers").exists() && writable(folder));
+        let Some(root) = root else { return eprintln!("not shown here: no version 2, or not root") };
+        let controllers = fs::read_to_string(root.join("cgroup.controllers")).unwrap();
+        let Some(controller) = controllers.split_whitespace().next() else {
+            return eprintln!("not shown here: version 2 has no controller");
+        };
+        assert!(hands_down(root, controller));
+        let folder = root.join(format!("ocb-test-{}", std::process::id()));
+        fs::create_dir(&folder).unwrap();
+        let mut inside = std::process::Command::new("sleep").arg("60").spawn().unwrap();
+        fs::write(folder.join("cgroup.procs"), inside.id().to_string()).unwrap();
+        assert!(!hands_down(&folder, controller), "it is somebody else's");
+        let path = CString::new(folder.as_os_str().as_bytes()).unwrap();
+        // SAFETY: two live C strings and a byte.
+        let marked = unsafe { libc::setxattr(path.as_ptr(), c"trusted.delegate".as_ptr(), b"1".as_ptr().cast(), 1, 0) };
+        let (shown, moved) = (hands_down(&folder, controller), processes(&folder.join(HOST)));
+        let below = folder.join("jail");
+        let made = fs::create_dir(&below);
+        let _ = inside.kill().and_then(|()| inside.wait());
+        [&below, &folder.join(HOST), &folder].into_iter().for_each(|folder| remove(folder));
+        assert_eq!(marked, 0, "{}", io::Error::last_os_error());
+        assert!(shown && made.is_ok());
+        assert_eq!(moved.unwrap(), [inside.id().to_string()]);
     }
 }
