@@ -198,11 +198,38 @@ pub struct ServeArgs {
     /// Where to listen; port 0 takes a free one.
     #[arg(long, visible_alias = "listen", default_value = "127.0.0.1:8080")]
     pub address: SocketAddr,
+    /// A name under which the service may be reached, beside addresses, loopback names and that of --public-url; repeated, or
+    /// separated by commas.
+    #[arg(long, value_delimiter = ',', env = "OCB_HOST_NAMES", value_name = "NAME", hide_env_values = true)]
+    pub host_name: Vec<String>,
     /// Days that what guests make stays, after they last made something or asked to have it kept.
     #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=36_500), env = "OCB_GUEST_DAYS", value_name = "DAYS", hide_env_values = true)]
     pub guest_days: u32,
     #[command(flatten)]
+    pub ceilings: CeilingArgs,
+    #[command(flatten)]
     pub mail: MailArgs,
+}
+
+/// How much measuring time visitors may have waiting and under way: for each algorithm of a run its budget.
+#[derive(Debug, Args)]
+pub struct CeilingArgs {
+    /// Minutes of one run of a guest, which ends then.
+    #[arg(long, default_value_t = 10, value_parser = minutes(), env = "OCB_GUEST_RUN_MINUTES", value_name = "MINUTES", hide_env_values = true)]
+    pub guest_run_minutes: u32,
+    /// Minutes of measuring that a guest may have waiting and under way.
+    #[arg(long, default_value_t = 30, value_parser = minutes(), env = "OCB_GUEST_MINUTES", value_name = "MINUTES", hide_env_values = true)]
+    pub guest_minutes: u32,
+    /// The same for an account.
+    #[arg(long, default_value_t = 720, value_parser = minutes(), env = "OCB_ACCOUNT_MINUTES", value_name = "MINUTES", hide_env_values = true)]
+    pub account_minutes: u32,
+    /// The same for all who ask from one address (of version 6: from one network of 64 bits).
+    #[arg(long, default_value_t = 1440, value_parser = minutes(), env = "OCB_ADDRESS_MINUTES", value_name = "MINUTES", hide_env_values = true)]
+    pub address_minutes: u32,
+}
+
+fn minutes() -> clap::builder::RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(1..=1_000_000)
 }
 
 /// `ocb bench`

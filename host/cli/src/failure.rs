@@ -59,7 +59,8 @@ impl From<EngineError> for Failure {
             EngineError::NotFound(sentence)
             | EngineError::Invalid(sentence)
             | EngineError::Forbidden(sentence)
-            | EngineError::Busy(sentence) => Self::Input(sentence),
+            | EngineError::Busy(sentence)
+            | EngineError::TooMuch { message: sentence, .. } => Self::Input(sentence),
         }
     }
 }

@@ -2,10 +2,11 @@
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
-use ocb_engine::{Engine, EngineConfig, MailServer, Profile, given};
+use ocb_engine::{Ceilings, Engine, EngineConfig, MailServer, Profile, given};
 
-use crate::args::{MailArgs, ServeArgs, Store};
+use crate::args::{CeilingArgs, MailArgs, ServeArgs, Store};
 use crate::failure::{Failure, Result};
 
 /// Owner of what the command line makes.
@@ -34,7 +35,18 @@ pub async fn open(store: &Store, purpose: Purpose) -> Result<Engine> {
 pub async fn open_to_serve(store: &Store, args: &ServeArgs, url: &str) -> Result<Engine> {
     let mail = mail_server(&args.mail, url)?;
     let config = config(store, data(store)?, Purpose::Serve);
-    Ok(Engine::open(EngineConfig { guest_days: args.guest_days, mail, ..config }).await?)
+    let ceilings = ceilings(&args.ceilings);
+    Ok(Engine::open(EngineConfig { guest_days: args.guest_days, ceilings, mail, ..config }).await?)
+}
+
+fn ceilings(args: &CeilingArgs) -> Ceilings {
+    let minutes = |n: u32| Duration::from_secs(60 * u64::from(n));
+    Ceilings {
+        guest_run: minutes(args.guest_run_minutes),
+        guest: minutes(args.guest_minutes),
+        account: minutes(args.account_minutes),
+        address: minutes(args.address_minutes),
+    }
 }
 
 /// Who takes the mails of a service at this URL, if anybody does.

@@ -60,7 +60,7 @@ async fn delete(place: &Place, what: Deleted, id: Option<&str>, yes: bool, json:
 async fn take_along(place: &Place, path: &Path, json: bool) -> Result<()> {
     let bytes = match place {
         Place::Here(engine) => {
-            let mut packed = engine.archive(OWNER).await?;
+            let mut packed = engine.archive(OWNER, ocb_engine::Contents::ALL).await?;
             let unwritten = |e| Failure::file("write", path, &e);
             let mut file = std::fs::File::create(path).map_err(unwritten)?;
             std::io::copy(&mut packed, &mut file).map_err(unwritten)?

@@ -26,10 +26,11 @@ pub enum Statistic {
 }
 
 /// What happens to outliers: values outside Q1 - 1.5 IQR .. Q3 + 1.5 IQR.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, utoipa::ToSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Outliers {
     /// All values count.
+    #[default]
     Keep,
     /// The fence of each vertex, where it has at least 8 values.
     PerVertex,

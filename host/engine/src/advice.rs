@@ -45,6 +45,8 @@ pub struct Job {
     /// Rung when it is stopped, for one that waits.
     bell: Notify,
     info: Mutex<AdviceInfo>,
+    /// Whose it is: an account, the guests of an address.
+    turn: String,
 }
 
 /// What came out: the advice and, of A and of B, what can be taken away: reduced meshes with their certificates.
@@ -52,16 +54,17 @@ pub type Found = (Advice, [Vec<(Paper, Arc<Mesh>)>; 2]);
 
 impl Advices {
     /// A request that waits from now on.
-    pub fn add(&self, info: AdviceInfo) -> Arc<Job> {
+    pub fn add(&self, info: AdviceInfo, turn: String) -> Arc<Job> {
         let id = info.id.clone();
-        let job = Arc::new(Job { stop: AtomicBool::new(false), bell: Notify::new(), info: Mutex::new(info) });
+        let job = Arc::new(Job { stop: AtomicBool::new(false), bell: Notify::new(), info: Mutex::new(info), turn });
         locked(&self.jobs).insert(id, job.clone());
         job
     }
 
-    /// How many there are.
-    pub fn count(&self) -> usize {
-        locked(&self.jobs).len()
+    /// How many there are, and how many of these are whose.
+    pub fn count(&self, turn: &str) -> [usize; 2] {
+        let jobs = locked(&self.jobs);
+        [jobs.len(), jobs.values().filter(|job| job.turn == turn).count()]
     }
 
     /// One of them.

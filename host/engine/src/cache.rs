@@ -3,16 +3,23 @@
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Keeps the last `capacity` values; a value is shared, so forgetting it never takes it from whoever uses it.
+/// Keeps the last values, as many as weigh no more than `capacity` together; a value is shared, so forgetting it never takes it
+/// from whoever uses it.
 pub struct Cache<T> {
     capacity: usize,
+    weigh: fn(&T) -> usize,
     entries: Mutex<VecDeque<(String, Arc<T>)>>,
 }
 
 impl<T> Cache<T> {
-    /// An empty cache.
+    /// An empty cache for so many values.
     pub fn new(capacity: usize) -> Self {
-        Self { capacity, entries: Mutex::new(VecDeque::new()) }
+        Self::weighing(capacity, |_| 1)
+    }
+
+    /// An empty cache for values of different weights.
+    pub fn weighing(capacity: usize, weigh: fn(&T) -> usize) -> Self {
+        Self { capacity, weigh, entries: Mutex::new(VecDeque::new()) }
     }
 
     /// The value under this key.
@@ -31,7 +38,11 @@ impl<T> Cache<T> {
         let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
         entries.retain(|(k, _)| k != key);
         entries.push_front((key.to_owned(), value.clone()));
-        entries.truncate(self.capacity);
+        let mut weight = 0;
+        entries.retain(|(_, value)| {
+            weight += (self.weigh)(value);
+            weight <= self.capacity
+        });
         value
     }
 }
@@ -49,5 +60,16 @@ mod tests {
         cache.put("c", 3);
         assert_eq!(cache.get("b"), None);
         assert_eq!(cache.get("a").as_deref(), Some(&1));
+    }
+
+    #[test]
+    fn what_is_heavy_takes_the_place_of_many() {
+        let cache = Cache::weighing(10, |n: &usize| *n);
+        for n in [3, 4, 5] {
+            cache.put(&n.to_string(), n);
+        }
+        assert_eq!(["3", "4", "5"].map(|key| cache.get(key).is_some()), [false, true, true]);
+        assert_eq!(*cache.put("11", 11), 11, "it is given, and not kept");
+        assert_eq!(["4", "5", "11"].map(|key| cache.get(key).is_some()), [false; 3]);
     }
 }

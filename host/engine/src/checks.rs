@@ -34,11 +34,7 @@ pub async fn carry_out(inner: &Arc<Inner>, row: &SubmissionRow, stop: &Stop) -> 
         _ if stop.asked() => inner.store.put_back_check(&row.id).await,
         Ok(Some(report)) => settle(inner, row, report).await,
         Ok(None) => inner.store.put_back_check(&row.id).await,
-        // Ours: it waits and is tried again, and after the third time it fails.
-        Err(e) => {
-            recover(inner).await?;
-            Err(e)
-        }
+        Err(e) => Err(e),
     }
 }
 

@@ -8,6 +8,26 @@ pub use ocb_sandbox::Profile;
 use crate::mail::MailServer;
 use crate::registry::CHECK_LIMIT;
 
+/// How much measuring time visitors may have at once: for each algorithm the budget of its run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ceilings {
+    /// One run of a guest; it ends when so much time has passed since its start.
+    pub guest_run: Duration,
+    /// What one guest has waiting and under way.
+    pub guest: Duration,
+    /// The same of one account.
+    pub account: Duration,
+    /// The same of all who ask from one address.
+    pub address: Duration,
+}
+
+impl Default for Ceilings {
+    fn default() -> Self {
+        let minutes = |n: u64| Duration::from_secs(60 * n);
+        Self { guest_run: minutes(10), guest: minutes(30), account: minutes(12 * 60), address: minutes(24 * 60) }
+    }
+}
+
 /// How to open an [`crate::Engine`].
 #[derive(Clone, Debug)]
 pub struct EngineConfig {
@@ -38,6 +58,8 @@ pub struct EngineConfig {
     pub featured: bool,
     /// Days that what guests make stays after they last made something or asked to have it kept.
     pub guest_days: u32,
+    /// How much measuring time visitors may have at once.
+    pub ceilings: Ceilings,
     /// Who takes our mails; nothing is mailed when absent.
     pub mail: Option<MailServer>,
 }
@@ -63,6 +85,7 @@ impl EngineConfig {
             dispatch: true,
             featured: false,
             guest_days: 30,
+            ceilings: Ceilings::default(),
             mail: None,
         }
     }

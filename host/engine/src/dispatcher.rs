@@ -77,7 +77,18 @@ async fn check_next(inner: &Arc<Inner>) -> Result<bool> {
         other => other.map(|_| ()),
     };
     inner.set_current(None);
-    done.map(|()| true)
+    if let Err(e) = done {
+        // Ours, not the plugin's: it counts as no attempt. Who cannot even note that tries until it can.
+        while let Err(e) = inner.store.put_back_check(&row.id).await {
+            tracing::error!("the check of plugin {} cannot be put back: {e}", row.id);
+            if inner.closing() {
+                break;
+            }
+            tokio::time::sleep(BACK_OFF).await;
+        }
+        return Err(e);
+    }
+    Ok(true)
 }
 
 async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
@@ -88,14 +99,29 @@ async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
         stop.stop();
     }
     inner.bell.queue_moved();
-    let (sender, ended) = tokio::sync::oneshot::channel();
-    let (for_run, for_id, handle) = (inner.clone(), id.to_owned(), Handle::current());
+    let longest = inner.longest_run(&inner.run_row(id).await?);
+    let (sender, mut ended) = tokio::sync::oneshot::channel();
+    let (for_run, for_id, for_stop, handle) = (inner.clone(), id.to_owned(), stop.clone(), Handle::current());
     let thread = std::thread::Builder::new().name("run".into()).spawn(move || {
-        let _ = sender.send(benchmark::run(&for_run, &for_id, &stop, &handle));
+        let _ = sender.send(benchmark::run(&for_run, &for_id, &for_stop, &handle));
     });
     let ended = match thread {
-        // The sender is dropped without a word only when the thread panicked.
-        Ok(_) => ended.await.unwrap_or_else(|_| Err(EngineError::Fault("The run broke down; see the log.".into()))),
+        Ok(_) => {
+            let late = async { tokio::time::sleep(longest.unwrap_or(Duration::MAX)).await };
+            let in_time = tokio::select! {
+                ended = &mut ended => Some(ended),
+                () = late => None,
+            };
+            let ended = match in_time {
+                Some(ended) => ended,
+                None => {
+                    stop.stop_because(longest.map(too_long));
+                    ended.await
+                }
+            };
+            // The sender is dropped without a word only when the thread panicked.
+            ended.unwrap_or_else(|_| Err(EngineError::Fault("The run broke down; see the log.".into())))
+        }
         Err(e) => Err(EngineError::fault("Starting the run's thread failed", e)),
     };
     inner.set_current(None);
@@ -105,20 +131,40 @@ async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
             inner.store.put_back(id).await?;
             return inner.bell.tell(&inner.store, id, plain_event(State::Queued, 0)).await;
         }
-        Ok(End::Stopped) => (State::Cancelled, None),
+        Ok(End::Stopped) => (State::Cancelled, stop.reason()),
         Err(e) => {
             tracing::warn!("run {id} failed: {e}");
             (State::Failed, Some(e.to_string()))
         }
     };
-    let state = inner.run_row(id).await?.after(state);
-    inner.store.end_run(id, State::Running, state, message.as_deref()).await?;
-    inner.bell.tell(&inner.store, id, plain_event(state, 0)).await?;
+    while let Err(e) = note_end(inner, id, state, message.as_deref()).await {
+        // Nobody else could end it: it would be under way until the next start.
+        tracing::error!("run {id} has ended, which cannot be noted: {e}");
+        if inner.closing() {
+            return Err(e);
+        }
+        tokio::time::sleep(BACK_OFF).await;
+    }
     if let Err(e) = inner.run_of_campaign_ended(id).await {
         tracing::error!("run {id}: its campaign could not take note of its end: {e}");
     }
     inner.bell.queue_moved();
     Ok(())
+}
+
+async fn note_end(inner: &Inner, id: &str, state: State, message: Option<&str>) -> Result<()> {
+    let row = inner.run_row(id).await?;
+    let state = row.after(state);
+    inner.store.end_run(id, State::Running, state, message).await?;
+    inner.bell.tell(&inner.store, id, plain_event(state, 0)).await
+}
+
+fn too_long(longest: Duration) -> String {
+    format!(
+        "A guest's run ends after {} minutes, and this one was not through: ask for fewer configurations or algorithms, or \
+         log in.",
+        longest.as_secs().div_ceil(60)
+    )
 }
 
 impl Inner {
@@ -127,13 +173,13 @@ impl Inner {
         *self.current.lock().unwrap_or_else(PoisonError::into_inner) = current;
     }
 
-    /// Stops the run at work if it is this one, or whichever it is.
-    pub fn stop_current(&self, id: Option<&str>) {
+    /// Stops the run at work if it is this one, or whichever it is, with a reason for its owner.
+    pub fn stop_current(&self, id: Option<&str>, reason: Option<&str>) {
         let current = self.current.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((running, stop)) = &*current
             && id.is_none_or(|id| id == running)
         {
-            stop.stop();
+            stop.stop_because(reason.map(str::to_owned));
         }
     }
 }

@@ -27,11 +27,13 @@ mod suite;
 mod things;
 mod visibility;
 
+pub use archive::Contents;
 pub use campaigns::campaign_csv;
 pub use charts::{board_csv, chart_csv, chart_parquet};
 pub use people::SESSION;
 pub use plugin_notices::of_check;
 pub use plugins::{MAX_PLUGIN_BYTES, conflict};
+pub use quotas::Visitor;
 pub use requests::Made;
 pub use sets::SetJob;
 
@@ -94,6 +96,10 @@ pub struct Inner {
     pub suite: Suite,
     /// Held while it is found out what of the suite is missing, until that is in the queue.
     planning: tokio::sync::Mutex<()>,
+    /// Held while a plugin becomes public, whose ids must be nobody else's.
+    publishing: tokio::sync::Mutex<()>,
+    /// Held while somebody's run is let in.
+    asking: tokio::sync::Mutex<()>,
     /// Rung when the queue has something new.
     pub wake: Notify,
     /// The run at work and how it is stopped.
@@ -150,6 +156,8 @@ impl Engine {
             bell: Bell::new(),
             suite,
             planning: tokio::sync::Mutex::default(),
+            publishing: tokio::sync::Mutex::default(),
+            asking: tokio::sync::Mutex::default(),
             wake: Notify::new(),
             current: Mutex::new(None),
             sets: Cache::new(4),
@@ -187,7 +195,7 @@ impl Engine {
     #[boxed]
     pub async fn shutdown(&self) {
         self.inner.closing.store(true, Ordering::SeqCst);
-        self.inner.stop_current(None);
+        self.inner.stop_current(None, None);
         self.inner.advices.stop_all();
         self.inner.wake.notify_one();
         self.inner.closed.notify_one();
@@ -210,7 +218,7 @@ impl Engine {
             running: self.inner.store.running().await?.len() as u32,
             queued: self.inner.store.waiting(i64::MAX).await?.0,
             algorithms: self.inner.registry.algorithms(None).len() as u32,
-            problems: self.inner.registry.problems().to_vec(),
+            problems: self.inner.registry.problems(),
         })
     }
 
@@ -225,6 +233,12 @@ impl Engine {
     #[boxed]
     pub async fn object(&self, id: &str, viewer: Option<&str>) -> Result<ObjectInfo> {
         self.inner.objects.info_for(id, viewer).await
+    }
+
+    /// A file without a name in the data folder, for what comes slowly.
+    pub fn temporary_file(&self) -> Result<File> {
+        tempfile::tempfile_in(&self.inner.config.data)
+            .map_err(|e| EngineError::fault("Making a temporary file failed", e))
     }
 
     /// Reads an OBJ file and keeps its mesh; the same mesh of the same owner is kept once. Nothing is kept on error.
@@ -278,6 +292,15 @@ impl Engine {
     #[boxed]
     pub async fn estimate(&self, spec: &RunSpec, viewer: Option<&str>) -> Result<Estimate> {
         estimate::estimate(&self.inner, &self.check(spec, viewer).await?).await
+    }
+
+    /// The same for a visitor, to whom not every run is open.
+    #[boxed]
+    pub async fn estimate_for(&self, spec: &RunSpec, owner: &str) -> Result<Estimate> {
+        let checked = self.check(spec, Some(owner)).await?;
+        let expected = estimate::estimate(&self.inner, &checked).await?;
+        self.inner.may_be_asked_for(owner, &checked.spec, expected.total_seconds)?;
+        Ok(expected)
     }
 
     async fn check(&self, spec: &RunSpec, viewer: Option<&str>) -> Result<spec::Checked> {

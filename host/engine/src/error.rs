@@ -12,6 +12,14 @@ pub enum EngineError {
     /// Only the owner may do this (403).
     #[error("{0}")]
     Forbidden(String),
+    /// Too much at once for one person or one address; the same works later (429).
+    #[error("{message}")]
+    TooMuch {
+        /// What is too much, and what helps.
+        message: String,
+        /// Worth another try after so many seconds.
+        retry_seconds: u32,
+    },
     /// Not now: somebody else holds what is needed (409).
     #[error("{0}")]
     Busy(String),
@@ -21,6 +29,15 @@ pub enum EngineError {
 }
 
 impl EngineError {
+    /// For whoever asked: of a fault of ours a number, under which the log has the cause. Causes name files and addresses of this
+    /// machine, which are nobody else's business.
+    pub(crate) fn for_visitors(self) -> Self {
+        let Self::Fault(cause) = self else { return self };
+        let number = uuid::Uuid::new_v4().simple().to_string();
+        tracing::error!(number, %cause, "work failed by our fault");
+        Self::Fault(format!("This is our fault, not yours; the service's log has the cause under {number}."))
+    }
+
     /// A fault with the step at which it happened.
     pub(crate) fn fault(step: &str, cause: impl std::fmt::Display) -> Self {
         Self::Fault(format!("{step}: {cause}."))
@@ -41,3 +58,18 @@ impl From<object_store::Error> for EngineError {
 
 /// Shorthand of this crate.
 pub type Result<T> = std::result::Result<T, EngineError>;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_visitor_is_told_everything_but_what_is_wrong_with_the_machine() {
+        let told = EngineError::Fault("disk /srv/secret is full".into()).for_visitors().to_string();
+        assert!(told.contains("our fault") && !told.contains("secret"), "{told}");
+        assert_eq!(
+            EngineError::Invalid("The step must be finite.".into()).for_visitors().to_string(),
+            "The step must be finite."
+        );
+    }
+}

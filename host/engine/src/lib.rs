@@ -39,8 +39,11 @@ pub mod truth;
 /// compiled where it is polled, and so the whole engine once more for every program around it.
 pub(crate) use async_recursion::async_recursion as boxed;
 pub use blobs::sha256_hex;
-pub use config::{EngineConfig, Profile};
-pub use engine::{Engine, MAX_PLUGIN_BYTES, Made, SESSION, SetJob, board_csv, campaign_csv, chart_csv, chart_parquet};
+pub use config::{Ceilings, EngineConfig, Profile};
+pub use engine::{
+    Contents, Engine, MAX_PLUGIN_BYTES, Made, SESSION, SetJob, Visitor, board_csv, campaign_csv, chart_csv,
+    chart_parquet,
+};
 pub use error::{EngineError, Result};
 pub use mail::{MailServer, Pace};
 pub use measure::Stop;

@@ -50,31 +50,52 @@ use weave::Piece;
 /// Ends the measuring from another thread.
 #[derive(Clone, Default)]
 pub struct Stop {
-    inner: Arc<Mutex<(bool, Option<Killer>)>>,
+    inner: Arc<Mutex<Stopping>>,
+}
+
+#[derive(Default)]
+struct Stopping {
+    asked: bool,
+    /// For the owner of what is stopped.
+    reason: Option<String>,
+    killer: Option<Killer>,
 }
 
 impl Stop {
     /// No further question is asked, and the runner under way is killed.
     pub fn stop(&self) {
+        self.stop_because(None);
+    }
+
+    /// The same, with a reason for the owner of what is stopped; the first one stands.
+    pub fn stop_because(&self, reason: Option<String>) {
         let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
-        inner.0 = true;
-        if let Some(killer) = &inner.1 {
+        if !inner.asked {
+            inner.reason = reason;
+        }
+        inner.asked = true;
+        if let Some(killer) = &inner.killer {
             killer.kill();
         }
     }
 
+    /// Why it was asked for.
+    pub fn reason(&self) -> Option<String> {
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner).reason.clone()
+    }
+
     /// Was it asked for?
     pub fn asked(&self) -> bool {
-        self.inner.lock().unwrap_or_else(PoisonError::into_inner).0
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner).asked
     }
 
     /// From now on a stop kills this runner.
     fn watch(&self, killer: Option<Killer>) {
         let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
-        if let (true, Some(killer)) = (inner.0, &killer) {
+        if let (true, Some(killer)) = (inner.asked, &killer) {
             killer.kill();
         }
-        inner.1 = killer;
+        inner.killer = killer;
     }
 }
 

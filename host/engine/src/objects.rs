@@ -1,13 +1,13 @@
 //! Objects: made on demand, shipped with the service, or added by somebody.
 
-use std::collections::HashMap;
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use nalgebra::Point3;
 use ocb_core::mesh::{Mesh, obj};
 use ocb_core::stock;
 use ocb_sandbox::given;
+use tokio::sync::Semaphore;
 
 use crate::blobs::Blobs;
 use crate::cache::Cache;
@@ -17,6 +17,9 @@ use crate::{EngineError, Result};
 
 /// Files of `stock_dir` that become stock objects when they are there.
 const SHIPPED: [&str; 2] = ["bunny", "dragon"];
+/// Triangles of the meshes that are kept in memory, some 50 bytes each, and descriptions of stock objects.
+const MOST_TRIANGLES: usize = 2_000_000;
+const MOST_INFOS: usize = 256;
 /// Longest display name in characters.
 const MAX_NAME: usize = 120;
 
@@ -26,13 +29,22 @@ pub struct Objects {
     blobs: Blobs,
     stock_dir: Option<PathBuf>,
     meshes: Cache<Mesh>,
-    stock_infos: Mutex<HashMap<String, ObjectInfo>>,
+    stock_infos: Cache<ObjectInfo>,
+    /// Held while a mesh is made or read: many large ones at once would need memory for all of them.
+    making: Semaphore,
 }
 
 impl Objects {
     /// Over this store; shipped objects are looked for in `stock_dir`.
     pub fn new(store: Store, blobs: Blobs, stock_dir: Option<PathBuf>) -> Self {
-        Self { store, blobs, stock_dir, meshes: Cache::new(8), stock_infos: Mutex::new(HashMap::new()) }
+        Self {
+            store,
+            blobs,
+            stock_dir,
+            meshes: Cache::weighing(MOST_TRIANGLES, |mesh| mesh.triangles().len()),
+            stock_infos: Cache::new(MOST_INFOS),
+            making: Semaphore::new(1),
+        }
     }
 
     /// Stock objects in front of the first part, then those of the viewer and the public ones of others, newest first.
@@ -89,9 +101,12 @@ impl Objects {
         if !id.starts_with("stock:") {
             return Ok(self.store.object(&id).await?.ok_or_else(|| unknown(&id))?.info);
         }
-        let known = self.stock_infos.lock().unwrap_or_else(PoisonError::into_inner).get(&id).cloned();
-        match known {
-            Some(info) => Ok(info),
+        if let Some(info) = self.stock_infos.get(&id) {
+            return Ok(info.as_ref().clone());
+        }
+        let _alone = self.making.acquire().await;
+        match self.stock_infos.get(&id) {
+            Some(info) => Ok(info.as_ref().clone()),
             None => Ok(self.make_stock(&id).await?.1),
         }
     }
@@ -99,6 +114,11 @@ impl Objects {
     /// The mesh of an object.
     pub async fn mesh(&self, id: &str) -> Result<Arc<Mesh>> {
         let id = canonical(id);
+        if let Some(mesh) = self.meshes.get(&id) {
+            return Ok(mesh);
+        }
+        let _alone = self.making.acquire().await;
+        // Whoever was before may have wanted the same.
         if let Some(mesh) = self.meshes.get(&id) {
             return Ok(mesh);
         }
@@ -121,7 +141,7 @@ impl Objects {
             None => make_stock(&for_id, &name),
         })
         .await?;
-        self.stock_infos.lock().unwrap_or_else(PoisonError::into_inner).insert(id.to_owned(), info.clone());
+        self.stock_infos.put(id, info.clone());
         Ok((self.meshes.put(id, mesh), info))
     }
 

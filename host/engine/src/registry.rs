@@ -17,7 +17,7 @@ use crate::objects::blocking;
 use crate::store::Store;
 use crate::{EngineConfig, EngineError, Result};
 
-use brought::Brought;
+use brought::AllBrought;
 pub use check::{CHECK_LIMIT, Extent, Term, check_manifest, check_plugin, is_free};
 
 /// Largest plugin file that is looked at, bytes.
@@ -55,7 +55,7 @@ pub struct Registry {
     runner: PathBuf,
     profile: Profile,
     contestants: Vec<Arc<Contestant>>,
-    brought: RwLock<Vec<Brought>>,
+    brought: RwLock<AllBrought>,
     problems: Vec<String>,
 }
 
@@ -107,17 +107,17 @@ impl Registry {
     pub fn algorithms(&self, viewer: Option<&str>) -> Vec<AlgorithmInfo> {
         let mut all: Vec<AlgorithmInfo> = self.contestants.iter().map(|c| c.info.clone()).collect();
         let brought = self.brought();
-        all.extend(brought.iter().filter(|b| b.is_for(viewer)).map(|b| b.contestant.info.clone()));
+        all.extend(brought.plugins.iter().filter(|b| b.is_for(viewer)).map(|b| b.contestant.info.clone()));
         all.sort_by(|x, y| x.id.cmp(&y.id));
         all
     }
 
     /// From now on these, of all that developers brought.
-    pub fn offer(&self, brought: Vec<Brought>) {
+    pub fn offer(&self, brought: AllBrought) {
         *self.brought.write().unwrap_or_else(PoisonError::into_inner) = brought;
     }
 
-    fn brought(&self) -> RwLockReadGuard<'_, Vec<Brought>> {
+    fn brought(&self) -> RwLockReadGuard<'_, AllBrought> {
         self.brought.read().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -125,13 +125,13 @@ impl Registry {
     pub fn is_private(&self, contestant: &Contestant) -> bool {
         let file = &contestant.info.plugin_sha256;
         let brought = self.brought();
-        let mut twins = brought.iter().filter(|b| b.contestant.info.plugin_sha256 == *file).peekable();
+        let mut twins = brought.plugins.iter().filter(|b| b.contestant.info.plugin_sha256 == *file).peekable();
         twins.peek().is_some() && twins.all(|b| !b.public)
     }
 
     /// What keeps something from being offered.
-    pub fn problems(&self) -> &[String] {
-        &self.problems
+    pub fn problems(&self) -> Vec<String> {
+        self.problems.iter().chain(&self.brought().problems).cloned().collect()
     }
 
     /// How much a foreign plugin needs of this machine.
@@ -150,7 +150,7 @@ impl Registry {
         let (id, settings) = name.split_once(':').map_or((name, None), |(id, settings)| (id, Some(settings)));
         let brought = || {
             let all = self.brought();
-            all.iter().find(|b| b.contestant.info.id == id && b.is_for(viewer)).map(|b| b.contestant.clone())
+            all.plugins.iter().find(|b| b.contestant.info.id == id && b.is_for(viewer)).map(|b| b.contestant.clone())
         };
         match (self.contestant(id).or_else(brought), settings) {
             (Some(plain), Some(settings)) => Ok(Some(Arc::new(choice::with_settings(&plain, settings)?))),
@@ -161,7 +161,7 @@ impl Registry {
     /// The algorithms of the plugin file with this hash that are offered here, to whomever.
     pub fn of_file(&self, sha256: &str) -> Vec<Arc<Contestant>> {
         let brought = self.brought();
-        let all = self.contestants.iter().chain(brought.iter().map(|b| &b.contestant));
+        let all = self.contestants.iter().chain(brought.plugins.iter().map(|b| &b.contestant));
         all.filter(|c| c.info.plugin_sha256 == sha256).cloned().collect()
     }
 

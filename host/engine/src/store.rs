@@ -9,6 +9,7 @@ mod audit;
 mod blobs;
 mod campaigns;
 mod choices;
+mod devices;
 mod farewells;
 mod invitations;
 mod mails;
@@ -46,6 +47,7 @@ pub use campaigns::CampaignRow;
 pub use farewells::A_FORMER_ACCOUNT;
 pub use mails::{MailLink, WaitingMail};
 pub use notices::Telling;
+pub use queue::Granted;
 pub use requests::Request;
 pub use results::StoredResult;
 pub use runs::RunRow;
@@ -75,7 +77,7 @@ impl Store {
             .after_connect(move |connection, _| {
                 Box::pin(async move {
                     if sqlite {
-                        // Write-ahead logging survives SIGKILL at any point; FULL also survives a power cut.
+                        // Write-ahead logging survives SIGKILL at any point; FULL syncs with every commit.
                         connection
                             .execute(
                                 "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; \
@@ -128,6 +130,8 @@ fn migrations() -> Migrator {
         one(19, "farewells", include_str!("../migrations/0019_farewells.sql")),
         one(20, "check turns", include_str!("../migrations/0020_check_turns.sql")),
         one(21, "turns", include_str!("../migrations/0021_turns.sql")),
+        one(22, "grants", include_str!("../migrations/0022_grants.sql")),
+        one(23, "devices", include_str!("../migrations/0023_devices.sql")),
     ])
 }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use ocb_advisor::{Paper, Shelf};
 use ocb_core::mesh::{Mesh, obj};
 
+use super::quotas::{Visitor, turn};
 use super::{Engine, Inner, Made};
 use crate::advice::{Found, Job};
 use crate::boxed;
@@ -14,8 +15,11 @@ use crate::{EngineError, Result};
 
 /// Where certificates are kept below the data folder.
 const SHELF: &str = "certificates";
-/// So many requests may wait or be at work.
-const MOST_OPEN: usize = 8;
+/// So many requests of one account, or of the guests of one address, may wait or be at work, and so many in all.
+const MOST_OPEN: usize = 3;
+const MOST_IN_ALL: usize = 200;
+/// When to ask again: advice takes minutes.
+const RETRY_SECONDS: u32 = 120;
 /// A request whose work was begun this often is not tried again: it may be what ends the service.
 const MAX_ATTEMPTS: i64 = 3;
 
@@ -24,9 +28,15 @@ impl Engine {
     /// again under the same key gives what there is.
     ///
     /// # Errors
-    /// `NotFound` without such an object, `Invalid` for a question that cannot be asked, `Busy` when too many wait.
+    /// `NotFound` without such an object, `Invalid` for a question that cannot be asked, `TooMuch` when too many wait.
     #[boxed]
-    pub async fn ask_advice(&self, spec: AdviceSpec, owner: &str, key: Option<&str>) -> Result<(AdviceInfo, bool)> {
+    pub async fn ask_advice(
+        &self,
+        spec: AdviceSpec,
+        visitor: &Visitor,
+        key: Option<&str>,
+    ) -> Result<(AdviceInfo, bool)> {
+        let owner = visitor.owner.as_str();
         check(spec.question)?;
         let inner = &self.inner;
         let names = inner.objects_of(&spec, Some(owner)).await?;
@@ -34,8 +44,12 @@ impl Engine {
         if inner.store.advice(&id).await?.is_some() {
             return Ok((self.advice(&id).await?, false));
         }
-        if inner.advices.count() >= MOST_OPEN {
-            return Err(EngineError::Busy("Others wait for advice already; try again in some minutes.".to_owned()));
+        let turn = turn(owner, visitor.address.as_deref());
+        let [all, own] = inner.advices.count(&turn);
+        if own >= MOST_OPEN || all >= MOST_IN_ALL {
+            let whose = if own >= MOST_OPEN { format!("{own} requests of yours") } else { format!("{all} requests") };
+            let message = format!("{whose} for advice wait or are at work; ask again when one of them is through.");
+            return Err(EngineError::TooMuch { message, retry_seconds: RETRY_SECONDS });
         }
         let step = "waiting".to_owned();
         let info =
@@ -44,13 +58,13 @@ impl Engine {
         if !inner.store.add_advice(&info, owner).await? {
             return Ok((self.advice(&info.id).await?, false));
         }
-        inner.clone().begin_advice(inner.advices.add(info.clone()));
+        inner.clone().begin_advice(inner.advices.add(info.clone(), turn));
         Ok((info, true))
     }
 
     /// Begins again what an ended process left behind.
     pub(super) async fn recover_advice(&self) -> Result<()> {
-        for AdviceRow { mut info, attempts, .. } in self.inner.store.open_advice().await? {
+        for AdviceRow { mut info, attempts, owner, .. } in self.inner.store.open_advice().await? {
             if attempts >= MAX_ATTEMPTS {
                 info.state = State::Failed;
                 info.message =
@@ -58,7 +72,7 @@ impl Engine {
                 self.inner.store.end_advice(&info, &Default::default()).await?;
                 continue;
             }
-            self.inner.clone().begin_advice(self.inner.advices.add(info));
+            self.inner.clone().begin_advice(self.inner.advices.add(info, owner.unwrap_or_default()));
         }
         Ok(())
     }
@@ -163,7 +177,7 @@ impl Inner {
                 (State::Done, None)
             }
             Ok(None) => (State::Cancelled, None),
-            Err(e) => (State::Failed, Some(e.to_string())),
+            Err(e) => (State::Failed, Some(e.for_visitors().to_string())),
         };
         self.store.end_advice(&info, &papers).await
     }

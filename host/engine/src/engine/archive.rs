@@ -9,19 +9,34 @@ use tokio::runtime::Handle;
 
 use super::Engine;
 use crate::boxed;
+use crate::model::AccountInfo;
 use crate::objects::blocking;
 use crate::store::StoredPaper;
 use crate::{EngineError, Result};
 
+/// What goes into an archive beside objects, runs and advice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contents {
+    /// Plugins with their files.
+    pub plugins: bool,
+    /// What is known of the person: the account, its address and choices, what it was told.
+    pub account: bool,
+}
+
+impl Contents {
+    /// Everything, for the person themselves.
+    pub const ALL: Contents = Contents { plugins: true, account: true };
+}
+
 impl Engine {
-    /// Everything that this owner has, as a tar archive; the file is gone when it is closed.
+    /// What this owner has, as a tar archive; the file is gone when it is closed.
     #[boxed]
-    pub async fn archive(&self, owner: &str) -> Result<File> {
+    pub async fn archive(&self, owner: &str, contents: Contents) -> Result<File> {
         let (engine, owner, handle) = (self.clone(), owner.to_owned(), Handle::current());
-        blocking(move || handle.block_on(engine.packed(&owner))).await
+        blocking(move || handle.block_on(engine.packed(&owner, contents))).await
     }
 
-    async fn packed(&self, owner: &str) -> Result<File> {
+    async fn packed(&self, owner: &str, contents: Contents) -> Result<File> {
         let mut packer = Packer::new(&self.inner.config.data)?;
         let all = self.inner.store.belongings(owner, None).await?;
         packer.json("things.json", &self.things(owner).await?)?;
@@ -41,7 +56,14 @@ impl Engine {
                 self.pack_advice(&mut packer, id).await?;
             }
         }
-        self.pack_account(&mut packer, owner).await?;
+        if let Some(account) = self.account_of(owner).await? {
+            if contents.account {
+                self.pack_account(&mut packer, &account).await?;
+            }
+            if contents.plugins {
+                self.pack_plugins(&mut packer, &account).await?;
+            }
+        }
         packer.finish()
     }
 
@@ -71,17 +93,26 @@ impl Engine {
         Ok(())
     }
 
-    /// The account with its choices, what it was told, and its plugins with their manifests and reports; guests have none.
-    async fn pack_account(&self, packer: &mut Packer, owner: &str) -> Result<()> {
-        let Some(account) = owner.strip_prefix("account:") else { return Ok(()) };
-        let account = self.inner.store.account(account).await?;
-        let Some(account) = account else { return Ok(()) };
-        packer.json("account.json", &account)?;
-        packer.json("choices.json", &self.choices(&account).await?)?;
-        packer.json("notices.json", &self.all_notices(&account).await?)?;
+    /// Guests have none.
+    async fn account_of(&self, owner: &str) -> Result<Option<AccountInfo>> {
+        match owner.strip_prefix("account:") {
+            Some(account) => self.inner.store.account(account).await,
+            None => Ok(None),
+        }
+    }
+
+    /// The account with its choices, and what it was told.
+    async fn pack_account(&self, packer: &mut Packer, account: &AccountInfo) -> Result<()> {
+        packer.json("account.json", account)?;
+        packer.json("choices.json", &self.choices(account).await?)?;
+        packer.json("notices.json", &self.all_notices(account).await?)
+    }
+
+    /// Its plugins with their manifests and reports.
+    async fn pack_plugins(&self, packer: &mut Packer, account: &AccountInfo) -> Result<()> {
         for row in self.inner.store.submissions().await?.iter().filter(|row| row.account == account.id) {
             let folder = format!("plugins/{}", row.id);
-            packer.json(&format!("{folder}/plugin.json"), &self.plugin(&row.id, Some(&account)).await?)?;
+            packer.json(&format!("{folder}/plugin.json"), &self.plugin(&row.id, Some(account)).await?)?;
             packer.add(&format!("{folder}/{}", plain(&row.file)), &self.inner.blobs.get(&row.blob).await?)?;
         }
         Ok(())

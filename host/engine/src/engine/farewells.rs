@@ -46,7 +46,7 @@ impl Engine {
         let (goes, stays) = inner.parted(account).await?;
         self.end_all(&owner, &goes).await?;
         for plugin in &goes.plugins {
-            inner.stop_current(Some(plugin));
+            inner.stop_current(Some(plugin), None);
         }
         let told = inner.told_leaving(account, &goes, &stays).await?;
         // Nobody stores a file meanwhile that is about to go.

@@ -17,6 +17,8 @@ const NAME: std::ops::RangeInclusive<usize> = 3..=80;
 const WORDS: usize = 2000;
 /// Who has the data folder, in the log.
 pub(super) const NAME_OF_OPERATOR: &str = "the operator";
+/// Browsers of one account that are remembered.
+const MAX_DEVICES: i64 = 20;
 /// Tokens of one account.
 const MAX_TOKENS: usize = 20;
 
@@ -47,6 +49,23 @@ impl Engine {
         }
         self.inner.store.note(name, "account made", &account.owner(), role.name()).await?;
         Ok(account)
+    }
+
+    /// Could an account have this name? Asked before anything is made of what a visitor sends.
+    pub fn may_be_a_name(&self, name: &str) -> bool {
+        name.len() <= *NAME.end()
+    }
+
+    /// Was the account of this name entered from this browser before?
+    #[boxed]
+    pub async fn knows_device(&self, name: &str, browser: &str) -> Result<bool> {
+        self.inner.store.knows_device(name, &sha256_hex(browser.as_bytes())).await
+    }
+
+    /// Remembers the browser that has just entered the account; the newest of them are kept.
+    #[boxed]
+    pub async fn remember_device(&self, account: &AccountInfo, browser: &str) -> Result<()> {
+        self.inner.store.remember_device(&account.id, &sha256_hex(browser.as_bytes()), MAX_DEVICES).await
     }
 
     /// The account that name and password open; the answer to a wrong name is that to a wrong password.

@@ -231,7 +231,9 @@ impl Engine {
                 row.state.name()
             )));
         }
-        if step.to == PluginState::Public {
+        // Two that publish the same id at once: the first has it.
+        let publishing = if step.to == PluginState::Public { Some(self.inner.publishing.lock().await) } else { None };
+        if publishing.is_some() {
             self.is_free_to_publish(&row).await?;
         }
         let store = &self.inner.store;
@@ -249,16 +251,25 @@ impl Engine {
             return Err(EngineError::Busy("Somebody else has just decided about this plugin; look again.".into()));
         }
         if action == Action::EndCheck {
-            self.inner.stop_current(Some(id));
+            self.inner.stop_current(Some(id), None);
         }
+        drop(publishing);
         self.inner.post_soon();
+        // The decision stands; what follows from it is made up for at the next start.
+        if let Err(e) = self.follow_decision(&row, step.to).await {
+            tracing::error!("plugin {id}: what follows from the decision about it could not be done: {e}");
+        }
+        self.plugin(id, Some(by)).await
+    }
+
+    async fn follow_decision(&self, row: &SubmissionRow, now: PluginState) -> Result<()> {
         self.inner.renew_plugins().await?;
-        if step.to == PluginState::Public {
+        if now == PluginState::Public {
             self.measure_brought(row.algorithms.iter()).await?;
         } else if row.state == PluginState::Public {
             self.inner.forget_waiting().await?;
         }
-        self.plugin(id, Some(by)).await
+        Ok(())
     }
 
     /// The ids of its algorithms belong to nobody else.

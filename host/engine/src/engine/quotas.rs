@@ -1,52 +1,206 @@
 //! How much one visitor may have, so that nobody fills the queue or the disk. The command line has no quota.
+//!
+//! A guest is whoever sends no cookie, and accounts cost nothing: so an address has a quota beside them.
 
-use super::Engine;
+use std::time::Duration;
+
+use super::{Engine, Inner};
+use crate::model::RunSpec;
+use crate::store::{Granted, RunRow};
 use crate::{EngineError, Result};
 
-/// What guests and accounts may have.
-struct Quota {
-    /// Runs that wait.
-    waiting: u64,
-    /// Bytes of objects.
-    objects: u64,
+/// Who asks over the network.
+#[derive(Clone, Debug)]
+pub struct Visitor {
+    /// The account or the guest.
+    pub owner: String,
+    /// The network that it comes from; absent for whoever sits at this machine.
+    pub address: Option<String>,
 }
 
-const GUEST: Quota = Quota { waiting: 20, objects: 512 << 20 };
-const ACCOUNT: Quota = Quota { waiting: 100, objects: 4 << 30 };
+/// Whose turn its runs take: the account's; guests of one address share theirs.
+pub(super) fn turn(owner: &str, address: Option<&str>) -> String {
+    match (kind(owner), address) {
+        (Some(Kind::Guest), Some(address)) => format!("address:{address}"),
+        _ => owner.to_owned(),
+    }
+}
+
+/// What has a quota.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    Guest,
+    Account,
+    Address,
+}
 
 /// Guests are random ids.
-fn quota(owner: Option<&str>) -> Option<Quota> {
-    let owner = owner?;
+fn kind(owner: &str) -> Option<Kind> {
     if owner.starts_with("account:") {
-        return Some(ACCOUNT);
+        return Some(Kind::Account);
     }
-    uuid::Uuid::try_parse(owner).is_ok().then_some(GUEST)
+    uuid::Uuid::try_parse(owner).is_ok().then_some(Kind::Guest)
+}
+
+impl Kind {
+    /// Runs that wait.
+    fn waiting(self) -> u64 {
+        match self {
+            Kind::Guest => 20,
+            Kind::Account => 100,
+            Kind::Address => 200,
+        }
+    }
+
+    /// Bytes of objects; those of an address are limited by how many it may upload.
+    fn objects(self) -> u64 {
+        match self {
+            Kind::Guest => 512 << 20,
+            Kind::Account | Kind::Address => 4 << 30,
+        }
+    }
+
+    fn whose(self) -> &'static str {
+        match self {
+            Kind::Guest | Kind::Account => "of yours",
+            Kind::Address => "from your address",
+        }
+    }
+}
+
+impl Inner {
+    fn ceiling(&self, kind: Kind) -> f64 {
+        let ceilings = &self.config.ceilings;
+        let ceiling = match kind {
+            Kind::Guest => ceilings.guest,
+            Kind::Account => ceilings.account,
+            Kind::Address => ceilings.address,
+        };
+        ceiling.as_secs_f64()
+    }
+
+    /// How long a run may take; absent when as long as it wants.
+    pub fn longest_run(&self, row: &RunRow) -> Option<Duration> {
+        let guest = row.owner.as_deref().and_then(kind) == Some(Kind::Guest);
+        (guest && row.campaign.is_none()).then_some(self.config.ceilings.guest_run)
+    }
+
+    /// # Errors
+    /// `Invalid` when such a run of this owner would be ended before it is through, or may measure for longer than all of its
+    /// owner's together.
+    pub fn may_be_asked_for(&self, owner: &str, spec: &RunSpec, expected_seconds: f64) -> Result<()> {
+        let Some(kind) = kind(owner) else { return Ok(()) };
+        let (asks, ceiling) = (granted(spec), self.ceiling(kind));
+        if kind == Kind::Guest {
+            can_be_run(spec, expected_seconds, self.config.ceilings.guest_run)?;
+        }
+        if asks <= ceiling {
+            return Ok(());
+        }
+        Err(EngineError::Invalid(format!(
+            "This run may measure for {}, and all runs {} for {} at most: give its algorithms less time, or ask for fewer.",
+            time(asks),
+            kind.whose(),
+            time(ceiling)
+        )))
+    }
+}
+
+/// Measuring time that a run may take in all.
+pub(super) fn granted(spec: &RunSpec) -> f64 {
+    spec.budget_seconds * spec.algorithms.len() as f64
 }
 
 impl Engine {
     /// # Errors
-    /// `Busy` when so many runs of this owner wait already.
-    pub(super) async fn has_room_for_a_run(&self, owner: Option<&str>) -> Result<()> {
-        let (Some(Quota { waiting, .. }), Some(owner)) = (quota(owner), owner) else { return Ok(()) };
-        if self.inner.store.waiting_runs(owner).await? < waiting {
+    /// `Invalid` when the run alone asks for more than its owner may have, `TooMuch` when that is so beside what waits and
+    /// is under way.
+    pub(super) async fn has_room_for_a_run(&self, row: &RunRow) -> Result<()> {
+        let Some((owner, kind)) = row.owner.as_deref().and_then(|owner| Some((owner, kind(owner)?))) else {
             return Ok(());
+        };
+        self.inner.may_be_asked_for(owner, &row.spec, row.expected_seconds)?;
+        let own = self.inner.store.granted_to(owner).await?;
+        room(kind, own, row, self.inner.ceiling(kind))?;
+        if let Some(address) = &row.address {
+            let all = self.inner.store.granted_at(address).await?;
+            room(Kind::Address, all, row, self.inner.ceiling(Kind::Address))?;
         }
-        Err(EngineError::Busy(format!(
-            "{waiting} runs of yours wait already; ask again when one of them has begun, or delete some."
-        )))
+        Ok(())
     }
 
     /// # Errors
     /// `Busy` when the objects of this owner would have too many bytes with these.
     pub(super) async fn has_room_for_an_object(&self, owner: Option<&str>, bytes: usize) -> Result<()> {
-        let (Some(Quota { objects, .. }), Some(owner)) = (quota(owner), owner) else { return Ok(()) };
-        if self.inner.store.object_bytes(owner).await? + bytes as u64 <= objects {
+        let Some((owner, kind)) = owner.and_then(|owner| Some((owner, kind(owner)?))) else { return Ok(()) };
+        let most = kind.objects();
+        if self.inner.store.object_bytes(owner).await? + bytes as u64 <= most {
             return Ok(());
         }
         Err(EngineError::Busy(format!(
             "Your objects would have more than {} MiB; delete some on the page of objects.",
-            objects >> 20
+            most >> 20
         )))
+    }
+}
+
+/// Is a guest's run through before it is ended?
+fn can_be_run(spec: &RunSpec, expected_seconds: f64, longest: Duration) -> Result<()> {
+    let (longest, algorithms) = (longest.as_secs_f64(), spec.algorithms.len());
+    if granted(spec) > longest {
+        return Err(EngineError::Invalid(format!(
+            "A guest's run may measure for {} in all, and {algorithms} algorithms with {} each may take {}: give each at most \
+             {:.0} s, ask for fewer, or log in.",
+            time(longest),
+            time(spec.budget_seconds),
+            time(granted(spec)),
+            (longest / algorithms as f64).floor()
+        )));
+    }
+    if expected_seconds > longest {
+        return Err(EngineError::Invalid(format!(
+            "A guest's run ends after {}, and this one is expected to take {}: ask for fewer configurations or algorithms, or \
+             log in.",
+            time(longest),
+            time(expected_seconds)
+        )));
+    }
+    Ok(())
+}
+
+fn room(kind: Kind, has: Granted, row: &RunRow, ceiling: f64) -> Result<()> {
+    let (whose, asks) = (kind.whose(), row.granted_seconds);
+    if has.waiting >= kind.waiting() {
+        let message =
+            format!("{} runs {whose} wait already; ask again when one of them has begun, or delete some.", has.waiting);
+        return Err(EngineError::TooMuch { message, retry_seconds: later(row.expected_seconds) });
+    }
+    let over = has.seconds + asks - ceiling;
+    if over > 0.0 {
+        let message = format!(
+            "The runs {whose} that wait or are under way may measure for {} already, and with this one for more than {}; ask \
+             again when some of them have ended, in {} or so.",
+            time(has.seconds),
+            time(ceiling),
+            time(f64::from(later(over)))
+        );
+        return Err(EngineError::TooMuch { message, retry_seconds: later(over) });
+    }
+    Ok(())
+}
+
+/// When another try is worth it: at most in an hour.
+fn later(seconds: f64) -> u32 {
+    seconds.ceil().clamp(10.0, 3600.0) as u32
+}
+
+/// A time for people.
+fn time(seconds: f64) -> String {
+    let of = |n: f64, unit: &str| format!("{n:.0} {unit}{}", if n.round() == 1.0 { "" } else { "s" });
+    match seconds {
+        s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 7200.0 => of((s / 60.0).ceil(), "minute"),
+        s => of((s / 3600.0).ceil(), "hour"),
     }
 }
 
@@ -54,11 +208,26 @@ impl Engine {
 mod tests {
     use super::*;
 
+    const GUEST: &str = "0193f1a0-0000-4000-8000-000000000000";
+
     #[test]
     fn guests_have_less_than_accounts_and_the_command_line_as_much_as_it_wants() {
-        let of = |owner| quota(owner).map(|quota| (quota.waiting, quota.objects >> 20));
-        assert_eq!(of(Some("0193f1a0-0000-4000-8000-000000000000")), Some((20, 512)));
-        assert_eq!(of(Some("account:0193f1a0-0000-4000-8000-000000000000")), Some((100, 4096)));
-        assert_eq!((of(Some("cli")), of(None)), (None, None));
+        let of = |owner: &str| kind(owner).map(|kind| (kind.waiting(), kind.objects() >> 20));
+        assert_eq!(of(GUEST), Some((20, 512)));
+        assert_eq!(of(&format!("account:{GUEST}")), Some((100, 4096)));
+        assert_eq!(of("cli"), None);
+    }
+
+    #[test]
+    fn guests_of_one_address_share_a_turn() {
+        assert_eq!(turn(GUEST, Some("203.0.113.7")), "address:203.0.113.7");
+        assert_eq!((turn(GUEST, None), turn("account:x", Some("203.0.113.7"))), (GUEST.into(), "account:x".into()));
+    }
+
+    #[test]
+    fn times_are_said_as_people_say_them() {
+        let said = [59.6, 600.0, 6000.0, 86_400.0].map(time);
+        assert_eq!(said, ["60 s", "10 minutes", "100 minutes", "24 hours"]);
+        assert_eq!([later(0.2), later(61.5), later(1e9)], [10, 62, 3600]);
     }
 }

@@ -2,9 +2,10 @@
 
 use std::time::{Duration, Instant};
 
+use super::quotas::{Visitor, granted, turn};
 use super::{Engine, INTERACTIVE};
 use crate::boxed;
-use crate::model::{Cursor, Page, Part, RunInfo, RunSpec, State, Visibility};
+use crate::model::{AccountInfo, Cursor, Page, Part, Role, RunInfo, RunSpec, State, Visibility};
 use crate::runlog::{fresh_stages, plain_event};
 use crate::store::{RunRow, now_us};
 use crate::{EngineError, Result, draw, estimate};
@@ -17,6 +18,8 @@ const CANCEL_PATIENCE: Duration = Duration::from_secs(3);
 pub(super) struct Asking<'a> {
     /// Who owns it; the service when nobody does.
     pub owner: Option<&'a str>,
+    /// The network that it is asked from.
+    pub address: Option<&'a str>,
     /// Smaller is served first.
     pub priority: i64,
     /// For the start page.
@@ -39,12 +42,12 @@ impl Engine {
         self.queue(spec, asking).await.map(|(run, _)| run)
     }
 
-    /// The same, once: who asks again under the same key, because the first answer was lost, gets the run that there is.
-    /// True when it is a new one.
+    /// The same for a visitor. Who asks again under the same key, because the first answer was lost, gets the run that there
+    /// is. True when it is a new one.
     #[boxed]
-    pub async fn submit_once(&self, spec: RunSpec, owner: &str, key: &str) -> Result<(RunInfo, bool)> {
-        let asking = Asking { owner: Some(owner), priority: INTERACTIVE, key: Some(key), ..Asking::default() };
-        self.queue(spec, asking).await
+    pub async fn submit_for(&self, spec: RunSpec, visitor: &Visitor, key: Option<&str>) -> Result<(RunInfo, bool)> {
+        let (owner, address) = (Some(visitor.owner.as_str()), visitor.address.as_deref());
+        self.queue(spec, Asking { owner, address, priority: INTERACTIVE, key, ..Asking::default() }).await
     }
 
     pub(super) async fn queue(&self, spec: RunSpec, asking: Asking<'_>) -> Result<(RunInfo, bool)> {
@@ -54,15 +57,12 @@ impl Engine {
 
     /// The same, for who needs its id alone.
     pub(super) async fn enqueue(&self, spec: RunSpec, asking: Asking<'_>) -> Result<(String, bool)> {
-        let Asking { owner, priority, featured, key, suite, campaign, rerun_of } = asking;
+        let Asking { owner, address, priority, featured, key, suite, campaign, rerun_of } = asking;
         let checked = self.check(&spec, owner).await?;
         let asked_before = match (owner, key) {
             (Some(owner), Some(key)) => self.inner.store.run_of_request(owner, key).await?.is_some(),
             _ => false,
         };
-        if !asked_before && campaign.is_none() {
-            self.has_room_for_a_run(owner).await?;
-        }
         let expected = estimate::estimate(&self.inner, &checked).await?;
         let row = RunRow {
             id: uuid::Uuid::now_v7().to_string(),
@@ -75,7 +75,9 @@ impl Engine {
                 Visibility::default()
             },
             priority,
-            turn: owner.filter(|_| campaign.is_none()).unwrap_or_default().to_owned(),
+            turn: owner.filter(|_| campaign.is_none()).map_or_else(String::new, |owner| turn(owner, address)),
+            address: address.map(str::to_owned),
+            granted_seconds: granted(&checked.spec),
             suite: suite.map(str::to_owned),
             campaign: campaign.map(str::to_owned),
             rerun_of: rerun_of.map(str::to_owned),
@@ -94,6 +96,11 @@ impl Engine {
             finished_us: None,
             spec: checked.spec,
         };
+        // Two at once must not both find the last room.
+        let _alone = self.inner.asking.lock().await;
+        if !asked_before && campaign.is_none() {
+            self.has_room_for_a_run(&row).await?;
+        }
         if !self.inner.store.add_run(&row, &fresh_stages(&row.spec.algorithms), key).await? {
             return self.asked_before(&row, key.unwrap_or_default()).await.map(|run| (run, false));
         }
@@ -134,7 +141,10 @@ impl Engine {
         let checked = self.check(&whole, caller).await?;
         let expected_seconds = estimate::estimate(&self.inner, &checked).await?.total_seconds;
         // The old secret is known by now.
-        let row = RunRow { spec: checked.spec, secret: Some(draw::secret()), expected_seconds, ..row };
+        let granted_seconds = granted(&checked.spec);
+        let row = RunRow { spec: checked.spec, secret: Some(draw::secret()), expected_seconds, granted_seconds, ..row };
+        let _alone = self.inner.asking.lock().await;
+        self.has_room_for_a_run(&row).await?;
         if !self.inner.store.queue_again(&row, &fresh_stages(&row.spec.algorithms)).await? {
             return Err(nothing());
         }
@@ -181,23 +191,37 @@ impl Engine {
         if caller.is_none() || row.owner.as_deref() != caller {
             return Err(EngineError::Forbidden("Only who asked for this run may cancel it.".into()));
         }
-        self.end(&row).await?;
+        self.end(&row, None).await?;
         self.run(id, caller).await
     }
 
-    /// Ends a run that waits or is under way, whoever owns it.
-    pub(super) async fn end(&self, row: &RunRow) -> Result<()> {
+    /// The same for whoever keeps order here: any run, whose owner is told.
+    ///
+    /// # Errors
+    /// `Forbidden` for everybody but curators and administrators, who see every run.
+    #[boxed]
+    pub async fn cancel_of_others(&self, id: &str, curator: &AccountInfo) -> Result<RunInfo> {
+        if curator.role < Role::Curator {
+            return Err(EngineError::Forbidden("Only who asked for this run, or a curator, may cancel it.".into()));
+        }
+        let row = self.inner.run_row(id).await?;
+        self.end(&row, Some("A curator ended this run.")).await?;
+        self.run(id, Some(&curator.owner())).await
+    }
+
+    /// Ends a run that waits or is under way, whoever owns it, with a reason for its owner.
+    pub(super) async fn end(&self, row: &RunRow, reason: Option<&'static str>) -> Result<()> {
         let id = row.id.as_str();
         let asked = Instant::now();
         loop {
             let ended = row.after(State::Cancelled);
-            if self.inner.store.end_run(id, State::Queued, ended, None).await? {
+            if self.inner.store.end_run(id, State::Queued, ended, reason).await? {
                 self.inner.bell.tell(&self.inner.store, id, plain_event(ended, 0)).await?;
                 self.inner.bell.queue_moved();
                 break;
             }
             // Between the claim and the start there is a moment in which neither works; so it is tried until it does.
-            self.inner.stop_current(Some(id));
+            self.inner.stop_current(Some(id), reason);
             let state = self.inner.run_row(id).await?.state;
             if !matches!(state, State::Queued | State::Running) || asked.elapsed() > CANCEL_PATIENCE {
                 break;

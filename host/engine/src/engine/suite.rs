@@ -93,7 +93,7 @@ impl Engine {
         for run in runs {
             let row = self.inner.run_row(&run.id).await?;
             if row.suite.is_some() {
-                self.end(&row).await?;
+                self.end(&row, None).await?;
             }
         }
         Ok(())

@@ -91,6 +91,7 @@ pub struct HeatmapRequest {
     /// Which statistic.
     pub statistic: ocb_core::statistics::Statistic,
     /// What to do with outliers. Of failures none is dropped.
+    #[serde(default)]
     pub outliers: ocb_core::statistics::Outliers,
     /// Show the difference to this algorithm: the values of `algorithm` minus its values.
     #[serde(default, skip_serializing_if = "Option::is_none")]

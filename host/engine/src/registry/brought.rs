@@ -27,19 +27,38 @@ impl Brought {
     }
 }
 
-/// Every algorithm that may be asked for, with its file on the disk of this machine.
-pub async fn brought(store: &Store, blobs: &Blobs, data: &Path) -> Result<Vec<Brought>> {
-    let mut all: Vec<Brought> = Vec::new();
+/// What developers brought.
+#[derive(Default)]
+pub struct AllBrought {
+    /// What may be asked for.
+    pub plugins: Vec<Brought>,
+    /// What keeps others from it.
+    pub problems: Vec<String>,
+}
+
+/// Every algorithm that may be asked for, with its file on the disk of this machine. A file that cannot be read keeps no other
+/// from being offered.
+pub async fn brought(store: &Store, blobs: &Blobs, data: &Path) -> Result<AllBrought> {
+    let (mut all, mut problems): (Vec<Brought>, Vec<String>) = Default::default();
     let rows = store.submissions().await?;
     for row in rows.iter().filter(|row| row.state.is_usable()) {
-        let file = plugin_file(blobs, data, &row.blob).await?;
+        let file = match plugin_file(blobs, data, &row.blob).await {
+            Ok(file) => file,
+            Err(e) => {
+                tracing::error!("plugin {}: {e}", row.id);
+                let (name, version) = (&row.manifest.name, &row.manifest.version);
+                problems
+                    .push(format!("The plugin {name} {version} cannot be read and is not offered; the log says why."));
+                continue;
+            }
+        };
         for info in &row.algorithms {
             let public = row.state == PluginState::Public;
             let newest = public && all.iter().all(|b| !b.public || b.contestant.info.id != info.id);
             all.push(one(row, info, &file, public, newest));
         }
     }
-    Ok(all)
+    Ok(AllBrought { plugins: all, problems })
 }
 
 fn one(row: &SubmissionRow, info: &AlgorithmInfo, file: &Path, public: bool, newest: bool) -> Brought {
@@ -61,7 +80,7 @@ pub async fn plugin_file(blobs: &Blobs, data: &Path, sha256: &str) -> Result<Pat
         let bytes = blobs.get(sha256).await?;
         let fault = |e: std::io::Error| EngineError::fault("Writing a plugin file failed", e);
         std::fs::create_dir_all(&folder).map_err(fault)?;
-        // Whole under its name or not at all, also after a power cut: on the disk before it gets the name.
+        // Whole under its name or not at all: synced to the disk before it gets the name.
         let draft = folder.join(format!("{sha256}.{}", uuid::Uuid::new_v4().simple()));
         let write = || {
             let mut opened = std::fs::File::create(&draft)?;

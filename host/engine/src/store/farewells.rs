@@ -47,6 +47,7 @@ impl Store {
         }
         for (text, whose) in [
             ("DELETE FROM keys WHERE account = $1", id),
+            ("DELETE FROM devices WHERE account = $1", id),
             ("DELETE FROM mails WHERE account = $1", id),
             ("DELETE FROM confirmations WHERE account = $1", id),
             ("DELETE FROM off_links WHERE account = $1", id),

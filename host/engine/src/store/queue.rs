@@ -3,6 +3,27 @@
 use super::{Store, now_us};
 use crate::Result;
 
+/// What somebody has waiting and under way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Granted {
+    /// Runs that wait.
+    pub waiting: u64,
+    /// Measuring time of these and of those under way.
+    pub seconds: f64,
+}
+
+macro_rules! granted {
+    ($whose:literal) => {
+        concat!(
+            "SELECT CAST(COALESCE(SUM(CASE WHEN state = 'queued' THEN 1 ELSE 0 END), 0) AS BIGINT), ",
+            "COALESCE(SUM(granted_seconds), 0.0) FROM runs ",
+            "WHERE state IN ('queued', 'running') AND campaign IS NULL AND ",
+            $whose,
+            " = $1"
+        )
+    };
+}
+
 impl Store {
     /// Takes the next run: smallest priority, then whose turn was longest ago, then the oldest.
     pub async fn claim(&self) -> Result<Option<String>> {
@@ -57,11 +78,19 @@ impl Store {
         Ok(())
     }
 
-    /// How many runs of this owner wait, without those of campaigns, for which nobody asked.
-    pub async fn waiting_runs(&self, owner: &str) -> Result<u64> {
-        let text = "SELECT COUNT(*) FROM runs WHERE owner = $1 AND state = 'queued' AND campaign IS NULL";
-        let count: i64 = sqlx::query_scalar(text).bind(owner).fetch_one(&self.pool).await?;
-        Ok(count as u64)
+    /// What this owner has waiting and under way, without runs of campaigns, for which nobody asked.
+    pub async fn granted_to(&self, owner: &str) -> Result<Granted> {
+        self.granted(granted!("owner"), owner).await
+    }
+
+    /// The same of all who asked from this address.
+    pub async fn granted_at(&self, address: &str) -> Result<Granted> {
+        self.granted(granted!("address"), address).await
+    }
+
+    async fn granted(&self, text: &'static str, whose: &str) -> Result<Granted> {
+        let (waiting, seconds): (i64, f64) = sqlx::query_as(text).bind(whose).fetch_one(&self.pool).await?;
+        Ok(Granted { waiting: waiting as u64, seconds })
     }
 
     /// How many runs wait for a turn at this priority or a smaller one, and the seconds that they were expected to take.

@@ -25,6 +25,10 @@ pub struct RunRow {
     pub priority: i64,
     /// Whose turn it takes; the empty text for runs of the service itself and of campaigns, which take nobody's.
     pub turn: String,
+    /// The network that it was asked from, where that is known.
+    pub address: Option<String>,
+    /// How long it may measure in all.
+    pub granted_seconds: f64,
     /// The suite that it belongs to, by its hash.
     pub suite: Option<String>,
     /// The campaign that it belongs to.
@@ -35,7 +39,7 @@ pub struct RunRow {
     pub state: State,
     /// How often it was started.
     pub attempts: u32,
-    /// Why it failed.
+    /// Why it failed or was ended.
     pub message: Option<String>,
     /// What was asked, defaults filled in.
     pub spec: RunSpec,
@@ -90,7 +94,7 @@ impl RunRow {
 macro_rules! select_runs {
     ($rest:literal) => {
         concat!(
-            "SELECT id, owner, featured, private, visibility, priority, turn, state, attempts, message, spec, object_a_name, object_b_name, ",
+            "SELECT id, owner, featured, private, visibility, priority, turn, address, granted_seconds, state, attempts, message, spec, object_a_name, object_b_name, ",
             "set_info, set_blob, environment, preview, secret, expected_seconds, created_us, finished_us, suite, campaign, rerun_of FROM runs ",
             $rest
         )
@@ -105,8 +109,9 @@ impl Store {
         let mut transaction = self.pool.begin().await?;
         let added = sqlx::query(
             "INSERT INTO runs (id, owner, featured, priority, state, attempts, spec, object_a_name, object_b_name, \
-             secret, expected_seconds, created_us, private, request_key, visibility, suite, campaign, rerun_of, turn) \
-             VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17, $18) \
+             secret, expected_seconds, created_us, private, request_key, visibility, suite, campaign, rerun_of, turn, \
+             address, granted_seconds) \
+             VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17, $18, $19, $20) \
              ON CONFLICT DO NOTHING",
         )
         .bind(&run.id)
@@ -127,6 +132,8 @@ impl Store {
         .bind(run.campaign.as_deref())
         .bind(run.rerun_of.as_deref())
         .bind(&run.turn)
+        .bind(run.address.as_deref())
+        .bind(run.granted_seconds)
         .execute(&mut *transaction)
         .await?;
         if added.rows_affected() == 0 {
@@ -160,12 +167,13 @@ impl Store {
         let mut transaction = self.pool.begin().await?;
         let queued = sqlx::query(
             "UPDATE runs SET state = 'queued', attempts = 0, message = NULL, spec = $1, secret = $2, \
-             expected_seconds = $3, finished_us = NULL WHERE id = $4 AND state = 'done'",
+             expected_seconds = $3, finished_us = NULL, granted_seconds = $5 WHERE id = $4 AND state = 'done'",
         )
         .bind(to_json(&run.spec)?)
         .bind(run.secret.as_deref())
         .bind(run.expected_seconds)
         .bind(&run.id)
+        .bind(run.granted_seconds)
         .execute(&mut *transaction)
         .await?;
         if queued.rows_affected() == 0 {
@@ -352,6 +360,8 @@ pub(super) fn read_run(row: &AnyRow) -> Result<RunRow> {
         visibility: visibility(row.try_get("visibility")?)?,
         priority: row.try_get("priority")?,
         turn: row.try_get("turn")?,
+        address: row.try_get("address")?,
+        granted_seconds: row.try_get("granted_seconds")?,
         suite: row.try_get("suite")?,
         campaign: row.try_get("campaign")?,
         rerun_of: row.try_get("rerun_of")?,

@@ -213,6 +213,7 @@ impl Store {
     /// is not begun again. Authors take turns, so that who sends many holds up nobody's first: next is the one whose latest
     /// check was begun longest ago.
     pub async fn claim_check(&self, most: i64) -> Result<Option<SubmissionRow>> {
+        let mut transaction = self.pool.begin().await?;
         let id: Option<String> = sqlx::query_scalar(
             "UPDATE submissions SET attempts = attempts + 1, begun_us = $1 WHERE id = (SELECT waiting.id \
              FROM submissions waiting WHERE waiting.state = 'uploaded' AND waiting.attempts < $2 ORDER BY \
@@ -221,10 +222,11 @@ impl Store {
         )
         .bind(now_us())
         .bind(most)
-        .fetch_optional(&self.pool)
+        .fetch_optional(&mut *transaction)
         .await?;
         let Some(id) = id else { return Ok(None) };
-        sqlx::query("DELETE FROM submission_lines WHERE submission = $1").bind(&id).execute(&self.pool).await?;
+        sqlx::query("DELETE FROM submission_lines WHERE submission = $1").bind(&id).execute(&mut *transaction).await?;
+        transaction.commit().await?;
         self.submission(&id).await
     }
 

@@ -51,7 +51,7 @@ pub async fn a_campaign_repeats_a_run_once_and_takes_nobodys_turn(store: Store) 
     add(&store, again("6", "d", Some("x"))).await;
     assert_eq!(store.repeat_of("c", "y").await.unwrap().unwrap().id, "2");
     assert_eq!(store.campaign_runs("c").await.unwrap().len(), 4);
-    assert_eq!(store.waiting_runs("a").await.unwrap(), 0, "nobody asked for these");
+    assert_eq!(store.granted_to("a").await.unwrap().waiting, 0, "nobody asked for these");
     assert_eq!(store.waiting(5).await.unwrap().0, 5);
 
     // Whoever's run is repeated loses no turn by it: "a" has been served by the campaign alone.

@@ -44,6 +44,8 @@ pub(crate) fn run(id: &str, owner: Option<&str>, priority: i64, created_us: i64)
         visibility: Visibility::Unlisted,
         priority,
         turn: owner.unwrap_or_default().to_owned(),
+        address: None,
+        granted_seconds: 120.0,
         suite: None,
         campaign: None,
         rerun_of: None,
