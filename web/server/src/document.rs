@@ -1,11 +1,10 @@
 //! Answers that extractors and layers give on every route of a kind, put into the OpenAPI document in one place.
 
-use ocb_engine::model::Scope;
 use utoipa::openapi::path::Operation;
 use utoipa::openapi::security::{ApiKey, ApiKeyValue, Http, HttpAuthScheme, SecurityRequirement, SecurityScheme};
 use utoipa::openapi::{ContentBuilder, OpenApi, Ref, RefOr, Response, ResponseBuilder};
 
-use crate::guest::{SESSION, scope_of};
+use crate::guest::{SESSION, anybody_reads};
 
 /// The document with what no handler says of itself. What a route says stands.
 pub(crate) fn completed(mut document: OpenApi) -> OpenApi {
@@ -34,7 +33,7 @@ pub(crate) fn completed(mut document: OpenApi) -> OpenApi {
 fn to_tokens(path: &str, reads: bool) -> Vec<(&'static str, &'static str)> {
     let mut all = vec![("401", "The token in `Authorization` opens nothing")];
     // What is there for everybody may be read with any token.
-    if !(reads && scope_of(path) == Some(Scope::Runs)) {
+    if !(reads && anybody_reads(path)) {
         all.push((
             "403",
             "The token in `Authorization` is not for that, or the request was sent by a page of another site",

@@ -29,6 +29,14 @@ pub(crate) struct Browser(pub String);
 #[derive(Clone, Debug)]
 pub(crate) struct Member(pub AccountInfo);
 
+/// Who is logged in in person, not by a token.
+#[derive(Clone, Debug)]
+pub(crate) struct Person(pub AccountInfo);
+
+/// What the token is for by which somebody asks.
+#[derive(Clone, Debug)]
+pub(crate) struct Token(pub Vec<Scope>);
+
 /// A curator or an administrator.
 #[derive(Clone, Debug)]
 pub(crate) struct Curator(pub AccountInfo);
@@ -41,8 +49,9 @@ pub(crate) async fn recognise(State(app): State<App>, mut request: Request, next
     let known = jar.get(GUEST).and_then(|cookie| Uuid::try_parse(cookie.value()).ok());
     let guest = known.unwrap_or_else(Uuid::new_v4).to_string();
     let reads = matches!(*request.method(), Method::GET | Method::HEAD);
-    let account = match account(&app, request.headers(), request.uri().path(), reads, &jar).await {
-        Ok(account) => account,
+    let (account, token) = match account(&app, request.headers(), request.uri().path(), reads, &jar).await {
+        Ok(Some((account, token))) => (Some(account), token),
+        Ok(None) => (None, None),
         Err(problem) => return problem.into_response(),
     };
     let secure = is_secure(request.headers());
@@ -52,6 +61,10 @@ pub(crate) async fn recognise(State(app): State<App>, mut request: Request, next
     extensions.insert(Guest(owner));
     extensions.insert(Browser(guest.clone()));
     if let Some(account) = account {
+        match token {
+            Some(scopes) => drop(extensions.insert(Token(scopes))),
+            None => drop(extensions.insert(Person(account.clone()))),
+        }
         extensions.insert(Member(account));
     }
     let mut response = next.run(request).await;
@@ -61,16 +74,17 @@ pub(crate) async fn recognise(State(app): State<App>, mut request: Request, next
     response
 }
 
+/// Whose session or token it is, and what the token is for.
 async fn account(
     app: &App,
     headers: &HeaderMap,
     path: &str,
     reads: bool,
     jar: &CookieJar,
-) -> Result<Option<AccountInfo>> {
+) -> Result<Option<(AccountInfo, Option<Vec<Scope>>)>> {
     let Some(value) = headers.get(header::AUTHORIZATION) else {
         return match jar.get(SESSION) {
-            Some(session) => Ok(app.engine.session(session.value()).await?),
+            Some(session) => Ok(app.engine.session(session.value()).await?.map(|account| (account, None))),
             None => Ok(None),
         };
     };
@@ -82,10 +96,10 @@ async fn account(
     let unknown =
         || Problem::new(StatusCode::UNAUTHORIZED, "This token opens nothing; make a new one on the account page.");
     let (account, scopes) = opened.ok_or_else(unknown)?;
-    match scope_of(path) {
-        Some(scope) if scopes.contains(&scope) => Ok(Some(account)),
+    match scope_of(path, reads) {
+        Some(scope) if scopes.contains(&scope) => Ok(Some((account, Some(scopes)))),
         // What is there for everybody may be read by everybody.
-        Some(Scope::Runs) if reads => Ok(None),
+        _ if reads && anybody_reads(path) => Ok(None),
         _ => {
             let detail = "This token may not be used for that; log in, or make a token with the right scope.";
             Err(Problem::new(StatusCode::FORBIDDEN, detail))
@@ -93,14 +107,25 @@ async fn account(
     }
 }
 
-/// What a token must be for; accounts, what they are told, and decisions need a person.
-pub(crate) fn scope_of(path: &str) -> Option<Scope> {
-    let resource = path.strip_prefix("/api/v1/").and_then(|rest| rest.split('/').next()).unwrap_or_default();
-    match resource {
+/// What a token must be for. Accounts, what they are told, and decisions need a person, on every way that leads there; a run's
+/// archive holds the plugins that it measured.
+pub(crate) fn scope_of(path: &str, reads: bool) -> Option<Scope> {
+    match resource(path) {
         "account" | "accounts" | "curation" | "invitations" | "notices" => None,
+        "campaigns" if !reads => None,
         "plugins" => Some(Scope::Plugins),
+        "runs" if path.ends_with("/repro.zip") => Some(Scope::Plugins),
         _ => Some(Scope::Runs),
     }
+}
+
+/// May what is public there be read with any token?
+pub(crate) fn anybody_reads(path: &str) -> bool {
+    scope_of(path, true).is_some() && resource(path) != "plugins"
+}
+
+fn resource(path: &str) -> &str {
+    path.strip_prefix("/api/v1/").and_then(|rest| rest.split('/').next()).unwrap_or_default()
 }
 
 /// Behind a proxy that speaks TLS: cookies must not be sent without it.
@@ -166,11 +191,14 @@ mod tests {
 
     #[test]
     fn a_token_is_for_one_thing() {
-        assert_eq!(scope_of("/api/v1/plugins/x/events"), Some(Scope::Plugins));
-        assert_eq!(scope_of("/api/v1/runs"), Some(Scope::Runs));
+        assert_eq!(scope_of("/api/v1/plugins/x/events", true), Some(Scope::Plugins));
+        assert_eq!(scope_of("/api/v1/runs/x/repro.zip", true), Some(Scope::Plugins));
+        assert_eq!(scope_of("/api/v1/runs", false), Some(Scope::Runs));
+        assert_eq!(scope_of("/api/v1/campaigns/x", true), Some(Scope::Runs));
         for person in ["/api/v1/invitations", "/api/v1/curation", "/api/v1/notices/x/read"] {
-            assert_eq!(scope_of(person), None, "{person}");
+            assert_eq!(scope_of(person, true), None, "{person}");
         }
+        assert_eq!(scope_of("/api/v1/campaigns", false), None);
     }
 
     #[test]

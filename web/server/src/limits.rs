@@ -1,13 +1,14 @@
-//! How often somebody may try what others could be harmed by: guessing passwords, making accounts, uploading.
+//! How often somebody may try what others could be harmed by: guessing passwords, making accounts, uploading, asking for runs.
 
 use std::collections::HashMap;
-use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::hash::{BuildHasher, Hasher, RandomState};
+use std::num::NonZeroU32;
 use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use axum::extract::{ConnectInfo, FromRequestParts};
-use axum::http::StatusCode;
-use axum::http::request::Parts;
+use governor::clock::{Clock, DefaultClock};
+use governor::state::keyed::HashMapStateStore;
+use governor::{Quota, RateLimiter};
 
 use crate::problem::{Problem, Result};
 
@@ -15,88 +16,96 @@ use crate::problem::{Problem, Result};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limit {
     name: &'static str,
+    /// Different ones may have one name for people.
+    of: &'static str,
     times: u32,
     per: Duration,
 }
 
-const fn limit(name: &'static str, times: u32, seconds: u64) -> Limit {
-    Limit { name, times, per: Duration::from_secs(seconds) }
+const fn limit(name: &'static str, of: &'static str, times: u32, seconds: u64) -> Limit {
+    Limit { name, of, times, per: Duration::from_secs(seconds) }
 }
 
-/// Wrong passwords, per address and per name.
-pub(crate) const LOG_IN: Limit = limit("log in", 10, 60);
+/// Passwords: per address; per address and name; and per name, wherever it is tried from, but for devices that have entered
+/// with it before. One address alone cannot use up the last, so that nobody locks another out.
+pub(crate) const LOG_IN: Limit = limit("log in", "address", 10, 60);
+pub(crate) const LOG_IN_AS: Limit = limit("log in", "address and name", 10, 3600);
+pub(crate) const LOG_IN_ANYWHERE: Limit = limit("log in", "name", 100, 3600);
+/// Old passwords, per account.
+pub(crate) const CHANGE_PASSWORD: Limit = limit("change the password", "account", 10, 60);
 /// New accounts, per address.
-pub(crate) const MAKE_ACCOUNT: Limit = limit("make an account", 20, 3600);
+pub(crate) const MAKE_ACCOUNT: Limit = limit("make an account", "address", 20, 3600);
 
 /// Secrets of invitations, per address.
-pub(crate) const ACCEPT: Limit = limit("accept an invitation", 20, 60);
+pub(crate) const ACCEPT: Limit = limit("accept an invitation", "address", 20, 60);
 
 /// Addresses that mails are to go to, per address of the visitor and per account; and mails asking about one, per that address.
-pub(crate) const GIVE_ADDRESS: Limit = limit("give an address", 10, 3600);
-pub(crate) const MAIL_TO: Limit = limit("have a mail sent", 5, 3600);
+pub(crate) const GIVE_ADDRESS: Limit = limit("give an address", "anybody", 10, 3600);
+pub(crate) const MAIL_TO: Limit = limit("have a mail sent", "address", 5, 3600);
 
 /// Secrets of links that confirm an address, per address of the visitor and per account.
-pub(crate) const CONFIRM: Limit = limit("confirm an address", 20, 60);
+pub(crate) const CONFIRM: Limit = limit("confirm an address", "anybody", 20, 60);
 
 /// Wrong links that would turn mails off, per address of the visitor.
-pub(crate) const TURN_OFF: Limit = limit("turn mails off", 20, 60);
+pub(crate) const TURN_OFF: Limit = limit("turn mails off", "address", 20, 60);
 
 /// Plugins, per account.
-pub(crate) const SUBMIT: Limit = limit("submit a plugin", 30, 3600);
+pub(crate) const SUBMIT: Limit = limit("submit a plugin", "account", 30, 3600);
 
-/// Addresses and names that are remembered at most; beyond it those that may try again are forgotten.
-const MOST: usize = 10_000;
+/// Runs, advice, objects and their MiB, per address.
+pub(crate) const ASK_RUN: Limit = limit("ask for a run", "address", 120, 600);
+pub(crate) const ASK_ADVICE: Limit = limit("ask for advice", "address", 60, 3600);
+pub(crate) const ADD_OBJECT: Limit = limit("add an object", "address", 120, 3600);
+pub(crate) const ADD_MEBIBYTES: Limit = limit("add an object", "MiB", 4096, 24 * 3600);
 
-/// What is limited, and who tried.
-type Tried = (&'static str, String);
+/// Who tried: one of so many places, which a secret of this process gives. Memory is bounded by that, and two strangers share
+/// a place with a probability of 1 in 65,536.
+type Place = u16;
 
-/// What was tried lately: a bucket each that drains evenly, with its level and when that was.
+type Limiter = RateLimiter<Place, HashMapStateStore<Place>, DefaultClock>;
+
+/// What was tried lately.
 #[derive(Default)]
 pub(crate) struct Limits {
-    buckets: Mutex<HashMap<Tried, (f64, Instant)>>,
+    limiters: Mutex<HashMap<(&'static str, &'static str), Limiter>>,
+    secret: RandomState,
 }
 
 impl Limits {
-    /// Counts a try of `who`.
+    /// Counts a try of `who`, in whatever case it is written.
     ///
     /// # Errors
     /// 429 with the seconds to wait when there were too many.
     pub(crate) fn count(&self, limit: Limit, who: &str) -> Result<()> {
-        self.count_at(limit, who, Instant::now())
+        self.count_many(limit, who, 1)
     }
 
-    fn count_at(&self, limit: Limit, who: &str, now: Instant) -> Result<()> {
-        let mut buckets = self.buckets.lock().unwrap_or_else(PoisonError::into_inner);
-        if buckets.len() >= MOST {
-            buckets.retain(|_, (level, then)| *level > now.duration_since(*then).as_secs_f64());
-        }
-        let drained = f64::from(limit.times) / limit.per.as_secs_f64();
-        let (level, then) = buckets.entry((limit.name, who.to_lowercase())).or_insert((0.0, now));
-        *level = (*level - now.duration_since(*then).as_secs_f64() * drained).max(0.0);
-        *then = now;
-        let over = *level + 1.0 - f64::from(limit.times);
-        if over > 0.0 {
-            let wait = (over / drained).ceil();
-            let detail = format!("Too many tries to {}; wait {wait} seconds and try again.", limit.name);
-            return Err(Problem::new(StatusCode::TOO_MANY_REQUESTS, detail));
-        }
-        *level += 1.0;
-        Ok(())
+    /// The same for so many at once, of which there may be none.
+    pub(crate) fn count_many(&self, limit: Limit, who: &str, many: u32) -> Result<()> {
+        let Some(many) = NonZeroU32::new(many.min(limit.times)) else { return Ok(()) };
+        let mut limiters = self.limiters.lock().unwrap_or_else(PoisonError::into_inner);
+        let limiter = limiters.entry((limit.name, limit.of)).or_insert_with(|| RateLimiter::hashmap(quota(limit)));
+        let Ok(Err(not_until)) = limiter.check_key_n(&self.place(who), many) else { return Ok(()) };
+        let wait = not_until.wait_time_from(DefaultClock::default().now()).as_secs_f64().ceil().max(1.0) as u32;
+        let detail = format!("Too many tries to {}; wait {wait} seconds and try again.", limit.name);
+        Err(Problem::too_much(detail, wait))
+    }
+
+    /// Counts a try of a visitor who is not at this machine.
+    pub(crate) fn count_remote(&self, limit: Limit, remote: Option<&str>) -> Result<()> {
+        remote.map_or(Ok(()), |address| self.count(limit, address))
+    }
+
+    fn place(&self, who: &str) -> Place {
+        let mut hasher = self.secret.build_hasher();
+        who.chars().flat_map(char::to_lowercase).for_each(|c| hasher.write_u32(c.into()));
+        hasher.finish() as Place
     }
 }
 
-/// The address of who asks. A proxy on the same machine says whose request it passes on; nobody else is believed.
-pub(crate) struct Address(pub String);
-
-impl<S: Send + Sync> FromRequestParts<S> for Address {
-    type Rejection = std::convert::Infallible;
-
-    async fn from_request_parts(parts: &mut Parts, _: &S) -> std::result::Result<Self, Self::Rejection> {
-        let peer = parts.extensions.get::<ConnectInfo<SocketAddr>>().map_or(Ipv4Addr::LOCALHOST.into(), |c| c.0.ip());
-        let told = parts.headers.get_all("x-forwarded-for").iter().next_back().and_then(|value| value.to_str().ok());
-        let last = told.and_then(|list| list.rsplit(',').next()?.trim().parse::<IpAddr>().ok());
-        Ok(Self(last.filter(|_| peer.is_loopback()).unwrap_or(peer).to_string()))
-    }
+fn quota(limit: Limit) -> Quota {
+    let times = NonZeroU32::new(limit.times).unwrap_or(NonZeroU32::MIN);
+    Quota::with_period(limit.per / limit.times).expect("a limit has a time").allow_burst(times)
 }
 
 #[cfg(test)]
@@ -104,17 +113,35 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_bucket_fills_and_drains_for_each_alone() {
-        let (limits, now) = (Limits::default(), Instant::now());
-        let at = |seconds| now + Duration::from_secs(seconds);
+    fn a_bucket_fills_for_each_alone() {
+        let limits = Limits::default();
         for _ in 0..10 {
-            limits.count_at(LOG_IN, "a", now).unwrap();
+            limits.count(LOG_IN, "a").unwrap();
         }
-        let refused = limits.count_at(LOG_IN, "A", now).unwrap_err();
+        let refused = limits.count(LOG_IN, "A").unwrap_err();
         assert_eq!(refused.status, 429);
-        assert!(refused.detail.contains("wait 6 seconds"), "{}", refused.detail);
-        limits.count_at(LOG_IN, "b", now).unwrap();
-        limits.count_at(LOG_IN, "a", at(7)).unwrap();
-        assert!(limits.count_at(LOG_IN, "a", at(7)).is_err());
+        assert!(refused.detail.contains("wait 6 seconds") && refused.retry_seconds == Some(6), "{refused:?}");
+        limits.count(LOG_IN, "b").unwrap();
+        limits.count(LOG_IN_AS, "a").unwrap();
+    }
+
+    #[test]
+    fn many_at_once_count_as_many() {
+        let limits = Limits::default();
+        limits.count_many(ADD_MEBIBYTES, "a", 4000).unwrap();
+        limits.count_many(ADD_MEBIBYTES, "a", 0).unwrap();
+        let refused = limits.count_many(ADD_MEBIBYTES, "a", 256).unwrap_err();
+        assert!(refused.retry_seconds.is_some_and(|wait| (3000..=3600).contains(&wait)), "{refused:?}");
+    }
+
+    #[test]
+    fn a_flood_of_names_takes_no_more_memory_than_there_are_places() {
+        let limits = Limits::default();
+        for i in 0..200_000 {
+            let _ = limits.count(LOG_IN_ANYWHERE, &format!("name {i}"));
+        }
+        let limiters = limits.limiters.lock().unwrap();
+        let known = limiters[&(LOG_IN_ANYWHERE.name, LOG_IN_ANYWHERE.of)].len();
+        assert!((50_000..=65_536).contains(&known), "{known}");
     }
 }

@@ -20,6 +20,9 @@ pub struct Problem {
     pub status: u16,
     /// One sentence for the person who asked.
     pub detail: String,
+    /// Worth another try after so many seconds; sent as `Retry-After`.
+    #[serde(skip)]
+    pub retry_seconds: Option<u32>,
 }
 
 /// What a handler returns.
@@ -33,7 +36,13 @@ impl Problem {
             title: status.canonical_reason().unwrap_or("Error").to_owned(),
             status: status.as_u16(),
             detail: detail.into(),
+            retry_seconds: None,
         }
+    }
+
+    /// Too much at once: what helps, and after how many seconds the same works.
+    pub fn too_much(detail: impl Into<String>, retry_seconds: u32) -> Self {
+        Self { retry_seconds: Some(retry_seconds), ..Self::new(StatusCode::TOO_MANY_REQUESTS, detail) }
     }
 
     /// There is no such thing.
@@ -76,6 +85,7 @@ impl From<EngineError> for Problem {
             EngineError::Invalid(detail) => Self::new(StatusCode::UNPROCESSABLE_ENTITY, detail),
             EngineError::Forbidden(detail) => Self::new(StatusCode::FORBIDDEN, detail),
             EngineError::Busy(detail) => Self::new(StatusCode::CONFLICT, detail),
+            EngineError::TooMuch { message, retry_seconds } => Self::too_much(message, retry_seconds),
             EngineError::Fault(cause) => Self::fault(cause),
         }
     }
@@ -108,9 +118,11 @@ fn sentence(text: &str) -> String {
 impl IntoResponse for Problem {
     fn into_response(self) -> Response {
         let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+        let retry = self.retry_seconds.map(HeaderValue::from);
         let mut response = (status, Json(self)).into_response();
         let media_type = HeaderValue::from_static("application/problem+json");
         response.headers_mut().insert(header::CONTENT_TYPE, media_type);
+        response.headers_mut().extend(retry.map(|seconds| (header::RETRY_AFTER, seconds)));
         response
     }
 }
@@ -134,5 +146,11 @@ mod tests {
         assert_eq!(status(EngineError::Invalid("x".to_owned())), 422);
         assert_eq!(status(EngineError::Forbidden("x".to_owned())), 403);
         assert_eq!(status(EngineError::Busy("x".to_owned())), 409);
+        let too_much =
+            Problem::from(EngineError::TooMuch { message: "x".to_owned(), retry_seconds: 7 }).into_response();
+        assert_eq!(
+            (too_much.status().as_u16(), &too_much.headers()[header::RETRY_AFTER]),
+            (429, &HeaderValue::from(7))
+        );
     }
 }

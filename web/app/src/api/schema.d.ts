@@ -910,7 +910,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Ends a run that is queued or at work; one that has ended stays as it is. */
+        /** Ends a run that is queued or at work; one that has ended stays as it is. A curator who is logged in ends anybody's. */
         post: operations["cancel_run"];
         delete?: never;
         options?: never;
@@ -1387,7 +1387,8 @@ export interface paths {
         };
         /**
          * Everything that the visitor has made, to take along: objects, runs with their configurations and records, advice with its
-         *     reduced objects, plugins with their reports.
+         *     reduced objects, plugins with their reports, and the account with what it was told. With a token only what it is for: the account
+         *     is for the person alone, plugins need their scope.
          */
         get: operations["take_along"];
         put?: never;
@@ -2454,6 +2455,12 @@ export interface components {
             calibration_ns?: components["schemas"]["Estimated"] | null;
             /** @description `spin` or `futex`. */
             clock: string;
+            /**
+             * Format: double
+             * @description By which share the clock's pace, compared with the kernel's clock, differs at the end from what it was at the beginning;
+             *     some millionths are what can be told. Absent in results of older versions.
+             */
+            clock_drift?: number | null;
             /** @description CPU model. */
             cpu: string;
             /**
@@ -2669,7 +2676,7 @@ export interface components {
             /** @description What to show. */
             measure: components["schemas"]["Measure"];
             /** @description What to do with outliers. Of failures none is dropped. */
-            outliers: components["schemas"]["Outliers"];
+            outliers?: components["schemas"]["Outliers"];
             /** @description Which object. */
             side?: components["schemas"]["Side"];
             /** @description Which statistic. */
@@ -6082,15 +6089,6 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Too many wait already */
-            409: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
             /** @description The body is too large */
             413: {
                 headers: {
@@ -6111,6 +6109,15 @@ export interface operations {
             };
             /** @description The question cannot be asked */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too much waits already; `Retry-After` says when to try again */
+            429: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -7005,7 +7012,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The spec cannot be run */
+            /** @description The spec cannot be run, or asks for more time than its owner may have */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -7665,6 +7672,15 @@ export interface operations {
             };
             /** @description No usable OBJ file; says line and reason */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many uploads; `Retry-After` says when to try again */
+            429: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -8681,8 +8697,17 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The spec cannot be run */
+            /** @description The spec cannot be run, or asks for more time than its owner may have */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too much waits or is under way; `Retry-After` says when to try again */
+            429: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -9427,7 +9452,7 @@ export interface operations {
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
                 /** @description What to do with outliers. Of failures none is dropped. */
-                outliers: components["schemas"]["Outliers"];
+                outliers?: components["schemas"]["Outliers"];
                 /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
                 against?: string;
                 /** @description Subtract the values of another run on the same object; of the same algorithm unless `against` names another one. */
@@ -9502,7 +9527,7 @@ export interface operations {
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
                 /** @description What to do with outliers. Of failures none is dropped. */
-                outliers: components["schemas"]["Outliers"];
+                outliers?: components["schemas"]["Outliers"];
                 /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
                 against?: string;
                 /** @description Subtract the values of another run on the same object; of the same algorithm unless `against` names another one. */
@@ -9582,7 +9607,7 @@ export interface operations {
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
                 /** @description What to do with outliers. Of failures none is dropped. */
-                outliers: components["schemas"]["Outliers"];
+                outliers?: components["schemas"]["Outliers"];
                 /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
                 against?: string;
                 /** @description Subtract the values of another run on the same object; of the same algorithm unless `against` names another one. */
@@ -9912,6 +9937,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description Too many archives are being sent */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
         };
     };
     show_selection: {
@@ -10048,7 +10082,7 @@ export interface operations {
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
                 /** @description What to do with outliers. Of failures none is dropped. */
-                outliers: components["schemas"]["Outliers"];
+                outliers?: components["schemas"]["Outliers"];
                 /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
                 against?: string;
                 /** @description Subtract the values of another run on the same object; of the same algorithm unless `against` names another one. */
@@ -10517,6 +10551,15 @@ export interface operations {
             };
             /** @description The token in `Authorization` opens nothing */
             401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many archives are being sent */
+            429: {
                 headers: {
                     [name: string]: unknown;
                 };

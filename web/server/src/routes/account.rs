@@ -11,9 +11,10 @@ use ocb_engine::model::{
 };
 
 use crate::App;
+use crate::address::Address;
 use crate::extract::{Json, Path};
 use crate::guest::{Browser, Member, SESSION, cookie, is_secure};
-use crate::limits::{Address, LOG_IN, MAKE_ACCOUNT};
+use crate::limits::{CHANGE_PASSWORD, LOG_IN, LOG_IN_ANYWHERE, LOG_IN_AS, MAKE_ACCOUNT};
 use crate::problem::{Problem, Result};
 use crate::request_key::{IdempotencyKey, RequestKey};
 
@@ -60,8 +61,17 @@ pub(crate) async fn log_in(
     Json(asked): Json<Credentials>,
 ) -> Result<Response> {
     app.limits.count(LOG_IN, &address)?;
-    app.limits.count(LOG_IN, &asked.name)?;
-    let account = app.engine.account_with(&asked.name, &asked.password).await?;
+    let name = asked.name.trim();
+    // Before anything is made of it: no account has a name of megabytes.
+    if !app.engine.may_be_a_name(name) {
+        return Err(Problem::new(StatusCode::FORBIDDEN, "Name and password do not belong together."));
+    }
+    app.limits.count(LOG_IN_AS, &format!("{address} {name}"))?;
+    if !app.engine.knows_device(name, &guest).await? {
+        app.limits.count(LOG_IN_ANYWHERE, name)?;
+    }
+    let account = app.engine.account_with(name, &asked.password).await?;
+    app.engine.remember_device(&account, &guest).await?;
     enter(&app, &guest, &headers, account, asked.keep).await
 }
 
@@ -118,7 +128,7 @@ pub(crate) async fn change_password(
     headers: HeaderMap,
     Json(asked): Json<NewPassword>,
 ) -> Result<Response> {
-    app.limits.count(LOG_IN, &account.name)?;
+    app.limits.count(CHANGE_PASSWORD, &account.name)?;
     app.engine.change_password(&account, &asked.old, &asked.new).await?;
     Ok(left(&headers))
 }

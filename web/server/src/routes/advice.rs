@@ -4,14 +4,17 @@ use axum::Json as Answer;
 use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use ocb_engine::Visitor;
 use ocb_engine::model::{AdviceInfo, AdviceSpec, Side};
 use serde::Deserialize;
 use utoipa::IntoParams;
 
 use crate::App;
+use crate::address::Remote;
 use crate::download::download;
 use crate::extract::{Json, Path, Query};
 use crate::guest::Guest;
+use crate::limits::ASK_ADVICE;
 use crate::problem::{Problem, Result};
 use crate::request_key::{IdempotencyKey, RequestKey};
 
@@ -22,16 +25,19 @@ use crate::request_key::{IdempotencyKey, RequestKey};
         (status = 201, description = "Queued; `Location` names it", body = AdviceInfo),
         (status = 400, description = "No JSON", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Too many wait already", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "The question cannot be asked", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too much waits already; `Retry-After` says when to try again", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn ask_advice(
     State(app): State<App>,
     Guest(guest): Guest,
+    Remote(address): Remote,
     key: RequestKey,
     Json(spec): Json<AdviceSpec>,
 ) -> Result<Response> {
-    let (info, new) = app.engine.ask_advice(spec, &guest, key.as_deref()).await?;
+    app.limits.count_remote(ASK_ADVICE, address.as_deref())?;
+    let visitor = Visitor { owner: guest, address };
+    let (info, new) = app.engine.ask_advice(spec, &visitor, key.as_deref()).await?;
     let location = format!("/api/v1/advice/{}", info.id);
     let status = if new { StatusCode::CREATED } else { StatusCode::OK };
     Ok((status, [(header::LOCATION, location)], Answer(info)).into_response())

@@ -5,9 +5,10 @@ use axum::extract::State;
 use ocb_engine::model::{Choices, NewAddress, NewChoices, OpenedLink};
 
 use crate::App;
+use crate::address::Address;
 use crate::extract::Json;
 use crate::guest::Member;
-use crate::limits::{Address, CONFIRM, GIVE_ADDRESS, MAIL_TO};
+use crate::limits::{CONFIRM, GIVE_ADDRESS, MAIL_TO};
 use crate::problem::{Problem, Result};
 
 /// What the account has chosen, and where its mails go.

@@ -7,9 +7,10 @@ use axum::response::{IntoResponse, Response};
 use ocb_engine::model::{Acceptance, AccountInfo, InvitationInfo, InvitationRequest, NewInvitation, Page};
 
 use crate::App;
+use crate::address::Address;
 use crate::extract::{Json, Path, Query};
 use crate::guest::{Curator, Member};
-use crate::limits::{ACCEPT, Address};
+use crate::limits::ACCEPT;
 use crate::list;
 use crate::origin::own_origin;
 use crate::problem::{Problem, Result};

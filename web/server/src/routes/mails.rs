@@ -5,8 +5,9 @@ use axum::http::StatusCode;
 use ocb_engine::EngineError;
 
 use crate::App;
+use crate::address::Address;
 use crate::extract::Path;
-use crate::limits::{Address, TURN_OFF};
+use crate::limits::TURN_OFF;
 use crate::problem::{Problem, Result};
 
 /// Turns off the mails of the account that a mail with this link went to, without logging in, and nothing else; doing it again changes

@@ -1,14 +1,17 @@
 //! Runs: asking, looking, cancelling, refining.
 
-use axum::Json as Answer;
 use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use axum::{Extension, Json as Answer};
 use ocb_engine::model::{Estimate, NewVisibility, Page, RunInfo, RunSpec};
+use ocb_engine::{EngineError, Visitor};
 
 use crate::App;
+use crate::address::Remote;
 use crate::extract::{Json, Path, Query};
-use crate::guest::Guest;
+use crate::guest::{Guest, Person};
+use crate::limits::ASK_RUN;
 use crate::list;
 use crate::problem::{Problem, Result};
 use crate::request_key::{IdempotencyKey, RequestKey};
@@ -30,14 +33,14 @@ fn example() -> serde_json::Value {
         (status = 200, body = Estimate),
         (status = 400, description = "No JSON", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The spec cannot be run", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The spec cannot be run, or asks for more time than its owner may have", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn estimate_run(
     State(app): State<App>,
     Guest(guest): Guest,
     Json(spec): Json<RunSpec>,
 ) -> Result<Answer<Estimate>> {
-    Ok(Answer(app.engine.estimate(&spec, Some(&guest)).await?))
+    Ok(Answer(app.engine.estimate_for(&spec, &guest).await?))
 }
 
 /// Asks for a run. With an `Idempotency-Key` the same request, sent again because its answer was lost, gives the same run.
@@ -48,18 +51,19 @@ pub(crate) async fn estimate_run(
         (status = 201, description = "Queued; `Location` names it", body = RunInfo),
         (status = 400, description = "No JSON", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The spec cannot be run", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The spec cannot be run, or asks for more time than its owner may have", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too much waits or is under way; `Retry-After` says when to try again", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn start_run(
     State(app): State<App>,
     Guest(guest): Guest,
+    Remote(address): Remote,
     key: RequestKey,
     Json(spec): Json<RunSpec>,
 ) -> Result<Response> {
-    let (run, new) = match key.as_deref() {
-        Some(key) => app.engine.submit_once(spec, &guest, key).await?,
-        None => (app.engine.submit(spec, Some(&guest)).await?, true),
-    };
+    app.limits.count_remote(ASK_RUN, address.as_deref())?;
+    let visitor = Visitor { owner: guest, address };
+    let (run, new) = app.engine.submit_for(spec, &visitor, key.as_deref()).await?;
     let location = format!("/api/v1/runs/{}", run.id);
     let status = if new { StatusCode::CREATED } else { StatusCode::OK };
     Ok((status, [(header::LOCATION, location)], Answer(run)).into_response())
@@ -94,7 +98,7 @@ pub(crate) async fn show_run(
     Ok(Answer(app.engine.run(&id, Some(&guest)).await?))
 }
 
-/// Ends a run that is queued or at work; one that has ended stays as it is.
+/// Ends a run that is queued or at work; one that has ended stays as it is. A curator who is logged in ends anybody's.
 #[utoipa::path(post, path = "/runs/{id}/cancel", tag = "runs",
     params(("id" = String, Path, description = "Run id")),
     responses(
@@ -105,9 +109,15 @@ pub(crate) async fn show_run(
 pub(crate) async fn cancel_run(
     State(app): State<App>,
     Guest(guest): Guest,
+    person: Option<Extension<Person>>,
     Path(id): Path<String>,
 ) -> Result<Answer<RunInfo>> {
-    Ok(Answer(app.engine.cancel(&id, Some(&guest)).await?))
+    match (app.engine.cancel(&id, Some(&guest)).await, person) {
+        (Err(EngineError::Forbidden(_)), Some(Extension(Person(account)))) => {
+            Ok(Answer(app.engine.cancel_of_others(&id, &account).await?))
+        }
+        (cancelled, _) => Ok(Answer(cancelled?)),
+    }
 }
 
 /// Queues a run that has ended as a preview for all of its configurations.

@@ -28,3 +28,5 @@ mod stream;
 mod suite;
 mod support;
 mod things;
+mod uploads;
+mod visitors;

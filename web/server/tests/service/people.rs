@@ -19,7 +19,7 @@ pub async fn member(service: &Service, name: &str, role: Role) -> Guest {
     guest
 }
 
-async fn log_in(guest: &Guest, name: &str, password: &str) -> Response {
+pub async fn log_in(guest: &Guest, name: &str, password: &str) -> Response {
     let body = json!({ "name": name, "password": password });
     guest.post("/api/v1/account/login").json(&body).send().await.expect("an answer")
 }

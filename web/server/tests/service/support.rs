@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use ocb_engine::{Engine, EngineConfig, MailServer, Profile};
+use ocb_engine::{Ceilings, Engine, EngineConfig, MailServer, Profile};
 use reqwest::{Client, Method, RequestBuilder, Response, StatusCode};
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -27,6 +27,9 @@ pub struct How {
     pub suite: Option<PathBuf>,
     pub mail: Option<MailServer>,
     pub machine_note: Option<String>,
+    pub ceilings: Option<Ceilings>,
+    /// Nothing is worked on.
+    pub idle: bool,
 }
 
 impl Service {
@@ -50,6 +53,12 @@ impl Service {
         Self::open(How { plugins: ours(&["libocb_box_tree.so"]), mail: Some(mail), ..How::default() }).await
     }
 
+    /// The smallest one with these ceilings, which works on nothing.
+    pub async fn start_limited(ceilings: Ceilings) -> Self {
+        let plugins = ours(&["libocb_box_tree.so", "libocb_brute_force.so"]);
+        Self::open(How { plugins, ceilings: Some(ceilings), idle: true, ..How::default() }).await
+    }
+
     async fn open(how: How) -> Self {
         Self::open_in(tempfile::tempdir().expect("a temporary folder"), how).await
     }
@@ -62,11 +71,13 @@ impl Service {
         config.machine_note.clone_from(&how.machine_note);
         config.profile = Profile::Dev;
         config.mail.clone_from(&how.mail);
+        config.ceilings = how.ceilings.unwrap_or_default();
+        config.dispatch = !how.idle;
         let engine = Engine::open(config).await.expect("the engine opens");
         let listener = ocb_server::bind(([127, 0, 0, 1], 0).into()).await.expect("a free port");
         let url = format!("http://{}", listener.local_addr().expect("an address"));
         let (stop, stopped) = oneshot::channel();
-        let served = tokio::spawn(ocb_server::serve(engine.clone(), listener, async {
+        let served = tokio::spawn(ocb_server::serve(engine.clone(), ocb_server::Names::default(), listener, async {
             let _ = stopped.await;
         }));
         Self { url, engine, stop, served, how, data }
@@ -192,6 +203,7 @@ pub fn small_spec() -> Value {
         "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 60 } },
         "algorithms": ["box-tree", "brute-force"],
         "passes": 1,
+        "budget_seconds": 10.0,
     })
 }
 
