@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use ocb_server::Names;
 use serde_json::json;
 use tokio::signal::unix::{SignalKind, signal};
 
@@ -33,9 +34,18 @@ pub async fn serve(store: &Store, args: &ServeArgs, json: bool) -> Result<ExitCo
     } else {
         eprintln!("OpenCollBench serves on {url}; stop it with Ctrl-C.");
     }
-    ocb_server::serve(engine.clone(), listener, stop).await;
+    ocb_server::serve(engine.clone(), names(args), listener, stop).await;
     engine.shutdown().await;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Those that were given, and where mails lead to.
+fn names(args: &ServeArgs) -> Names {
+    let public = args.mail.public_url.as_deref().and_then(|url| {
+        let (_, rest) = url.split_once("://")?;
+        rest.split(['/', ':']).next().map(str::to_owned)
+    });
+    Names::new(args.host_name.iter().cloned().chain(public))
 }
 
 /// Ready when the process is asked to stop.

@@ -1,12 +1,14 @@
 //! Answers that are files to save.
 
 use std::fs::File;
+use std::sync::Arc;
 
 use axum::body::Body;
 use axum::http::{HeaderName, header};
 use axum::response::{IntoResponse, Response};
 use futures::stream;
 use tokio::io::AsyncReadExt;
+use tokio::sync::{Mutex, OwnedSemaphorePermit, Semaphore};
 
 use crate::problem::{Problem, Result};
 
@@ -18,14 +20,50 @@ pub(crate) fn download(media_type: &str, name: &str, bytes: Vec<u8>) -> Response
     (head(media_type, name), bytes).into_response()
 }
 
-/// What an open file holds, from where it stands.
-pub(crate) fn download_file(media_type: &str, name: &str, file: File) -> Result<Response> {
+/// How many archives lie on the disk at a time: readers may be slow.
+const ARCHIVES: usize = 8;
+
+/// The archives that are written or sent, and whose turn it is to write one.
+pub(crate) struct Archives {
+    places: Arc<Semaphore>,
+    writing: Mutex<()>,
+}
+
+impl Default for Archives {
+    fn default() -> Self {
+        Self { places: Arc::new(Semaphore::new(ARCHIVES)), writing: Mutex::default() }
+    }
+}
+
+impl Archives {
+    /// Writes one and sends it.
+    ///
+    /// # Errors
+    /// 429 while too many are being sent.
+    pub(crate) async fn send(
+        &self,
+        media_type: &str,
+        name: &str,
+        write: impl Future<Output = ocb_engine::Result<File>>,
+    ) -> Result<Response> {
+        let place = self.places.clone().try_acquire_owned().map_err(|_| {
+            Problem::too_much("Others are taking archives along; try again when one of them has theirs.", 30)
+        })?;
+        let writing = self.writing.lock().await;
+        let file = write.await?;
+        drop(writing);
+        download_file(media_type, name, file, place)
+    }
+}
+
+/// What an open file holds, from where it stands; its place is free when all of it is sent.
+fn download_file(media_type: &str, name: &str, file: File, place: OwnedSemaphorePermit) -> Result<Response> {
     let length = file.metadata().map_err(Problem::fault)?.len();
-    let chunks = stream::try_unfold(tokio::fs::File::from_std(file), async |mut file| {
+    let chunks = stream::try_unfold((tokio::fs::File::from_std(file), place), async |(mut file, place)| {
         let mut chunk = vec![0; CHUNK];
         let read = file.read(&mut chunk).await?;
         chunk.truncate(read);
-        Ok::<_, std::io::Error>((read > 0).then_some((chunk, file)))
+        Ok::<_, std::io::Error>((read > 0).then_some((chunk, (file, place))))
     });
     Ok((head(media_type, name), [(header::CONTENT_LENGTH, length.to_string())], Body::from_stream(chunks))
         .into_response())

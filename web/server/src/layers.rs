@@ -41,6 +41,7 @@ pub(crate) fn wrap(router: Router<App>, app: &App) -> Router<App> {
         .layer(middleware::from_fn_with_state(app.clone(), privacy::hide_private_things))
         .layer(middleware::from_fn_with_state(app.clone(), guest::recognise))
         .layer(middleware::from_fn(origin::refuse_other_sites))
+        .layer(middleware::from_fn_with_state(app.clone(), origin::refuse_other_names))
         .layer(middleware::from_fn(pace::refuse_slow_bodies))
         .layer(CatchPanicLayer::custom(after_panic))
         .layer(middleware::from_fn(protect))

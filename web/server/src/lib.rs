@@ -3,6 +3,7 @@
 //! Everything that is known comes from one [`Engine`]; its values ([`ocb_engine::model`]) are the JSON of this API. The
 //! server sends numbers, never colours (except in the downloads that are pictures of a heatmap).
 
+mod address;
 mod connections;
 mod document;
 mod download;
@@ -30,6 +31,7 @@ use ocb_engine::Engine;
 use tokio::net::TcpListener;
 use tokio::sync::watch;
 
+pub use origin::Names;
 pub use problem::Problem;
 pub use routes::{document, router};
 
@@ -43,22 +45,26 @@ pub struct App {
     uploads: std::sync::Arc<upload::Turns>,
     /// Held while a plugin is taken: what room its account has is looked at first, and must be there still when it is added.
     submitting: std::sync::Arc<tokio::sync::Mutex<()>>,
-    /// Held while somebody's things are packed.
-    packing: std::sync::Arc<tokio::sync::Mutex<()>>,
+    archives: std::sync::Arc<download::Archives>,
+    /// Held while a large mesh is drawn up for the viewer.
+    drawing: std::sync::Arc<tokio::sync::Semaphore>,
     limits: std::sync::Arc<limits::Limits>,
+    names: origin::Names,
     /// True from the moment the service is asked to stop: progress streams end, so that their connections can.
     stopping: watch::Receiver<bool>,
 }
 
 impl App {
-    /// The engine behind HTTP; `stopping` ends the progress streams.
-    pub fn new(engine: Engine, stopping: watch::Receiver<bool>) -> Self {
+    /// The engine behind HTTP, reached under these names; `stopping` ends the progress streams.
+    pub fn new(engine: Engine, names: Names, stopping: watch::Receiver<bool>) -> Self {
         Self {
             engine,
             uploads: std::sync::Arc::default(),
             submitting: std::sync::Arc::default(),
-            packing: std::sync::Arc::default(),
+            archives: std::sync::Arc::default(),
+            drawing: std::sync::Arc::new(tokio::sync::Semaphore::new(2)),
             limits: std::sync::Arc::default(),
+            names,
             stopping,
         }
     }
@@ -72,10 +78,15 @@ pub async fn bind(address: SocketAddr) -> io::Result<TcpListener> {
     TcpListener::bind(address).await
 }
 
-/// Serves until `shutdown` is ready, then ends open requests; the engine stays open.
-pub async fn serve(engine: Engine, listener: TcpListener, shutdown: impl Future<Output = ()> + Send + 'static) {
+/// Serves under these names until `shutdown` is ready, then ends open requests; the engine stays open.
+pub async fn serve(
+    engine: Engine,
+    names: Names,
+    listener: TcpListener,
+    shutdown: impl Future<Output = ()> + Send + 'static,
+) {
     let (stop, stopping) = watch::channel(false);
-    let app = router(App::new(engine, stopping.clone()));
+    let app = router(App::new(engine, names, stopping.clone()));
     let serving = connections::serve(listener, app, stopping);
     let ended = async {
         shutdown.await;

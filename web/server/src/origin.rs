@@ -1,13 +1,53 @@
 //! Where a request was sent from, and to. A page of another site must not act in a visitor's name: browsers say where a request
 //! comes from.
 
-use axum::extract::Request;
+use std::net::IpAddr;
+
+use axum::extract::{Request, State};
 use axum::http::{HeaderMap, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
+use crate::App;
 use crate::guest::is_secure;
 use crate::problem::{Problem, Result};
+
+/// The names under which this service may be reached beside addresses and loopback names, in lower case.
+///
+/// A page of another site can have its own name lead to this machine, and would then be of the same origin: but under that
+/// name it would have to ask.
+#[derive(Clone, Debug, Default)]
+pub struct Names(Vec<String>);
+
+impl Names {
+    /// These names, without ports.
+    pub fn new(names: impl IntoIterator<Item = String>) -> Self {
+        Self(names.into_iter().map(|name| name.trim().to_lowercase()).filter(|name| !name.is_empty()).collect())
+    }
+
+    fn know(&self, host: &str) -> bool {
+        let name = match host.rsplit_once(':') {
+            Some((name, port)) if port.bytes().all(|c| c.is_ascii_digit()) => name,
+            _ => host,
+        };
+        let name = name.trim_end_matches('.').to_lowercase();
+        let literal = name.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>().is_ok();
+        literal || name == "localhost" || name.ends_with(".localhost") || self.0.contains(&name)
+    }
+}
+
+/// Refuses what was sent to a name that is not this service's.
+pub(crate) async fn refuse_other_names(State(app): State<App>, request: Request, next: Next) -> Response {
+    let host = request.headers().get(header::HOST).map(|host| host.to_str().unwrap_or_default());
+    if let Some(host) = host.filter(|host| !app.names.know(host)) {
+        let shown: String = host.chars().filter(|c| !c.is_control()).take(100).collect();
+        let detail = format!(
+            "This service is not known under the name {shown:?}; who runs it allows a name with `ocb serve --host-name`."
+        );
+        return Problem::new(StatusCode::MISDIRECTED_REQUEST, detail).into_response();
+    }
+    next.run(request).await
+}
 
 /// Refuses what changes something and was sent by a page of another site. `SameSite` cookies stop most of that already;
 /// programs send neither header, and carry no cookie that a page could ride on.
@@ -58,6 +98,25 @@ mod tests {
         assert!(from(&[("origin", "https://a.example")]));
         assert!(from(&[("origin", "null")]));
         assert!(from(&[("sec-fetch-site", "cross-site")]) && from(&[("sec-fetch-site", "same-site")]));
+    }
+
+    #[test]
+    fn only_own_names_are_known() {
+        let names = Names::new(["Bench.Example".to_owned(), String::new()]);
+        for own in [
+            "localhost",
+            "localhost:8080",
+            "a.localhost:1",
+            "127.0.0.1:80",
+            "[::1]:8080",
+            "192.0.2.7",
+            "bench.example:443",
+        ] {
+            assert!(names.know(own), "{own}");
+        }
+        for other in ["evil.example", "evil.example:8080", "localhost.evil.example", "127.0.0.1.evil.example", ""] {
+            assert!(!names.know(other), "{other}");
+        }
     }
 
     #[test]

@@ -66,7 +66,11 @@ fn api() -> OpenApiRouter<App> {
     let uploads = routes!(objects::list_objects, objects::add_object);
     let submissions = routes!(plugins::list_plugins, plugins::submit_plugin);
     let routes = OpenApiRouter::new()
-        .routes(uploads.layer(DefaultBodyLimit::disable()).layer(middleware::from_fn(upload::refuse_gently)))
+        .routes(
+            uploads
+                .layer(DefaultBodyLimit::max(upload::MAX_BODY_BYTES as usize))
+                .layer(middleware::from_fn(upload::refuse_gently)),
+        )
         .routes(routes!(objects::show_object, things::remove_object))
         .routes(routes!(things::things_of_object))
         .routes(routes!(objects::object_mesh))
@@ -121,7 +125,11 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(notices::list_notices))
         .routes(routes!(notices::read_notice))
         .routes(routes!(notices::remove_notice))
-        .routes(submissions.layer(DefaultBodyLimit::disable()).layer(middleware::from_fn(upload::refuse_gently)))
+        .routes(
+            submissions
+                .layer(DefaultBodyLimit::max(upload::MAX_BODY_BYTES as usize))
+                .layer(middleware::from_fn(upload::refuse_gently)),
+        )
         .routes(routes!(plugins::show_plugin))
         .routes(routes!(plugins::follow_plugin))
         .routes(routes!(citations::cite_plugin))

@@ -1,6 +1,6 @@
-//! One uploaded file, never more of it in memory than an object may have.
+//! One uploaded file: on disk while it comes, however slowly, and in memory when its turn has come.
 
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
 use axum::body::{Body, BodyDataStream};
@@ -12,8 +12,11 @@ use axum::response::{IntoResponse, Response};
 use futures::StreamExt;
 use ocb_engine::MAX_PLUGIN_BYTES;
 use ocb_engine::model::Manifest;
+use tokio::fs::File;
+use tokio::io::{AsyncReadExt, AsyncSeekExt, AsyncWriteExt};
 use tokio::sync::{Mutex, Semaphore, SemaphorePermit};
 
+use crate::App;
 use crate::problem::{Problem, Result};
 
 /// The most that an uploaded file may have.
@@ -26,34 +29,85 @@ pub(crate) const MAX_BODY_BYTES: u64 = MAX_BYTES as u64 + (1 << 20);
 const MANIFEST_BYTES: usize = 64 << 10;
 const SIGNATURE_BYTES: usize = 4 << 10;
 
+/// The most that a part may have that nobody asked for.
+const OTHER_BYTES: usize = 64 << 10;
+
 /// What counts as a small upload, and how many small and large ones are held in memory at a time; others wait. A large one may
-/// take long to come, and must not keep the small ones waiting.
-const SMALL_BYTES: u64 = 8 << 20;
+/// take long to be read, and must not keep the small ones waiting.
+const SMALL_BYTES: usize = 8 << 20;
 const SMALL_AT_A_TIME: usize = 16;
 const LARGE_AT_A_TIME: usize = 2;
+
+/// How many uploads may come at a time, and how many of these from one address.
+const COMING: usize = 200;
+const COMING_FROM_ONE: usize = 16;
 
 /// How much and for how long a refused body is read on.
 const DRAIN_BYTES: u64 = 4 << 30;
 const DRAIN_TIME: Duration = Duration::from_secs(60);
 
-/// Uploads take turns: that bounds the memory of many at once.
+/// Uploads take turns: that bounds the memory, and the room on disk, of many at once.
 pub(crate) struct Turns {
     small: Semaphore,
     large: Semaphore,
+    /// From where those come that are under way.
+    coming: std::sync::Mutex<Vec<Option<String>>>,
+}
+
+/// An upload that is under way.
+pub(crate) struct Coming<'a>(&'a Turns, Option<String>);
+
+impl Drop for Coming<'_> {
+    fn drop(&mut self) {
+        let mut coming = self.0.coming.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(at) = coming.iter().position(|from| *from == self.1) {
+            coming.swap_remove(at);
+        }
+    }
 }
 
 impl Default for Turns {
     fn default() -> Self {
-        Self { small: Semaphore::new(SMALL_AT_A_TIME), large: Semaphore::new(LARGE_AT_A_TIME) }
+        let coming = std::sync::Mutex::default();
+        Self { small: Semaphore::new(SMALL_AT_A_TIME), large: Semaphore::new(LARGE_AT_A_TIME), coming }
     }
 }
 
 impl Turns {
-    /// Waits for its turn, which is held until the file is stored.
-    pub(crate) async fn take(&self, headers: &HeaderMap) -> Result<SemaphorePermit<'_>> {
-        let small = content_length(headers).is_some_and(|length| length <= SMALL_BYTES);
-        let pool = if small { &self.small } else { &self.large };
+    /// Lets an upload come; what is given back is held until it is there.
+    ///
+    /// # Errors
+    /// 429 when too many are coming already.
+    pub(crate) fn begin(&self, from: Option<String>) -> Result<Coming<'_>> {
+        let mut coming = self.coming.lock().unwrap_or_else(PoisonError::into_inner);
+        let of_one = coming.iter().filter(|other| from.is_some() && **other == from).count();
+        if coming.len() >= COMING || of_one >= COMING_FROM_ONE {
+            return Err(Problem::too_much("Too many uploads are under way; try again when one of them has ended.", 30));
+        }
+        coming.push(from.clone());
+        Ok(Coming(self, from))
+    }
+
+    /// Waits for the turn of a file that is there; it is held until the file is stored.
+    pub(crate) async fn take(&self, file: &Spooled) -> Result<SemaphorePermit<'_>> {
+        let pool = if file.bytes <= SMALL_BYTES { &self.small } else { &self.large };
         pool.acquire().await.map_err(Problem::fault)
+    }
+}
+
+/// A file without a name on disk: nothing is left of it when the service ends.
+pub(crate) struct Spooled {
+    file: File,
+    bytes: usize,
+}
+
+impl Spooled {
+    /// All of it.
+    pub(crate) async fn read(mut self) -> Result<Vec<u8>> {
+        let mut bytes = Vec::with_capacity(self.bytes);
+        self.file.rewind().await.map_err(Problem::fault)?;
+        self.file.read_to_end(&mut bytes).await.map_err(Problem::fault)?;
+        Ok(bytes)
     }
 }
 
@@ -62,7 +116,7 @@ pub(crate) struct Upload {
     /// Its name, without folder and control characters.
     pub name: String,
     /// Its content.
-    pub bytes: Vec<u8>,
+    pub file: Spooled,
 }
 
 /// Answers a body that is too large, or refused half-way, so that the client sees the answer.
@@ -112,18 +166,18 @@ fn content_length(headers: &HeaderMap) -> Option<u64> {
     headers.get(header::CONTENT_LENGTH)?.to_str().ok()?.parse().ok()
 }
 
-impl<S: Send + Sync> FromRequest<S> for Upload {
-    type Rejection = Problem;
-
-    async fn from_request(request: Request, state: &S) -> Result<Self> {
-        let mut form = Multipart::from_request(request, state)
+impl Upload {
+    /// From a form with the file in a field of that name.
+    pub(crate) async fn read(request: Request, app: &App) -> Result<Self> {
+        let mut form = Multipart::from_request(request, app)
             .await
             .map_err(|_| Problem::bad_request("Send the file as multipart/form-data in a field named \"file\"."))?;
         while let Some(field) = form.next_field().await.map_err(broken)? {
             if field.name() == Some("file") {
                 let name = clean_name(field.file_name().unwrap_or_default());
-                return Ok(Self { name, bytes: read(field, MAX_BYTES).await? });
+                return Ok(Self { name, file: spool(field, MAX_BYTES, app).await? });
             }
+            read(field, OTHER_BYTES).await?;
         }
         Err(Problem::bad_request("The form has no field named \"file\"."))
     }
@@ -134,7 +188,7 @@ pub(crate) struct Submission {
     /// Name of the file, without folder and control characters.
     pub name: String,
     /// Its content.
-    pub bytes: Vec<u8>,
+    pub file: Spooled,
     /// What its author says of it.
     pub manifest: Manifest,
     /// What minisign wrote of it.
@@ -143,9 +197,9 @@ pub(crate) struct Submission {
 
 impl Submission {
     /// From a form with the manifest first, then a signature if there is one, and the file last.
-    pub(crate) async fn read<S: Send + Sync>(request: Request, state: &S) -> Result<Self> {
+    pub(crate) async fn read(request: Request, app: &App) -> Result<Self> {
         let explained = "Send multipart/form-data with \"manifest\" (JSON), then \"file\" (the shared library).";
-        let mut form = Multipart::from_request(request, state).await.map_err(|_| Problem::bad_request(explained))?;
+        let mut form = Multipart::from_request(request, app).await.map_err(|_| Problem::bad_request(explained))?;
         let (mut manifest, mut signature) = (None, None);
         while let Some(field) = form.next_field().await.map_err(broken)? {
             match (field.name().unwrap_or_default(), manifest.take()) {
@@ -163,13 +217,31 @@ impl Submission {
                 }
                 ("file", Some(manifest)) => {
                     let name = clean_name(field.file_name().unwrap_or_default());
-                    return Ok(Self { name, bytes: read(field, MAX_PLUGIN_BYTES).await?, manifest, signature });
+                    return Ok(Self { name, file: spool(field, MAX_PLUGIN_BYTES, app).await?, manifest, signature });
                 }
-                (_, kept) => manifest = kept,
+                (_, kept) => {
+                    read(field, OTHER_BYTES).await?;
+                    manifest = kept;
+                }
             }
         }
         Err(Problem::bad_request(explained))
     }
+}
+
+/// What comes is written at once: whoever sends slowly holds no memory.
+async fn spool(mut field: Field<'_>, most: usize, app: &App) -> Result<Spooled> {
+    let mut file = File::from_std(app.engine.temporary_file()?);
+    let mut bytes = 0;
+    while let Some(chunk) = field.chunk().await.map_err(broken)? {
+        bytes += chunk.len();
+        if bytes > most {
+            return Err(Problem::too_large(most));
+        }
+        file.write_all(&chunk).await.map_err(Problem::fault)?;
+    }
+    file.flush().await.map_err(Problem::fault)?;
+    Ok(Spooled { file, bytes })
 }
 
 async fn read(mut field: Field<'_>, most: usize) -> Result<Vec<u8>> {

@@ -1,7 +1,7 @@
 //! Objects: stock ones and the visitor's own.
 
 use axum::Json;
-use axum::extract::{FromRequest, Request, State};
+use axum::extract::{Request, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use ocb_core::export::glb;
@@ -10,8 +10,10 @@ use ocb_engine::{Made, sha256_hex};
 use utoipa::ToSchema;
 
 use crate::App;
+use crate::address::Remote;
 use crate::extract::{Json as Body, Path, Query};
 use crate::guest::Guest;
+use crate::limits::{ADD_MEBIBYTES, ADD_OBJECT};
 use crate::list;
 use crate::problem::{Problem, Result};
 use crate::request_key::{IdempotencyKey, RequestKey};
@@ -50,15 +52,25 @@ struct UploadForm {
         (status = 400, description = "No well-formed upload", body = Problem, content_type = "application/problem+json"),
         (status = 413, description = "Larger than 256 MiB", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "No usable OBJ file; says line and reason", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many uploads; `Retry-After` says when to try again", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn add_object(
     State(app): State<App>,
     Guest(guest): Guest,
+    Remote(address): Remote,
     key: RequestKey,
     request: Request,
 ) -> Result<(StatusCode, Json<ObjectInfo>)> {
-    let _turn = app.uploads.take(request.headers()).await?;
-    let Upload { name, bytes } = Upload::from_request(request, &app).await?;
+    app.limits.count_remote(ADD_OBJECT, address.as_deref())?;
+    let Upload { name, file } = {
+        let _coming = app.uploads.begin(address.clone())?;
+        Upload::read(request, &app).await?
+    };
+    let _turn = app.uploads.take(&file).await?;
+    let bytes = file.read().await?;
+    if let Some(address) = &address {
+        app.limits.count_many(ADD_MEBIBYTES, address, (bytes.len() >> 20) as u32)?;
+    }
     app.engine.id_of_request(&guest, Made::Object, key.as_deref(), &(&name, sha256_hex(&bytes))).await?;
     let object = app.engine.add_object(&name, bytes, Some(&guest)).await?;
     Ok((StatusCode::CREATED, Json(object)))
@@ -116,6 +128,7 @@ pub(crate) async fn object_mesh(
     if headers.get(header::IF_NONE_MATCH).is_some_and(|sent| sent.as_bytes() == tag.as_bytes()) {
         return Ok((StatusCode::NOT_MODIFIED, cache).into_response());
     }
+    let _turn = app.drawing.acquire().await;
     let mesh = app.engine.mesh(&id).await?;
     let bytes = tokio::task::spawn_blocking(move || glb::geometry(&mesh)).await.map_err(Problem::fault)?;
     Ok((cache, [(header::CONTENT_TYPE, "model/gltf-binary")], bytes).into_response())

@@ -16,6 +16,7 @@ use ocb_engine::{Engine, Made, sha256_hex};
 use utoipa::ToSchema;
 
 use crate::App;
+use crate::address::Remote;
 use crate::events::{sse, stopped};
 use crate::extract::{Json, Path, Query};
 use crate::guest::{Curator, Member};
@@ -75,14 +76,19 @@ struct SubmissionForm {
 pub(crate) async fn submit_plugin(
     State(app): State<App>,
     Member(account): Member,
+    Remote(address): Remote,
     key: RequestKey,
     request: axum::extract::Request,
 ) -> Result<Response> {
     app.limits.count(SUBMIT, &account.name)?;
     // Before anything is read: who may not submit need not send 64 MiB to hear it.
     app.engine.may_submit(&account)?;
-    let _turn = app.uploads.take(request.headers()).await?;
-    let Submission { name, bytes, manifest, signature } = Submission::read(request, &app).await?;
+    let Submission { name, file, manifest, signature } = {
+        let _coming = app.uploads.begin(address)?;
+        Submission::read(request, &app).await?
+    };
+    let _turn = app.uploads.take(&file).await?;
+    let bytes = file.read().await?;
     let asked = (sha256_hex(&bytes), &manifest, &signature);
     app.engine.id_of_request(&account.owner(), Made::Plugin, key.as_deref(), &asked).await?;
     let _alone = app.submitting.lock().await;

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use crate::App;
-use crate::download::{download, download_file};
+use crate::download::download;
 use crate::extract::{Path, Query};
 use crate::problem::{Problem, Result};
 
@@ -107,11 +107,10 @@ pub(crate) async fn configurations_parquet(State(app): State<App>, Path(id): Pat
         (status = 200, description = "recipe.json lists the files: configurations, answers, objects, and plugins under free licences", body = [u8], content_type = "application/zip"),
         (status = 404, description = "No such run, or no configurations", body = Problem, content_type = "application/problem+json"),
         (status = 409, description = "It is under way, or was measured by too old a version", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many archives are being sent", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn repro_zip(State(app): State<App>, Path(id): Path<String>) -> Result<Response> {
-    // One at a time: each is written to the disk before it is sent.
-    let _turn = app.packing.lock().await;
-    download_file("application/zip", &format!("{id}-repro.zip"), app.engine.repro(&id).await?)
+    app.archives.send("application/zip", &format!("{id}-repro.zip"), app.engine.repro(&id)).await
 }
 
 pub(crate) const PARQUET: &str = "application/vnd.apache.parquet";

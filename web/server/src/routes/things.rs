@@ -1,14 +1,14 @@
 //! What a visitor has made: how long it stays, and taking it away.
 
-use axum::Json;
 use axum::extract::State;
 use axum::response::Response;
-use ocb_engine::model::Things;
+use axum::{Extension, Json};
+use ocb_engine::Contents;
+use ocb_engine::model::{Scope, Things};
 
 use crate::App;
-use crate::download::download_file;
 use crate::extract::Path;
-use crate::guest::Guest;
+use crate::guest::{Guest, Token};
 use crate::problem::{Problem, Result};
 
 /// Everything that the visitor has made, which is what `DELETE` takes away, and until when it stays.
@@ -35,14 +35,23 @@ pub(crate) async fn keep_longer(State(app): State<App>, Guest(guest): Guest) -> 
 }
 
 /// Everything that the visitor has made, to take along: objects, runs with their configurations and records, advice with its
-/// reduced objects, plugins with their reports.
+/// reduced objects, plugins with their reports, and the account with what it was told. With a token only what it is for: the account
+/// is for the person alone, plugins need their scope.
 #[utoipa::path(get, path = "/things.tar", tag = "things",
-    responses((status = 200, description = "A folder per thing, JSON beside OBJ and Parquet", body = [u8], content_type = "application/x-tar")))]
-pub(crate) async fn take_along(State(app): State<App>, Guest(guest): Guest) -> Result<Response> {
-    // One at a time: each is written to the disk before it is sent.
-    let _turn = app.packing.lock().await;
-    let file = app.engine.archive(&guest).await?;
-    download_file("application/x-tar", "opencollbench.tar", file)
+    responses(
+        (status = 200, description = "A folder per thing, JSON beside OBJ and Parquet", body = [u8], content_type = "application/x-tar"),
+        (status = 429, description = "Too many archives are being sent", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(crate) async fn take_along(
+    State(app): State<App>,
+    Guest(guest): Guest,
+    token: Option<Extension<Token>>,
+) -> Result<Response> {
+    let contents = token.map_or(Contents::ALL, |Extension(Token(scopes))| Contents {
+        plugins: scopes.contains(&Scope::Plugins),
+        account: false,
+    });
+    app.archives.send("application/x-tar", "opencollbench.tar", app.engine.archive(&guest, contents)).await
 }
 
 /// What goes with a run.

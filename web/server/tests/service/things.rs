@@ -147,6 +147,24 @@ async fn everything_is_taken_along_in_one_archive() {
     assert_eq!(json("account.json")["name"], "owner");
     assert_eq!(json("notices.json"), made.owner.json("/api/v1/notices").await);
     assert_eq!(json("choices.json"), made.owner.json("/api/v1/account/choices").await);
+    // A token takes along what it is for, and nothing of the person.
+    for (scopes, plugins) in [(json!(["runs"]), false), (json!(["runs", "plugins"]), true)] {
+        let asked = json!({ "name": scopes.to_string(), "scopes": scopes });
+        let token = made.owner.post("/api/v1/account/tokens").json(&asked).send().await.expect("an answer");
+        let token: Value = token.json().await.expect("JSON");
+        let program =
+            service.guest().get("/api/v1/things.tar").bearer_auth(token["secret"].as_str().expect("a secret"));
+        let bytes = program.send().await.expect("an answer").bytes().await.expect("an archive");
+        let mut archive = tar::Archive::new(&bytes[..]);
+        let paths: Vec<String> = archive
+            .entries()
+            .expect("an archive")
+            .map(|entry| entry.expect("a file").path().expect("a path").display().to_string())
+            .collect();
+        let has = |folder: &str| paths.iter().any(|path| path.starts_with(&format!("opencollbench/{folder}")));
+        assert_eq!((has("runs/"), has("plugins/")), (true, plugins), "{paths:?}");
+        assert!(!["account", "choices", "notices"].iter().any(|file| has(file)), "{paths:?}");
+    }
     // A stranger's holds nothing of it.
     let (empty, _) = service.guest().bytes("/api/v1/things.tar").await;
     assert_eq!(tar::Archive::new(&empty[..]).entries().expect("an archive").count(), 1, "only the list of nothing");
