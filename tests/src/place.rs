@@ -15,9 +15,11 @@ pub fn built(name: &str) -> PathBuf {
     path
 }
 
-/// A file of the test data that lies beside the repository (or where `OCB_SHARED` says).
+/// A file of the test data that lies beside the repository (or where `OCB_SHARED` says). Where there are none at all, the test
+/// says that it was not run, which `make test` counts apart.
 pub fn shared(name: &str) -> PathBuf {
     let directory = std::env::var_os("OCB_SHARED").map_or_else(|| root().join("../shared"), PathBuf::from);
+    assert!(directory.join("meshes").is_dir(), "not run: objects missing, set OCB_SHARED");
     let path = directory.join(name);
     assert!(path.exists(), "the test data {} is missing: set OCB_SHARED to the folder that holds it", path.display());
     path

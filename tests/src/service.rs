@@ -11,7 +11,7 @@ use serde_json::Value;
 use crate::place::built;
 use crate::process::command;
 
-/// The built service on a data folder. Dropping it kills it as a power cut would.
+/// The built service on a data folder. Dropping it kills it.
 pub struct Service {
     child: Child,
     url: String,
@@ -61,7 +61,7 @@ impl Service {
         self.child.id()
     }
 
-    /// Ends the service as a power cut would: SIGKILL.
+    /// Ends the service by SIGKILL. What the system has taken over is not lost by that, as it would be with the power.
     pub fn kill(mut self) {
         self.child.kill().expect("the service was alive");
         self.child.wait().expect("the service is gone");

@@ -26,7 +26,7 @@ impl Blobs {
     pub fn open(data: &Path, url: Option<&str>) -> Result<Self> {
         let store: Arc<dyn ObjectStore> = match url {
             None => Arc::new(
-                // On the disk before the database speaks of it, also when the power goes.
+                // On the disk before the database speaks of it, synced, not only written.
                 LocalFileSystem::new_with_prefix(data)
                     .map_err(|e| fault("Opening the blob folder failed", e))?
                     .with_fsync(true),

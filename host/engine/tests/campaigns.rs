@@ -189,7 +189,7 @@ async fn what_another_oracle_judged_is_queued_whole_also_when_the_service_ended_
     assert_eq!((made.runs.waiting, made.state), (3, State::Running));
     engine.shutdown().await;
 
-    // As if the power had failed when one of them was queued.
+    // As if the service had been killed when one of them was queued.
     let last = format!("SELECT id FROM runs WHERE rerun_of = '{}'", agreed.id);
     for text in [
         "DELETE FROM run_stages WHERE run_id IN",

@@ -1,8 +1,8 @@
-//! The service as a whole: what its API says of itself, many visitors at once, slow ones, and the power going.
+//! The service as a whole: what its API says of itself, many visitors at once, slow ones, and SIGKILL.
 
 mod api;
+mod kills;
 mod load;
-mod power_cut;
 mod slow;
 
 use std::path::{Path, PathBuf};

@@ -17,6 +17,7 @@ pub mod reference;
 pub fn shared(file: &str) -> Vec<u8> {
     let folder = std::env::var_os("OCB_SHARED")
         .map_or_else(|| PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared")), PathBuf::from);
+    assert!(folder.join("meshes").is_dir(), "not run: objects missing, set OCB_SHARED");
     let path = folder.join(file);
     std::fs::read(&path).unwrap_or_else(|e| {
         panic!("{}: {e}; set OCB_SHARED to the folder with meshes/, stability/ and configurations/", path.display())

@@ -257,7 +257,7 @@ impl Inner {
     }
 
     /// When nothing of it waits, those whose runs were repeated are told, and the campaign has ended. Who is told is told before that
-    /// is noted: after a power cut rather twice than never.
+    /// is noted: after a kill rather twice than never.
     #[boxed]
     pub async fn end_campaign_when_through(&self, id: &str) -> Result<()> {
         let row = self.campaign_row(id).await?;

@@ -19,6 +19,7 @@ pub struct KnownSet {
 fn shared(folder: &str, name: &str) -> PathBuf {
     let root = std::env::var_os("OCB_SHARED")
         .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from);
+    assert!(root.join("meshes").is_dir(), "not run: objects missing, set OCB_SHARED");
     root.join(folder).join(name)
 }
 

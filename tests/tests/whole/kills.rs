@@ -1,4 +1,4 @@
-//! The power goes at random moments while objects and plugins are uploaded, plugins are checked and published, and runs are
+//! The service is killed at random moments while objects and plugins are uploaded, plugins are checked and published, and runs are
 //! asked for. What was acknowledged is there afterwards, and nothing is half done.
 
 use std::collections::BTreeMap;
@@ -17,7 +17,7 @@ use crate::{alone, asked, empty};
 const PLUGIN: &str = "libocb_sphere_tree.so";
 const INSTALLED: [&str; 2] = ["libocb_box_tree.so", "libocb_brute_force.so"];
 
-/// Times that the power goes during one version's life, and of these during its check: one that was begun three times is given
+/// Times that the service is killed during one version's life, and of these during its check: one that was begun three times is given
 /// up.
 const CUTS_OF_A_VERSION: u64 = 25;
 const CUTS_OF_A_CHECK: u64 = 2;
@@ -39,7 +39,7 @@ struct Promised {
     runs: Vec<String>,
 }
 
-/// Everybody who is at work when the power goes.
+/// Everybody who is at work when the service is killed.
 struct People {
     guest: Guest,
     developer: Guest,
@@ -122,7 +122,7 @@ impl People {
         loop {
             let (action, to) = if steps.state == "public" { ("suspend", "suspended") } else { ("reinstate", "public") };
             steps.under_way = Some(to);
-            let body = json!({ "action": action, "reason": "The power may go." });
+            let body = json!({ "action": action, "reason": "It may be killed." });
             let Some((status, told)) = self.curator.send(service, &format!("/plugins/{plugin}/decisions"), &body)
             else {
                 return;
@@ -183,7 +183,7 @@ fn offered(people: &People, service: &Service) -> bool {
     all.as_array().expect("algorithms").iter().any(|a| a["id"] == "sphere-tree")
 }
 
-/// Starts again after the power went; the audit log must be whole.
+/// Starts again after a kill; the audit log must be whole.
 fn again(data: &Path, service: Service) -> Service {
     service.kill();
     output(command(built("ocb")).args(["admin", "audit", "--data"]).arg(data));
@@ -253,10 +253,10 @@ fn publish(data: &Path, mut service: Service, people: &People, cuts: u64) -> (Se
 }
 
 #[test]
-fn nothing_promised_is_lost_and_nothing_half_published_when_the_power_goes() {
+fn nothing_promised_is_lost_and_nothing_half_published_at_a_kill() {
     let _alone = alone();
-    let cuts = asked("OCB_POWER_CUTS", 8);
-    let data = empty("power-cut");
+    let cuts = asked("OCB_KILLS", 8);
+    let data = empty("kills");
     for role in ["developer", "curator"] {
         add_account(&data, role);
     }
@@ -278,11 +278,11 @@ fn nothing_promised_is_lost_and_nothing_half_published_when_the_power_goes() {
     }
     assert_kept(&people, &service, &whole);
     let Promised { objects, plugins, runs } = whole;
-    println!("{cuts} cuts: {} objects, {} plugins, {} runs kept", objects.len(), plugins.len(), runs.len());
+    println!("{cuts} kills: {} objects, {} plugins, {} runs kept", objects.len(), plugins.len(), runs.len());
     assert!(!objects.is_empty() && !plugins.is_empty() && !runs.is_empty());
 }
 
-/// Everybody works, the power goes, and the service comes back with all that it had promised.
+/// Everybody works, the service is killed, and the service comes back with all that it had promised.
 fn cut(
     data: &Path,
     mut service: Service,
