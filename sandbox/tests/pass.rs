@@ -3,7 +3,7 @@
 mod common;
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -15,6 +15,12 @@ use ocb_sandbox::integrity::{self, Check};
 use ocb_sandbox::{Observation, Outcome, PassFacts, PassPlan, Policy, Sample};
 
 const QUESTIONS: u32 = 500;
+
+/// One of these tests keeps a CPU busy, which must not be that of another.
+fn alone() -> MutexGuard<'static, ()> {
+    static ALONE: Mutex<()> = Mutex::new(());
+    ALONE.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 fn plan(order: &[u32]) -> PassPlan<'_> {
     PassPlan { query: Query::CollisionFirst, order, coherent: false, seed: 7, allowance: Duration::from_secs(50) }
@@ -39,6 +45,7 @@ fn pass(defines: &[&str], plan: &PassPlan<'_>, stop_after: usize) -> (Vec<Observ
 
 #[test]
 fn every_question_comes_once_before_any_comes_again() {
+    let _alone = alone();
     let order: Vec<u32> = (0..QUESTIONS).rev().collect();
     let (seen, facts, outcome) = pass(&["WORK=2000"], &plan(&order), usize::MAX);
     assert_eq!((outcome, facts.reached), (Outcome::Completed, order.len()));
@@ -59,6 +66,7 @@ fn every_question_comes_once_before_any_comes_again() {
 
 #[test]
 fn the_order_of_a_coherent_set_is_kept() {
+    let _alone = alone();
     let order: Vec<u32> = (0..QUESTIONS).collect();
     let (seen, ..) = pass(&[], &PassPlan { coherent: true, ..plan(&order) }, usize::MAX);
     let (counted, again) = seen.split_at(order.len());
@@ -71,6 +79,7 @@ fn the_order_of_a_coherent_set_is_kept() {
 
 #[test]
 fn a_pass_ends_when_it_shall() {
+    let _alone = alone();
     let order: Vec<u32> = (0..QUESTIONS).collect();
     let (seen, facts, outcome) = pass(&[], &plan(&order), 200);
     assert_eq!((seen.len(), outcome), (200, Outcome::Completed));
@@ -85,6 +94,7 @@ fn a_pass_ends_when_it_shall() {
 
 #[test]
 fn remembering_gains_nothing_and_is_seen_where_questions_come_again() {
+    let _alone = alone();
     let order: Vec<u32> = (0..2 * QUESTIONS).collect();
     let median = |seen: &[Observation]| {
         let mut times: Vec<f64> = seen.iter().filter_map(|o| o.time).map(|time| time.ns).collect();
@@ -103,6 +113,7 @@ fn remembering_gains_nothing_and_is_seen_where_questions_come_again() {
 
 #[test]
 fn a_wait_for_the_cpu_is_taken_off_the_question_that_it_fell_into() {
+    let _alone = alone();
     // Another thread of this test computes on the runner's CPU all the while.
     let cpu = 0;
     let policy = Policy { runner_cpu: Some(cpu), supervisor_cpu: Some(1), ..common::policy() };

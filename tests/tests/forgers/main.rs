@@ -25,11 +25,15 @@ fn forgers_gain_nothing_and_honest_twins_keep_their_rank() {
     let kit = Kit::new(folder.path());
     objects::write(folder.path());
     let mut ledger = Ledger::default();
-    for run in rounds.map_or_else(plan::slice, plan::soak) {
+    for (i, run) in (1..).zip(rounds.map_or_else(plan::slice, plan::soak)) {
         let begun = Instant::now();
         let results = bench::measure(folder.path(), &kit, &run);
         ledger.enter(&run, &results);
         eprintln!("{:?} {:?} {:?}: {:.0} s", run.classes, run.question, run.condition, begun.elapsed().as_secs_f64());
+        // What a long campaign has found so far, in case that it is ended early.
+        if i % plan::CYCLE == 0 {
+            println!("after {i} runs\n{}", table::of(&ledger));
+        }
     }
     println!("{}", table::of(&ledger));
     let complaints = ledger.complaints();

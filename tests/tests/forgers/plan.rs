@@ -70,6 +70,9 @@ pub fn slice() -> Vec<Run> {
     ]
 }
 
+/// After so many runs every algorithm was measured under all conditions.
+pub const CYCLE: usize = 32;
+
 /// So many runs, every algorithm in turn under all conditions.
 pub fn soak(runs: usize) -> Vec<Run> {
     let parts = [
@@ -111,7 +114,7 @@ fn slow_ones() -> Vec<&'static str> {
 
 #[test]
 fn a_soak_reaches_every_algorithm_under_all_conditions() {
-    let runs = soak(32);
+    let runs = soak(CYCLE);
     for name in kit::all() {
         for (one_cpu, busy) in [(false, false), (false, true), (true, false), (true, true)] {
             let condition = Condition { one_cpu, busy };

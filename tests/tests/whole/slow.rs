@@ -47,7 +47,7 @@ fn until_closed(mut stream: &TcpStream, began: Instant) -> (String, Duration) {
 
 fn a_head_that_does_not_end_is_not_waited_for(service: &Service) {
     let (mut stream, began) = (connect(service), Instant::now());
-    stream.write_all(b"GET /api/v1/status HTTP/1.1\r\nHost: here\r\nX-Slow: ").expect("the first half is taken");
+    stream.write_all(b"GET /api/v1/status HTTP/1.1\r\nHost: localhost\r\nX-Slow: ").expect("the first half is taken");
     let mut drip = stream.try_clone().expect("a second handle");
     let dripping = std::thread::spawn(move || {
         while drip.write_all(b"a").is_ok() && began.elapsed() < PATIENCE {
@@ -61,11 +61,11 @@ fn a_head_that_does_not_end_is_not_waited_for(service: &Service) {
 }
 
 fn a_body_that_drips_gets_a_408_and_uploads_go_on_meanwhile(service: &Service) {
-    // They hold every place for large uploads; that nothing says how long they are makes them large.
+    // Whoever sends slowly waits for itself alone: its upload lies on the disk until all of it is there.
     let began = Instant::now();
     let slow = [connect(service), connect(service)];
     for mut stream in &slow {
-        let head = "POST /api/v1/objects HTTP/1.1\r\nHost: here\r\nTransfer-Encoding: chunked\r\n\
+        let head = "POST /api/v1/objects HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\
                     Content-Type: multipart/form-data; boundary=b\r\n\r\n";
         let part = "--b\r\nContent-Disposition: form-data; name=\"file\"; filename=\"slow.obj\"\r\n\r\nv 0 0 0\n";
         write!(stream, "{head}{:x}\r\n{part}\r\n", part.len()).expect("the first half is taken");
@@ -84,7 +84,7 @@ fn a_body_that_drips_gets_a_408_and_uploads_go_on_meanwhile(service: &Service) {
 fn an_answer_that_nobody_reads_is_given_up(service: &Service) {
     let (mut stream, began) = (connect(service), Instant::now());
     // More than the kernel keeps for a reader.
-    let request = "GET /api/v1/objects/stock:torus-knot@1000000/mesh.glb HTTP/1.1\r\nHost: here\r\n\r\n";
+    let request = "GET /api/v1/objects/stock:torus-knot@1000000/mesh.glb HTTP/1.1\r\nHost: localhost\r\n\r\n";
     stream.write_all(request.as_bytes()).expect("the request is taken");
     std::thread::sleep(Duration::from_secs(40));
     let (answer, after) = until_closed(&stream, began);
@@ -107,7 +107,7 @@ fn what_is_too_large_is_refused_by_what_it_says_and_by_what_comes(service: &Serv
     let json = vec![b' '; 3 << 20];
     let head = |path: &str, length: usize, more: &str| {
         format!(
-            "POST /api/v1{path} HTTP/1.1\r\nHost: here\r\nConnection: close\r\nContent-Length: {length}\r\n{more}\r\n"
+            "POST /api/v1{path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nContent-Length: {length}\r\n{more}\r\n"
         )
     };
     let answer = told(&head("/runs", json.len(), "Content-Type: application/json\r\n"), &json);
@@ -116,7 +116,7 @@ fn what_is_too_large_is_refused_by_what_it_says_and_by_what_comes(service: &Serv
     let answer = told(&head("/objects", 1 << 40, multipart), b"");
     assert!(answer.starts_with("HTTP/1.1 413 ") && answer.contains("256 MiB"), "{answer}");
     // A head has an end, too.
-    let answer = told(&format!("GET / HTTP/1.1\r\nHost: here\r\nX: {}\r\n\r\n", "a".repeat(2 << 20)), b"");
+    let answer = told(&format!("GET / HTTP/1.1\r\nHost: localhost\r\nX: {}\r\n\r\n", "a".repeat(2 << 20)), b"");
     assert!(answer.starts_with("HTTP/1.1 431 "), "{}", &answer[..answer.len().min(200)]);
     let manifest = json!({ "name": "n".repeat(100_000) });
     let (status, _) = Guest::default().send_plugin(service, &manifest, b"\x7fELF".to_vec()).expect("an answer");

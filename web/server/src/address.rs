@@ -11,24 +11,12 @@ use axum::http::request::Parts;
 /// whose request it passes on; nobody else is believed.
 pub(crate) struct Address(pub String);
 
-/// The same; absent for whoever sits at this machine, with no proxy between.
-pub(crate) struct Remote(pub Option<String>);
-
 impl<S: Send + Sync> FromRequestParts<S> for Address {
     type Rejection = Infallible;
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Infallible> {
         let (peer, told) = asker(parts);
         Ok(Self(told.unwrap_or_else(|| network(peer))))
-    }
-}
-
-impl<S: Send + Sync> FromRequestParts<S> for Remote {
-    type Rejection = Infallible;
-
-    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Infallible> {
-        let (peer, told) = asker(parts);
-        Ok(Self(told.or_else(|| (!peer.is_loopback()).then(|| network(peer)))))
     }
 }
 
@@ -60,7 +48,7 @@ mod tests {
 
     use super::*;
 
-    async fn of(peer: &str, forwarded: Option<&str>) -> (String, Option<String>) {
+    async fn of(peer: &str, forwarded: Option<&str>) -> String {
         let mut request = Request::builder();
         if let Some(forwarded) = forwarded {
             request = request.header("x-forwarded-for", forwarded);
@@ -68,21 +56,19 @@ mod tests {
         let (mut parts, ()) = request.body(()).unwrap().into_parts();
         parts.extensions.insert(ConnectInfo(SocketAddr::new(peer.parse().unwrap(), 1)));
         let Ok(Address(address)) = Address::from_request_parts(&mut parts, &()).await;
-        let Ok(Remote(remote)) = Remote::from_request_parts(&mut parts, &()).await;
-        (address, remote)
+        address
     }
 
     #[tokio::test]
     async fn an_address_is_that_of_the_visitor_and_a_subscriber_has_one() {
-        let same = |network: &str| (network.to_owned(), Some(network.to_owned()));
-        assert_eq!(of("127.0.0.1", None).await, ("127.0.0.1".to_owned(), None));
-        assert_eq!(of("127.0.0.1", Some("198.51.100.1, 203.0.113.7")).await, same("203.0.113.7"));
-        assert_eq!(of("203.0.113.9", Some("198.51.100.1")).await, same("203.0.113.9"), "it is no proxy of ours");
-        assert_eq!(of("::1", Some("2001:db8:1:2:3:4:5:6")).await, same("2001:db8:1:2::/64"));
-        assert_eq!(of("2001:db8:1:2:ffff::1", None).await, same("2001:db8:1:2::/64"));
-        assert_eq!(of("::ffff:203.0.113.7", None).await, same("203.0.113.7"));
-        assert_eq!(of("127.0.0.1", Some("203.0.113.7:4711")).await, same("203.0.113.7"));
-        assert_eq!(of("127.0.0.1", Some("[2001:db8::1]:4711")).await, same("2001:db8::/64"));
-        assert_eq!(of("127.0.0.1", Some("nonsense")).await, same("unreadable"), "not as if it sat at this machine");
+        assert_eq!(of("127.0.0.1", None).await, "127.0.0.1");
+        assert_eq!(of("127.0.0.1", Some("198.51.100.1, 203.0.113.7")).await, "203.0.113.7");
+        assert_eq!(of("203.0.113.9", Some("198.51.100.1")).await, "203.0.113.9", "it is no proxy of ours");
+        assert_eq!(of("::1", Some("2001:db8:1:2:3:4:5:6")).await, "2001:db8:1:2::/64");
+        assert_eq!(of("2001:db8:1:2:ffff::1", None).await, "2001:db8:1:2::/64");
+        assert_eq!(of("::ffff:203.0.113.7", None).await, "203.0.113.7");
+        assert_eq!(of("127.0.0.1", Some("203.0.113.7:4711")).await, "203.0.113.7");
+        assert_eq!(of("127.0.0.1", Some("[2001:db8::1]:4711")).await, "2001:db8::/64");
+        assert_eq!(of("127.0.0.1", Some("nonsense")).await, "unreadable");
     }
 }

@@ -52,11 +52,11 @@ pub(crate) const TURN_OFF: Limit = limit("turn mails off", "address", 20, 60);
 /// Plugins, per account.
 pub(crate) const SUBMIT: Limit = limit("submit a plugin", "account", 30, 3600);
 
-/// Runs, advice, objects and their MiB, per address.
+/// Runs, advice, objects and the MiB of what is uploaded, per address.
 pub(crate) const ASK_RUN: Limit = limit("ask for a run", "address", 120, 600);
 pub(crate) const ASK_ADVICE: Limit = limit("ask for advice", "address", 60, 3600);
 pub(crate) const ADD_OBJECT: Limit = limit("add an object", "address", 120, 3600);
-pub(crate) const ADD_MEBIBYTES: Limit = limit("add an object", "MiB", 4096, 24 * 3600);
+pub(crate) const ADD_MEBIBYTES: Limit = limit("upload so much", "MiB", 4096, 24 * 3600);
 
 /// Who tried: one of so many places, which a secret of this process gives. Memory is bounded by that, and two strangers share
 /// a place with a probability of 1 in 65,536.
@@ -89,11 +89,6 @@ impl Limits {
         let wait = not_until.wait_time_from(DefaultClock::default().now()).as_secs_f64().ceil().max(1.0) as u32;
         let detail = format!("Too many tries to {}; wait {wait} seconds and try again.", limit.name);
         Err(Problem::too_much(detail, wait))
-    }
-
-    /// Counts a try of a visitor who is not at this machine.
-    pub(crate) fn count_remote(&self, limit: Limit, remote: Option<&str>) -> Result<()> {
-        remote.map_or(Ok(()), |address| self.count(limit, address))
     }
 
     fn place(&self, who: &str) -> Place {

@@ -17,6 +17,7 @@ use tokio::io::{AsyncReadExt, AsyncSeekExt, AsyncWriteExt};
 use tokio::sync::{Mutex, Semaphore, SemaphorePermit};
 
 use crate::App;
+use crate::limits::ADD_MEBIBYTES;
 use crate::problem::{Problem, Result};
 
 /// The most that an uploaded file may have.
@@ -39,8 +40,8 @@ const SMALL_AT_A_TIME: usize = 16;
 const LARGE_AT_A_TIME: usize = 2;
 
 /// How many uploads may come at a time, and how many of these from one address.
-const COMING: usize = 200;
-const COMING_FROM_ONE: usize = 16;
+const COMING: usize = 400;
+const COMING_FROM_ONE: usize = 100;
 
 /// How much and for how long a refused body is read on.
 const DRAIN_BYTES: u64 = 4 << 30;
@@ -51,11 +52,11 @@ pub(crate) struct Turns {
     small: Semaphore,
     large: Semaphore,
     /// From where those come that are under way.
-    coming: std::sync::Mutex<Vec<Option<String>>>,
+    coming: std::sync::Mutex<Vec<String>>,
 }
 
 /// An upload that is under way.
-pub(crate) struct Coming<'a>(&'a Turns, Option<String>);
+pub(crate) struct Coming<'a>(&'a Turns, String);
 
 impl Drop for Coming<'_> {
     fn drop(&mut self) {
@@ -78,14 +79,14 @@ impl Turns {
     ///
     /// # Errors
     /// 429 when too many are coming already.
-    pub(crate) fn begin(&self, from: Option<String>) -> Result<Coming<'_>> {
+    pub(crate) fn begin(&self, from: &str) -> Result<Coming<'_>> {
         let mut coming = self.coming.lock().unwrap_or_else(PoisonError::into_inner);
-        let of_one = coming.iter().filter(|other| from.is_some() && **other == from).count();
+        let of_one = coming.iter().filter(|other| *other == from).count();
         if coming.len() >= COMING || of_one >= COMING_FROM_ONE {
             return Err(Problem::too_much("Too many uploads are under way; try again when one of them has ended.", 30));
         }
-        coming.push(from.clone());
-        Ok(Coming(self, from))
+        coming.push(from.to_owned());
+        Ok(Coming(self, from.to_owned()))
     }
 
     /// Waits for the turn of a file that is there; it is held until the file is stored.
@@ -168,14 +169,14 @@ fn content_length(headers: &HeaderMap) -> Option<u64> {
 
 impl Upload {
     /// From a form with the file in a field of that name.
-    pub(crate) async fn read(request: Request, app: &App) -> Result<Self> {
+    pub(crate) async fn read(request: Request, app: &App, from: &str) -> Result<Self> {
         let mut form = Multipart::from_request(request, app)
             .await
             .map_err(|_| Problem::bad_request("Send the file as multipart/form-data in a field named \"file\"."))?;
         while let Some(field) = form.next_field().await.map_err(broken)? {
             if field.name() == Some("file") {
                 let name = clean_name(field.file_name().unwrap_or_default());
-                return Ok(Self { name, file: spool(field, MAX_BYTES, app).await? });
+                return Ok(Self { name, file: spool(field, MAX_BYTES, app, from).await? });
             }
             read(field, OTHER_BYTES).await?;
         }
@@ -197,7 +198,7 @@ pub(crate) struct Submission {
 
 impl Submission {
     /// From a form with the manifest first, then a signature if there is one, and the file last.
-    pub(crate) async fn read(request: Request, app: &App) -> Result<Self> {
+    pub(crate) async fn read(request: Request, app: &App, from: &str) -> Result<Self> {
         let explained = "Send multipart/form-data with \"manifest\" (JSON), then \"file\" (the shared library).";
         let mut form = Multipart::from_request(request, app).await.map_err(|_| Problem::bad_request(explained))?;
         let (mut manifest, mut signature) = (None, None);
@@ -217,7 +218,12 @@ impl Submission {
                 }
                 ("file", Some(manifest)) => {
                     let name = clean_name(field.file_name().unwrap_or_default());
-                    return Ok(Self { name, file: spool(field, MAX_PLUGIN_BYTES, app).await?, manifest, signature });
+                    return Ok(Self {
+                        name,
+                        file: spool(field, MAX_PLUGIN_BYTES, app, from).await?,
+                        manifest,
+                        signature,
+                    });
                 }
                 (_, kept) => {
                     read(field, OTHER_BYTES).await?;
@@ -229,15 +235,18 @@ impl Submission {
     }
 }
 
-/// What comes is written at once: whoever sends slowly holds no memory.
-async fn spool(mut field: Field<'_>, most: usize, app: &App) -> Result<Spooled> {
+/// What comes is written at once, so that whoever sends slowly holds no memory, and counted at once, so that many who send
+/// together do not fill the disk.
+async fn spool(mut field: Field<'_>, most: usize, app: &App, from: &str) -> Result<Spooled> {
     let mut file = File::from_std(app.engine.temporary_file()?);
     let mut bytes = 0;
     while let Some(chunk) = field.chunk().await.map_err(broken)? {
+        let before = bytes >> 20;
         bytes += chunk.len();
         if bytes > most {
             return Err(Problem::too_large(most));
         }
+        app.limits.count_many(ADD_MEBIBYTES, from, ((bytes >> 20) - before) as u32)?;
         file.write_all(&chunk).await.map_err(Problem::fault)?;
     }
     file.flush().await.map_err(Problem::fault)?;

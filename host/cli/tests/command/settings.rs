@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::support::Desk;
+use crate::support::{Desk, Ended};
 
 /// An axis-aligned cube of width 1 around the origin.
 const CUBE: &str = "v -0.5 -0.5 -0.5\nv 0.5 -0.5 -0.5\nv 0.5 0.5 -0.5\nv -0.5 0.5 -0.5\nv -0.5 -0.5 0.5\nv 0.5 -0.5 0.5\n\
@@ -11,13 +11,22 @@ const CUBE: &str = "v -0.5 -0.5 -0.5\nv 0.5 -0.5 -0.5\nv 0.5 0.5 -0.5\nv -0.5 0.
                     f 2 7 6\nf 4 1 5\nf 4 5 8\n";
 
 #[test]
+fn one_contestant_under_two_names_is_not_silently_one_row() {
+    let desk = Desk::new();
+    for twice in ["box-tree:leaf_size=8,box-tree:leaf_size=8.0", "box-tree,box-tree:leaf_size=2"] {
+        let Ended { code, stderr, .. } = desk.run(&["bench", "stock:torus-knot@600", "--algorithm", twice]);
+        assert_eq!(code, 2, "{stderr}");
+        assert!(stderr.contains("are the same"), "{stderr}");
+    }
+}
+
+#[test]
 fn several_settings_are_several_rows() {
     let desk = Desk::new();
     let out = desk.path("results");
     let args =
         ["bench", "stock:torus-knot@600", "--count", "60", "--passes", "2", "--out", out.to_str().expect("text")];
-    let run =
-        desk.json(&[&args[..], &["--algorithm", "box-tree:leaf_size=8,box-tree,box-tree:leaf_size=8.0"]].concat());
+    let run = desk.json(&[&args[..], &["--algorithm", "box-tree:leaf_size=8,box-tree,box-tree"]].concat());
     let results = run["results"].as_array().expect("results");
     let names: Vec<_> = results.iter().map(|r| (r["algorithm"].as_str(), r["name"].as_str())).collect();
     assert_eq!(

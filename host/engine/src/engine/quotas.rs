@@ -14,7 +14,7 @@ use crate::{EngineError, Result};
 pub struct Visitor {
     /// The account or the guest.
     pub owner: String,
-    /// The network that it comes from; absent for whoever sits at this machine.
+    /// The network that it comes from, where that is known.
     pub address: Option<String>,
 }
 

@@ -10,7 +10,7 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use crate::App;
-use crate::address::Remote;
+use crate::address::Address;
 use crate::download::download;
 use crate::extract::{Json, Path, Query};
 use crate::guest::Guest;
@@ -31,12 +31,12 @@ use crate::request_key::{IdempotencyKey, RequestKey};
 pub(crate) async fn ask_advice(
     State(app): State<App>,
     Guest(guest): Guest,
-    Remote(address): Remote,
+    Address(address): Address,
     key: RequestKey,
     Json(spec): Json<AdviceSpec>,
 ) -> Result<Response> {
-    app.limits.count_remote(ASK_ADVICE, address.as_deref())?;
-    let visitor = Visitor { owner: guest, address };
+    app.limits.count(ASK_ADVICE, &address)?;
+    let visitor = Visitor { owner: guest, address: Some(address) };
     let (info, new) = app.engine.ask_advice(spec, &visitor, key.as_deref()).await?;
     let location = format!("/api/v1/advice/{}", info.id);
     let status = if new { StatusCode::CREATED } else { StatusCode::OK };

@@ -10,10 +10,10 @@ use ocb_engine::{Made, sha256_hex};
 use utoipa::ToSchema;
 
 use crate::App;
-use crate::address::Remote;
+use crate::address::Address;
 use crate::extract::{Json as Body, Path, Query};
 use crate::guest::Guest;
-use crate::limits::{ADD_MEBIBYTES, ADD_OBJECT};
+use crate::limits::ADD_OBJECT;
 use crate::list;
 use crate::problem::{Problem, Result};
 use crate::request_key::{IdempotencyKey, RequestKey};
@@ -57,20 +57,17 @@ struct UploadForm {
 pub(crate) async fn add_object(
     State(app): State<App>,
     Guest(guest): Guest,
-    Remote(address): Remote,
+    Address(address): Address,
     key: RequestKey,
     request: Request,
 ) -> Result<(StatusCode, Json<ObjectInfo>)> {
-    app.limits.count_remote(ADD_OBJECT, address.as_deref())?;
+    app.limits.count(ADD_OBJECT, &address)?;
     let Upload { name, file } = {
-        let _coming = app.uploads.begin(address.clone())?;
-        Upload::read(request, &app).await?
+        let _coming = app.uploads.begin(&address)?;
+        Upload::read(request, &app, &address).await?
     };
     let _turn = app.uploads.take(&file).await?;
     let bytes = file.read().await?;
-    if let Some(address) = &address {
-        app.limits.count_many(ADD_MEBIBYTES, address, (bytes.len() >> 20) as u32)?;
-    }
     app.engine.id_of_request(&guest, Made::Object, key.as_deref(), &(&name, sha256_hex(&bytes))).await?;
     let object = app.engine.add_object(&name, bytes, Some(&guest)).await?;
     Ok((StatusCode::CREATED, Json(object)))

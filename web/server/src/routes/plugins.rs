@@ -16,7 +16,7 @@ use ocb_engine::{Engine, Made, sha256_hex};
 use utoipa::ToSchema;
 
 use crate::App;
-use crate::address::Remote;
+use crate::address::Address;
 use crate::events::{sse, stopped};
 use crate::extract::{Json, Path, Query};
 use crate::guest::{Curator, Member};
@@ -76,7 +76,7 @@ struct SubmissionForm {
 pub(crate) async fn submit_plugin(
     State(app): State<App>,
     Member(account): Member,
-    Remote(address): Remote,
+    Address(address): Address,
     key: RequestKey,
     request: axum::extract::Request,
 ) -> Result<Response> {
@@ -84,8 +84,8 @@ pub(crate) async fn submit_plugin(
     // Before anything is read: who may not submit need not send 64 MiB to hear it.
     app.engine.may_submit(&account)?;
     let Submission { name, file, manifest, signature } = {
-        let _coming = app.uploads.begin(address)?;
-        Submission::read(request, &app).await?
+        let _coming = app.uploads.begin(&address)?;
+        Submission::read(request, &app, &address).await?
     };
     let _turn = app.uploads.take(&file).await?;
     let bytes = file.read().await?;

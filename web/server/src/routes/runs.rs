@@ -8,7 +8,7 @@ use ocb_engine::model::{Estimate, NewVisibility, Page, RunInfo, RunSpec};
 use ocb_engine::{EngineError, Visitor};
 
 use crate::App;
-use crate::address::Remote;
+use crate::address::Address;
 use crate::extract::{Json, Path, Query};
 use crate::guest::{Guest, Person};
 use crate::limits::ASK_RUN;
@@ -57,12 +57,12 @@ pub(crate) async fn estimate_run(
 pub(crate) async fn start_run(
     State(app): State<App>,
     Guest(guest): Guest,
-    Remote(address): Remote,
+    Address(address): Address,
     key: RequestKey,
     Json(spec): Json<RunSpec>,
 ) -> Result<Response> {
-    app.limits.count_remote(ASK_RUN, address.as_deref())?;
-    let visitor = Visitor { owner: guest, address };
+    app.limits.count(ASK_RUN, &address)?;
+    let visitor = Visitor { owner: guest, address: Some(address) };
     let (run, new) = app.engine.submit_for(spec, &visitor, key.as_deref()).await?;
     let location = format!("/api/v1/runs/{}", run.id);
     let status = if new { StatusCode::CREATED } else { StatusCode::OK };

@@ -47,12 +47,12 @@ async fn one_address_has_some_uploads_at_a_time() {
     let service = Service::start_with(&["libocb_box_tree.so"]).await;
     let address = service.url.trim_start_matches("http://").to_owned();
     let mut coming = Vec::new();
-    for _ in 0..17 {
+    for _ in 0..101 {
         let mut stream = TcpStream::connect(&address).await.expect("a connection");
         let head = "POST /api/v1/objects HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000\r\n\
                     X-Forwarded-For: 203.0.113.7\r\nContent-Type: multipart/form-data; boundary=X\r\n\r\n--X\r\n";
         stream.write_all(head.as_bytes()).await.expect("sent");
-        tokio::time::sleep(Duration::from_millis(20)).await;
+        tokio::time::sleep(Duration::from_millis(5)).await;
         coming.push(stream);
     }
     let mut refused = coming.pop().expect("the last");

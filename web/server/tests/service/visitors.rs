@@ -67,7 +67,8 @@ async fn who_throws_cookies_away_has_what_an_address_has() {
 
 #[tokio::test]
 async fn guests_and_accounts_have_a_ceiling_of_their_own() {
-    let service = Service::start_limited(ceilings()).await;
+    let day = Duration::from_secs(86_400);
+    let service = Service::start_limited(Ceilings { address: day, ..ceilings() }).await;
     let guest = service.guest();
     let ask = |by: &Guest, seconds: f64| by.post("/api/v1/runs").json(&spec(seconds)).send();
     assert_eq!(ask(&guest, 300.0).await.expect("an answer").status(), StatusCode::CREATED);
