@@ -139,6 +139,20 @@ fn lists_of_contacts_are_scored_by_precision_and_recall() {
 }
 
 #[test]
+fn a_count_beyond_the_list_is_certified() {
+    let crossing = Stage::new(-0.25);
+    assert_eq!(crossing.lists(1, &[]), Verdict::Correct);
+    for invented in [2, u64::MAX] {
+        assert_eq!(crossing.lists(invented, &[[0, 0]]), Verdict::WrongWitness);
+        assert_eq!(crossing.lists(invented, &[]), Verdict::WrongWitness);
+    }
+    // One that only touches may be counted or not.
+    let touching = Stage::new(0.0);
+    assert_ne!(touching.lists(1, &[]), Verdict::WrongWitness);
+    assert_eq!(touching.lists(2, &[]), Verdict::WrongWitness);
+}
+
+#[test]
 fn distances_and_witnesses() {
     let stage = Stage::new(0.25);
     let points = Some([[0.0, 0.0, 0.0], [0.0, 0.0, 0.25]]);

@@ -239,3 +239,20 @@ pub async fn failed(guest: &Guest, sent: &Value) -> Value {
     assert_eq!(now["state"], "failed", "{now:#}");
     now
 }
+
+#[tokio::test]
+async fn a_plugin_that_cannot_be_read_is_a_problem_and_the_service_starts() {
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
+    let author = member(&service, "author", Role::Developer).await;
+    let curator = member(&service, "curator", Role::Curator).await;
+    let id = published(&author, &curator).await;
+    let plugin = author.json(&format!("/api/v1/plugins/{id}")).await;
+    service.lose(plugin["sha256"].as_str().expect("a hash"));
+    let service = service.restart().await;
+    let guest = service.guest();
+    let problems = guest.json("/api/v1/status").await["problems"].to_string();
+    assert!(problems.contains("cannot be read") && !problems.contains("/tmp"), "{problems}");
+    let offered = guest.json("/api/v1/algorithms").await.to_string();
+    assert!(offered.contains("\"box-tree\"") && !offered.contains("\"sphere-tree\""), "{offered}");
+    service.stop().await;
+}

@@ -95,6 +95,20 @@ impl Service {
         folders.map(|folder| std::fs::read_dir(folder.path()).expect("a folder").count()).sum()
     }
 
+    /// Takes every file off the disk that is stored under this hash.
+    pub fn lose(&self, sha256: &str) {
+        let mut folders = vec![self.data.path().to_path_buf()];
+        while let Some(folder) = folders.pop() {
+            for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
+                if entry.path().is_dir() {
+                    folders.push(entry.path());
+                } else if entry.file_name().to_string_lossy().contains(sha256) {
+                    std::fs::remove_file(entry.path()).expect("it is there");
+                }
+            }
+        }
+    }
+
     /// Ends the service and waits for it.
     pub async fn stop(self) {
         self.end().await;
