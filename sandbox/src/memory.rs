@@ -15,7 +15,7 @@ use std::time::Duration;
 const PREFIX: &str = "ocb-jail-";
 /// The group into which a supervisor and its neighbours move, so that the one above can hand controllers down.
 const HOST: &str = "ocb-host";
-/// What a process writes into [`MemoryGroup::entrance`].
+/// What a process writes into [`MemoryGroup::entrances`].
 pub(crate) const ITSELF: &[u8] = b"0";
 
 /// One control group with a memory limit. Removed on drop; its processes must have ended by then.
