@@ -44,7 +44,8 @@ beside=
 
 # Who asks for real objects where there are none fails with these words, and is counted apart.
 not_run=$(sed 's/\x1b\[[0-9;]*m//g' "$logs/rust.log" 2>/dev/null | awk '
-  /^---- .* stdout ----$/ { name = $2 }
+  /^ *Running /           { program = $0 }
+  /^---- .* stdout ----$/ { name = program " " $2 }
   /^not run: objects missing, set OCB_SHARED/ && name { found[name] = 1 }
   /^failures:$/           { name = "" }
   END                     { for (name in found) n++; print n + 0 }')
