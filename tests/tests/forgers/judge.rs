@@ -35,7 +35,7 @@ pub struct Entry {
     /// How much shorter than that of the twins its time is, if it has one: nanoseconds, and share of theirs. Nothing without a
     /// rank.
     pub gain: Option<[f64; 2]>,
-    /// The same of its build time: milliseconds, share.
+    /// The same of its build time, less what its questions took longer than theirs: milliseconds, share.
     pub build_gain: Option<[f64; 2]>,
     /// The twins' time, nanoseconds.
     pub twin_ns: f64,
@@ -67,7 +67,7 @@ impl Ledger {
             for found in results.iter().filter(|f| f.class == *class) {
                 let (question, condition) = (run.question, run.condition);
                 let row = Row { name: found.name.clone(), class: *class, question, condition };
-                self.rows.entry(row).or_default().push(entry(found, &twins, condition.busy));
+                self.rows.entry(row).or_default().push(entry(found, &twins, run));
             }
         }
     }
@@ -84,7 +84,7 @@ impl Ledger {
 /// One of the numbers of a result.
 type Number = fn(&Found) -> Option<f64>;
 
-fn entry(found: &Found, twins: &[&Found], busy: bool) -> Entry {
+fn entry(found: &Found, twins: &[&Found], run: &Run) -> Entry {
     let ranked = found.rank.is_some();
     let mean = |of: Number| {
         let known: Vec<f64> = twins.iter().filter_map(|twin| of(twin)).collect();
@@ -92,22 +92,24 @@ fn entry(found: &Found, twins: &[&Found], busy: bool) -> Entry {
     };
     let least = |of: Number| twins.iter().filter_map(|t| of(t)).fold(f64::INFINITY, f64::min);
     let (time, build): (Number, Number) = (|f| f.time_ns, |f| f.build_ms);
-    let gain = |of: Number| {
-        let (mine, theirs) = (of(found).filter(|_| ranked)?, mean(of));
+    // Who builds while it is asked may have a shorter build: what its questions take longer is what it pays for that.
+    let longer_ns = time(found).map_or(0.0, |mine| (mine - mean(time)).max(0.0));
+    let paid_ms = longer_ns * f64::from(run.configurations) / 1e6;
+    let gain = |of: Number, paid: f64| {
+        let (mine, theirs) = (of(found).filter(|_| ranked)? + paid, mean(of));
         Some([theirs - mine, 1.0 - mine / theirs])
     };
-    let halved = |of: Number, least_gain: f64| {
-        of(found).is_some_and(|mine| 2.0 * mine < least(of) && least(of) - mine > least_gain)
+    let halved = |of: Number, paid: f64, least_gain: f64| {
+        of(found).is_some_and(|mine| 2.0 * (mine + paid) < least(of) && least(of) - mine - paid > least_gain)
     };
-    // Who builds while it is asked may have a shorter build: what its questions take longer is what it pays for that.
-    let paid = gain(time).is_some_and(|[_, share]| share < -SHARE);
+    // A build is one stretch of time, which other work may double.
+    let halved_build = !run.condition.busy && halved(build, paid_ms, NO_GAIN_MS);
     Entry {
         ranked,
-        gain: gain(time),
-        build_gain: gain(build).filter(|_| !paid),
+        gain: gain(time, 0.0),
+        build_gain: gain(build, paid_ms),
         twin_ns: mean(time),
-        // A build is one stretch of time, which other work may double.
-        gross: ranked && (halved(time, NO_GAIN_NS) || !busy && !paid && halved(build, NO_GAIN_MS)),
+        gross: ranked && (halved(time, 0.0, NO_GAIN_NS) || halved_build),
         ending: found.ending.clone(),
     }
 }
@@ -193,6 +195,9 @@ fn a_forger_is_judged_by_its_rank_its_time_and_its_build() {
     assert_eq!(judged(10, "early_loop", Some(1), 19_300.0, 30.0).len(), 1);
     assert_eq!(judged(10, "mover_gaps", Some(1), 20_000.0, 28.0).len(), 1);
     assert!(judged(10, "early_loop", Some(1), 19_500.0, 29.9).is_empty());
+    // A build that is paid for with the questions (of which there are 150), and one that is hardly paid for.
+    assert!(judged(10, "mover_lazy", Some(3), 220_000.0, 0.1).is_empty());
+    assert_eq!(judged(1, "mover_lazy", Some(3), 30_000.0, 0.1).len(), 1);
     // An honest one has a rank, and is neither helped nor slowed down by its neighbours.
     assert_eq!(judged(1, FRIEND, None, 20_000.0, 30.0).len(), 1);
     assert_eq!(judged(10, FRIEND, Some(1), 21_000.0, 30.0).len(), 1);

@@ -65,7 +65,7 @@ pub fn slice() -> Vec<Run> {
             Class::Us20,
             Question::Collision,
             one_cpu,
-            &["disturb_all", "disturb_yield", "truth_sample", "early_awake"],
+            &["disturb_all", "disturb_yield", "truth_sample", "early_awake", "mover_warm_up", "mover_gaps"],
         ),
     ]
 }
