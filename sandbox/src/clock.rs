@@ -23,12 +23,11 @@ struct Moment {
     ticks: u64,
 }
 
-/// Both clocks are read so often for one moment. What comes between the two readings, such as other work on the CPU, makes some
-/// of them useless, never all.
+/// Readings of both clocks for one moment. Preemption between the two clocks spoils some of them, hardly ever all.
 const READINGS: usize = 32;
 
 impl Moment {
-    /// Now: the reading of the kernel's clock that took the shortest time, in the middle of which it was.
+    /// Now, by the quickest reading; the kernel's clock is taken to be in its middle.
     fn now() -> Moment {
         let readings = (0..READINGS).map(|_| {
             let (before, kernel_ns, after) = (counter(), raw_ns(), counter());
@@ -66,8 +65,7 @@ impl Clock {
         self.compared.is_some()
     }
 
-    /// By which share its pace since it was compared with the kernel's clock differs from what was found then. Some millionths
-    /// are what the comparison can tell; more says that the counter or the kernel's clock has changed its pace.
+    /// Relative change of its rate against the kernel's clock since it was calibrated; a few millionths are measurement error.
     pub fn drift(&self) -> f64 {
         self.compared.map_or(0.0, |then| then.scale_to(Moment::now()) / self.nanoseconds_per_tick - 1.0)
     }
@@ -231,7 +229,7 @@ mod tests {
         let clock = Clock::get();
         let moment = || Moment { kernel_ns: raw_ns(), ticks: clock.ticks() };
         let readings = |n| (0..n).map(|_| moment()).collect::<Vec<_>>();
-        // What comes between two readings makes a time longer on one side only, so the middle of many is right.
+        // Preemption between two readings spoils few of many, so the median is right.
         let (then, now) = (readings(99), {
             std::thread::sleep(Duration::from_millis(50));
             readings(99)
@@ -249,10 +247,10 @@ mod tests {
     #[test]
     fn a_scale_that_is_wrong_is_seen() {
         let right = Clock::get();
-        if right.is_counter() {
-            let wrong = Clock { nanoseconds_per_tick: right.nanoseconds_per_tick * 1.02, ..right };
-            std::thread::sleep(Duration::from_millis(20));
-            assert!((wrong.drift() + 0.02).abs() < 1e-3, "{}", wrong.drift());
-        }
+        assert!(right.is_counter(), "not run: the kernel does not keep time by the counter");
+        let wrong = Clock { nanoseconds_per_tick: right.nanoseconds_per_tick * 1.02, ..right };
+        std::thread::sleep(Duration::from_millis(20));
+        // 1 / 1.02 is 0.98.
+        assert!((wrong.drift() + 0.02).abs() < 1e-3, "{}", wrong.drift());
     }
 }

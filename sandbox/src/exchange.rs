@@ -304,9 +304,9 @@ impl Exchange {
         // A sleeper is woken by the answer; only a watcher can miss the moment.
         let unseen = if slept { 0.0 } else { clock.nanoseconds(polled, seen) };
         let copying = clock.nanoseconds(seen, copied) - COPY_NS * self.contacts.len() as f64;
-        // Where both share a CPU the runner may work before the wake-up returns, and that is its time, not a lost one.
-        let released_at_once = sleeps || matches!(shown, Shown::Mesh(_));
-        let releasing = if released_at_once { 0.0 } else { clock.nanoseconds(begun, released) };
+        // Waking a runner on a shared CPU may return only after its answer: that is its time, not lost time.
+        let includes_work = sleeps || matches!(shown, Shown::Mesh(_));
+        let releasing = if includes_work { 0.0 } else { clock.nanoseconds(begun, released) };
         Ok(Timed { raw_ns: clock.nanoseconds(begun, copied), missed_ns: unseen.max(copying).max(releasing) })
     }
 

@@ -1,6 +1,6 @@
-//! The memory group: a control group of its own for each jail, where this process may make one. It limits the number of
-//! processes, too, where it may; never processor time: a group of the scheduler's own was seen to get no CPU for minutes beside
-//! one loop (Linux 6.18), and a runner has only the CPUs that it is kept on.
+//! The memory group: a control group of its own for each jail, where this process may make one. It also limits the number of
+//! processes if possible. It never limits CPU time: a scheduling group got no CPU for minutes beside one busy loop (Linux 6.18),
+//! and the runner is pinned to its CPUs anyway.
 
 use std::ffi::{CStr, CString};
 use std::fs;
@@ -13,7 +13,7 @@ use std::time::Duration;
 
 /// Groups are named `ocb-jail-<pid of the supervisor>-<count>`, so that a janitor can tell whose they were.
 const PREFIX: &str = "ocb-jail-";
-/// The group into which a supervisor and its neighbours move, so that the one above can hand controllers down.
+/// The group below a delegated one into which its processes are moved.
 const HOST: &str = "ocb-host";
 /// What a process writes into [`MemoryGroup::entrances`].
 pub(crate) const ITSELF: &[u8] = b"0";
@@ -69,7 +69,7 @@ impl MemoryGroup {
         }
         let counted = match version {
             Version::V1 => counting.map(|parent| parent.join(&name)).filter(|folder| fs::create_dir(folder).is_ok()),
-            Version::V2 => Some(group.folder.clone()).filter(|folder| hands_down(&parent, "pids") && folder.exists()),
+            Version::V2 => Some(group.folder.clone()).filter(|_| hands_down(&parent, "pids")),
         };
         group.counted = counted.filter(|folder| fs::write(folder.join("pids.max"), tasks.to_string()).is_ok());
         Ok(group)
@@ -175,8 +175,8 @@ fn writable(folder: &Path) -> bool {
     nix::unistd::access(folder, nix::unistd::AccessFlags::W_OK).is_ok()
 }
 
-/// Can groups below this one of version 2 have the controller? A group with processes of its own cannot hand it down, so where
-/// the group is ours to arrange its processes move into one below it.
+/// Can groups below this one (version 2) have the controller? A group with processes of its own cannot pass it on, so its processes
+/// are moved one level down if it is ours.
 fn hands_down(folder: &Path, controller: &str) -> bool {
     let names = |file: &str| {
         fs::read_to_string(folder.join(file)).is_ok_and(|text| text.split_whitespace().any(|c| c == controller))
@@ -186,7 +186,8 @@ fn hands_down(folder: &Path, controller: &str) -> bool {
     has() || names("cgroup.controllers") && (ask() || is_ours(folder) && make_room(folder).is_ok() && ask())
 }
 
-/// Handed over to whoever runs in it: by systemd (`Delegate=`), as the root of a container, or because nobody else is in it.
+/// May its processes be rearranged? Yes if systemd has delegated it (`Delegate=`), if it is the root of a container, or if this
+/// process is alone in it.
 fn is_ours(folder: &Path) -> bool {
     let delegated = || [c"user.delegate", c"trusted.delegate"].iter().any(|name| is_marked(folder, name));
     // The machine's own root has no type, and needs no room.
@@ -212,7 +213,7 @@ fn make_room(folder: &Path) -> io::Result<()> {
         _ => {}
     }
     for process in processes(folder)? {
-        // One that has ended meanwhile need not move; one that may not keeps the controller from being handed down.
+        // A failure is harmless for a process that has ended; for any other the next attempt to pass on the controller fails.
         let _ = fs::write(below.join("cgroup.procs"), process);
     }
     Ok(())
@@ -227,9 +228,8 @@ fn processes(folder: &Path) -> io::Result<Vec<String>> {
 fn hierarchies(controller: &str, mountinfo: &str, own_groups: &str) -> Vec<(PathBuf, Version)> {
     let group = |is: &dyn Fn(&str) -> bool| {
         own_groups.lines().find_map(|line| {
-            let mut parts = line.splitn(3, ':').skip(1);
-            let controllers = parts.next()?;
-            let path = parts.next()?;
+            let (_number, rest) = line.split_once(':')?;
+            let (controllers, path) = rest.split_once(':')?;
             is(controllers).then(|| path.trim_start_matches('/').to_string())
         })
     };
@@ -299,11 +299,10 @@ mod tests {
     fn a_delegated_group_makes_room_and_another_one_is_left_alone() {
         let unified = ["/sys/fs/cgroup/unified", "/sys/fs/cgroup"].map(Path::new);
         let root = unified.into_iter().find(|folder| folder.join("cgroup.controllers").exists() && writable(folder));
-        let Some(root) = root else { return eprintln!("not shown here: no version 2, or not root") };
+        let root = root.expect("not run: needs root and a control group hierarchy of version 2");
         let controllers = fs::read_to_string(root.join("cgroup.controllers")).unwrap();
-        let Some(controller) = controllers.split_whitespace().next() else {
-            return eprintln!("not shown here: version 2 has no controller");
-        };
+        let controller = controllers.split_whitespace().next();
+        let controller = controller.expect("not run: no controller in the control group hierarchy of version 2");
         assert!(hands_down(root, controller));
         let folder = root.join(format!("ocb-test-{}", std::process::id()));
         fs::create_dir(&folder).unwrap();

@@ -16,7 +16,7 @@ use ocb_sandbox::{Observation, Outcome, PassFacts, PassPlan, Policy, Sample};
 
 const QUESTIONS: u32 = 500;
 
-/// One of these tests keeps a CPU busy, which must not be that of another.
+/// One of these tests keeps a CPU busy, so they run one after the other.
 fn alone() -> MutexGuard<'static, ()> {
     static ALONE: Mutex<()> = Mutex::new(());
     ALONE.lock().unwrap_or_else(PoisonError::into_inner)
@@ -136,6 +136,16 @@ fn a_wait_for_the_cpu_is_taken_off_the_question_that_it_fell_into() {
     let mended = waited.iter().filter(|sample| sample.time_ns < 0.5 * sample.raw_ns).count();
     assert!(waited.len() >= 10, "nothing else had its CPU in {} questions", samples.len());
     assert!(2 * mended > waited.len(), "{mended} of {}: {waited:?}", waited.len());
+}
+
+#[test]
+fn work_during_the_wake_up_is_not_lost_time() {
+    let _alone = alone();
+    let policy = Policy { runner_cpu: Some(0), supervisor_cpu: Some(0), ..common::policy() };
+    let mut session = start(&launcher_with(policy), &fixture(&["WORK=1000000"])).unwrap();
+    let samples: Vec<Sample> = (0..40).map(|_| session.query(Query::CollisionFirst, &apart(0.5)).unwrap()).collect();
+    let disturbed = samples.iter().filter(|sample| sample.disturbed).count();
+    assert!(disturbed < 10, "{disturbed} of 40 on a shared CPU");
 }
 
 /// A thread that computes on one CPU until dropped.

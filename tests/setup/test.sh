@@ -42,13 +42,14 @@ wait "$beside"
 step check bash -c 'cat "$1"; exit "$2"' check "$logs/beside.log" $?
 beside=
 
-# Who asks for real objects where there are none fails with these words, and is counted apart.
-not_run=$(sed 's/\x1b\[[0-9;]*m//g' "$logs/rust.log" 2>/dev/null | awk '
+# A test that lacks something on this machine fails with "not run: REASON". These are counted apart, by reason.
+reasons=$(sed 's/\x1b\[[0-9;]*m//g' "$logs/rust.log" 2>/dev/null | awk '
   /^ *Running /           { program = $0 }
   /^---- .* stdout ----$/ { name = program " " $2 }
-  /^not run: objects missing, set OCB_SHARED/ && name { found[name] = 1 }
+  /^not run: / && name    { sub(/^not run: /, ""); reason[name] = $0 }
   /^failures:$/           { name = "" }
-  END                     { for (name in found) n++; print n + 0 }')
+  END                     { for (name in reason) n[reason[name]]++; for (why in n) print n[why] " not run: " why }')
+not_run=$(awk '{ n += $1 } END { print n + 0 }' <<< "$reasons")
 
 # Each test program says its own counts; a step that broke without a counted failure counts as one.
 read -r passed failed < <(cat "$logs"/{rust,vitest,browser}.log 2>/dev/null | sed 's/\x1b\[[0-9;]*m//g' | awk '
@@ -64,7 +65,7 @@ if [ "$not_run" -gt 0 ]; then
     for name in "${broken[@]}"; do [ "$name" = rust ] || kept+=("$name"); done
     broken=(${kept[@]+"${kept[@]}"})
   fi
-  echo "$not_run not run: objects missing, set OCB_SHARED"
+  echo "$reasons"
 fi
 if [ ${#broken[@]} -gt 0 ]; then
   echo "test: these steps failed: ${broken[*]} (output in $logs)"

@@ -15,11 +15,11 @@ pub struct Pose {
     pub translation: Vector3<f64>,
 }
 
-/// A rotation up to rounding is no further off than this.
+/// Largest deviation ([`Pose::off_rotation`]) of a rotation up to rounding.
 const ROUNDING: f64 = 2e-15;
-/// What is no further off a rotation is taken as it is.
+/// Largest deviation at which a matrix is used unchanged.
 pub const AS_IT_IS: f64 = 1e-12;
-/// What is no further off was meant as a rotation, in single precision.
+/// Largest deviation of a rotation in single precision.
 pub const STRAIGHTENED: f64 = 1e-5;
 
 /// Why 16 numbers are no pose.
@@ -85,15 +85,14 @@ impl Pose {
         }
     }
 
-    /// By how much of a coordinate two honest programs may differ because the linear part is no rotation, one of which inverts it
-    /// and one transposes it. Nothing for a rotation up to rounding, and for what is bent on purpose: there only the numbers
-    /// as they are count.
+    /// The relative difference between two correct programs of which one inverts the linear part and the other transposes it. 0 for
+    /// rotations up to rounding, and for deliberate shear and scale, where the exact numbers count.
     pub fn bend(&self) -> f64 {
         let off = self.off_rotation();
         if (ROUNDING..=AS_IT_IS).contains(&off) { 4.0 * off } else { 0.0 }
     }
 
-    /// The same with the nearest rotation; `None` for what is none by far.
+    /// With the nearest rotation instead; `None` when the linear part is further off than single precision explains.
     pub fn straightened(&self) -> Option<Self> {
         let svd = self.linear.svd(true, true);
         let linear = svd.u? * svd.v_t?;

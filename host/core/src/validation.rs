@@ -136,7 +136,7 @@ impl Judge<'_> {
         let score = self.score(total, &listed);
         // A list cut short by the host's buffer can only be counted.
         let missing = score.found.unwrap_or(total) < score.robust;
-        // What is counted beyond the list must be there, too.
+        // Contacts that are counted but not listed must exist as well.
         let invented = total > score.listed && total > self.pair.most_contacts(&self.placed.configuration, self.tau);
         let verdict = match self.decision(total > 0, pairs) {
             Ok(_) if score.genuine < score.listed || invented => Verdict::WrongWitness,

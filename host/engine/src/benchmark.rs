@@ -16,7 +16,7 @@ use ocb_core::sampling::controls::{self, Control};
 use tokio::runtime::Handle;
 
 use crate::columns::{RecordsOf, records_parquet};
-use crate::configurations::{self, Brought, Gauge};
+use crate::configurations::{self, ConfigurationFile, Gauge};
 use crate::draw;
 use crate::engine::Inner;
 use crate::machine::{MakingWay, MeasuringRight};
@@ -101,8 +101,7 @@ impl Bench<'_> {
         Ok(End::Done)
     }
 
-    /// A suite without a seed asks each run at other configurations, which follow from what nobody knew before its plugins were
-    /// fixed.
+    /// For a suite without a seed: draws this run's configurations, from a secret that was fixed together with its plugins.
     fn draw_configurations(&mut self) -> Result<()> {
         let Suite { document, sha256, .. } = &self.inner.suite;
         if document.seed.is_some() || self.row.suite.as_ref() != Some(sha256) {
@@ -133,8 +132,8 @@ impl Bench<'_> {
         let (a, b) = (&pairing.mesh_a, &pairing.mesh_b);
         let (sha_a, sha_b) = (a.sha256(), b.sha256());
         let key = configurations::set_key(&sha_a, &sha_b, &self.row.spec)?;
-        let brought = self.brought()?;
-        let straightened = brought.as_ref().and_then(Brought::note);
+        let file = self.configuration_file()?;
+        let straightened = file.as_ref().and_then(ConfigurationFile::note);
         let store = self.inner.store.clone();
         let keeping = self.log.wait(self.inner.blobs.keeping());
         if let Some(stored) = self.log.wait(store.set(&key))? {
@@ -149,7 +148,7 @@ impl Bench<'_> {
         }
         drop(keeping);
         let started = Instant::now();
-        let poses = brought.map(|brought| brought.poses);
+        let poses = file.map(|file| file.poses);
         let Some(set) = self.find(pairing, poses.as_deref())? else { return Ok(None) };
         let seconds = started.elapsed().as_secs_f64();
         let _keeping = self.log.wait(self.inner.blobs.keeping());
@@ -162,8 +161,8 @@ impl Bench<'_> {
         Ok(Some((self.inner.sets.put(&blob, set), info)))
     }
 
-    /// The file of configurations, if the run has one.
-    fn brought(&self) -> Result<Option<Brought>> {
+    /// The run's configuration file, if it has one.
+    fn configuration_file(&self) -> Result<Option<ConfigurationFile>> {
         let Method::File { sha256 } = &self.row.spec.method else { return Ok(None) };
         configurations::read_file(&self.log.wait(self.inner.blobs.get(sha256))?).map(Some)
     }
@@ -335,7 +334,7 @@ impl Bench<'_> {
             self.log.wait(self.inner.store.preview_of_run(&self.row.id, None))?;
         }
         match nothing {
-            // What the algorithms came to is for whoever asked, and names nothing of this machine.
+            // The outcomes are for the visitor and name no paths, so this is not a fault to be hidden.
             Some(cause) if !any => Err(EngineError::Invalid(format!("No algorithm could be measured. {cause}"))),
             _ => Ok(End::Done),
         }
@@ -442,8 +441,7 @@ impl Bench<'_> {
     }
 }
 
-/// What there is to say, as one text.
-fn sentences(said: [Option<String>; 2]) -> Option<String> {
-    let said: Vec<String> = said.into_iter().flatten().collect();
-    (!said.is_empty()).then(|| said.join(" "))
+/// One text from the sentences that there are.
+fn sentences(all: [Option<String>; 2]) -> Option<String> {
+    all.into_iter().flatten().reduce(|text, next| format!("{text} {next}"))
 }

@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Keeps the last values, as many as weigh no more than `capacity` together; a value is shared, so forgetting it never takes it
-/// from whoever uses it.
+/// Keeps the values used last, up to a total weight of `capacity`. Values are shared: dropping one from the cache does not affect its
+/// users.
 pub struct Cache<T> {
     capacity: usize,
     weigh: fn(&T) -> usize,
@@ -63,7 +63,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_heavy_takes_the_place_of_many() {
+    fn a_heavy_value_replaces_many() {
         let cache = Cache::weighing(10, |n: &usize| *n);
         for n in [3, 4, 5] {
             cache.put(&n.to_string(), n);

@@ -8,16 +8,16 @@ pub use ocb_sandbox::Profile;
 use crate::mail::MailServer;
 use crate::registry::CHECK_LIMIT;
 
-/// How much measuring time visitors may have at once: for each algorithm the budget of its run.
+/// Limits of the measuring time that visitors may have queued and running: budget times algorithms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ceilings {
-    /// One run of a guest; it ends when so much time has passed since its start.
+    /// One run of a guest, from its start to its end.
     pub guest_run: Duration,
-    /// What one guest has waiting and under way.
+    /// Queued and running runs of one guest.
     pub guest: Duration,
-    /// The same of one account.
+    /// Of one account.
     pub account: Duration,
-    /// The same of all who ask from one address.
+    /// Of all visitors from one address.
     pub address: Duration,
 }
 

@@ -16,7 +16,7 @@ use crate::model::{ClassCount, RunSpec, SetInfo};
 use crate::{EngineError, Result};
 
 use coverage::Coverage;
-pub use file::{Brought, read_file, read_matrices};
+pub use file::{ConfigurationFile, read_file, read_matrices};
 
 /// What a set depends on beside the request. Stored sets of other versions stay readable but are not used again.
 #[derive(Clone, Copy)]
@@ -35,7 +35,7 @@ pub fn set_key(mesh_a: &str, mesh_b: &str, spec: &RunSpec) -> Result<String> {
 fn key(Versions { sampling, oracle }: Versions, mesh_a: &str, mesh_b: &str, spec: &RunSpec) -> Result<String> {
     let determines = serde_json::to_string(&(spec.finding(), spec.separation()))
         .map_err(|e| EngineError::fault("Naming the method failed", e))?;
-    // What was read from files before matrices had to be rotations is not used again.
+    // Sets from files of older versions may hold matrices that are no rotations; they are not reused.
     let rule = if matches!(spec.method, Method::File { .. }) { "|rotations" } else { "" };
     Ok(sha256_hex(format!("{sampling}|{oracle}|{mesh_a}|{mesh_b}|{determines}{rule}").as_bytes()))
 }

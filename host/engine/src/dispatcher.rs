@@ -78,7 +78,7 @@ async fn check_next(inner: &Arc<Inner>) -> Result<bool> {
     };
     inner.set_current(None);
     if let Err(e) = done {
-        // Ours, not the plugin's: it counts as no attempt. Who cannot even note that tries until it can.
+        // Our fault, not the plugin's: the attempt does not count. A database error is retried, as below.
         while let Err(e) = inner.store.put_back_check(&row.id).await {
             tracing::error!("the check of plugin {} cannot be put back: {e}", row.id);
             if inner.closing() {
@@ -99,31 +99,7 @@ async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
         stop.stop();
     }
     inner.bell.queue_moved();
-    let longest = inner.longest_run(&inner.run_row(id).await?);
-    let (sender, mut ended) = tokio::sync::oneshot::channel();
-    let (for_run, for_id, for_stop, handle) = (inner.clone(), id.to_owned(), stop.clone(), Handle::current());
-    let thread = std::thread::Builder::new().name("run".into()).spawn(move || {
-        let _ = sender.send(benchmark::run(&for_run, &for_id, &for_stop, &handle));
-    });
-    let ended = match thread {
-        Ok(_) => {
-            let late = async { tokio::time::sleep(longest.unwrap_or(Duration::MAX)).await };
-            let in_time = tokio::select! {
-                ended = &mut ended => Some(ended),
-                () = late => None,
-            };
-            let ended = match in_time {
-                Some(ended) => ended,
-                None => {
-                    stop.stop_because(longest.map(too_long));
-                    ended.await
-                }
-            };
-            // The sender is dropped without a word only when the thread panicked.
-            ended.unwrap_or_else(|_| Err(EngineError::Fault("The run broke down; see the log.".into())))
-        }
-        Err(e) => Err(EngineError::fault("Starting the run's thread failed", e)),
-    };
+    let ended = run_in_time(inner, id, &stop).await;
     inner.set_current(None);
     let (state, message) = match ended {
         Ok(End::Done) => (State::Done, None),
@@ -137,9 +113,9 @@ async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
             (State::Failed, Some(e.to_string()))
         }
     };
+    // Without this record the run would count as running until the next start, so a database error is retried.
     while let Err(e) = note_end(inner, id, state, message.as_deref()).await {
-        // Nobody else could end it: it would be under way until the next start.
-        tracing::error!("run {id} has ended, which cannot be noted: {e}");
+        tracing::error!("the end of run {id} cannot be recorded: {e}");
         if inner.closing() {
             return Err(e);
         }
@@ -152,8 +128,36 @@ async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
     Ok(())
 }
 
+/// Runs the benchmark on a thread of its own, and stops it when its time limit is over.
+async fn run_in_time(inner: &Arc<Inner>, id: &str, stop: &Stop) -> Result<End> {
+    let longest = inner.longest_run(&inner.run_row(id).await?);
+    let (sender, mut ended) = tokio::sync::oneshot::channel();
+    let (for_run, for_id, for_stop, handle) = (inner.clone(), id.to_owned(), stop.clone(), Handle::current());
+    let thread = std::thread::Builder::new().name("run".into()).spawn(move || {
+        let _ = sender.send(benchmark::run(&for_run, &for_id, &for_stop, &handle));
+    });
+    thread.map_err(|e| EngineError::fault("Starting the run's thread failed", e))?;
+    let in_time = match longest {
+        Some(longest) => tokio::time::timeout(longest, &mut ended).await.map_err(|_| longest),
+        None => Ok((&mut ended).await),
+    };
+    let ended = match in_time {
+        Ok(ended) => ended,
+        Err(longest) => {
+            stop.stop_because(Some(too_long(longest)));
+            ended.await
+        }
+    };
+    // The sender is dropped without a word only when the thread panicked.
+    ended.unwrap_or_else(|_| Err(EngineError::Fault("The run broke down; see the log.".into())))
+}
+
 async fn note_end(inner: &Inner, id: &str, state: State, message: Option<&str>) -> Result<()> {
-    let row = inner.run_row(id).await?;
+    let row = match inner.run_row(id).await {
+        // Deleted meanwhile: there is nothing left to record.
+        Err(EngineError::NotFound(_)) => return Ok(()),
+        row => row?,
+    };
     let state = row.after(state);
     inner.store.end_run(id, State::Running, state, message).await?;
     inner.bell.tell(&inner.store, id, plain_event(state, 0)).await
@@ -161,8 +165,7 @@ async fn note_end(inner: &Inner, id: &str, state: State, message: Option<&str>) 
 
 fn too_long(longest: Duration) -> String {
     format!(
-        "A guest's run ends after {} minutes, and this one was not through: ask for fewer configurations or algorithms, or \
-         log in.",
+        "Stopped after {} minutes, the time limit for guests. Ask for fewer configurations or algorithms, or log in.",
         longest.as_secs().div_ceil(60)
     )
 }

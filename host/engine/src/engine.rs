@@ -96,9 +96,9 @@ pub struct Inner {
     pub suite: Suite,
     /// Held while it is found out what of the suite is missing, until that is in the queue.
     planning: tokio::sync::Mutex<()>,
-    /// Held while a plugin becomes public, whose ids must be nobody else's.
+    /// Held while a plugin is published: its ids must still be free then.
     publishing: tokio::sync::Mutex<()>,
-    /// Held while somebody's run is let in.
+    /// Held while a run is admitted: its quota must still be free then.
     asking: tokio::sync::Mutex<()>,
     /// Rung when the queue has something new.
     pub wake: Notify,
@@ -235,7 +235,7 @@ impl Engine {
         self.inner.objects.info_for(id, viewer).await
     }
 
-    /// A file without a name in the data folder, for what comes slowly.
+    /// An unnamed temporary file in the data folder.
     pub fn temporary_file(&self) -> Result<File> {
         tempfile::tempfile_in(&self.inner.config.data)
             .map_err(|e| EngineError::fault("Making a temporary file failed", e))
@@ -294,7 +294,7 @@ impl Engine {
         estimate::estimate(&self.inner, &self.check(spec, viewer).await?).await
     }
 
-    /// The same for a visitor, to whom not every run is open.
+    /// The same for a visitor, whose limits apply.
     #[boxed]
     pub async fn estimate_for(&self, spec: &RunSpec, owner: &str) -> Result<Estimate> {
         let checked = self.check(spec, Some(owner)).await?;

@@ -15,9 +15,9 @@ pub enum EngineError {
     /// Too much at once for one person or one address; the same works later (429).
     #[error("{message}")]
     TooMuch {
-        /// What is too much, and what helps.
+        /// The limit, and how to proceed.
         message: String,
-        /// Worth another try after so many seconds.
+        /// Seconds until a retry is useful.
         retry_seconds: u32,
     },
     /// Not now: somebody else holds what is needed (409).
@@ -29,12 +29,12 @@ pub enum EngineError {
 }
 
 impl EngineError {
-    /// For whoever asked: of a fault of ours a number, under which the log has the cause. Causes name files and addresses of this
-    /// machine, which are nobody else's business.
+    /// Hides the cause of a fault from visitors: it goes to the log under a number, because it may name files and addresses of this
+    /// machine.
     pub(crate) fn for_visitors(self) -> Self {
         let Self::Fault(cause) = self else { return self };
         let number = uuid::Uuid::new_v4().simple().to_string();
-        tracing::error!(number, %cause, "work failed by our fault");
+        tracing::error!(number, %cause, "background work failed");
         Self::Fault(format!("This is our fault, not yours; the service's log has the cause under {number}."))
     }
 
@@ -64,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_visitor_is_told_everything_but_what_is_wrong_with_the_machine() {
+    fn visitors_see_no_causes_of_faults() {
         let told = EngineError::Fault("disk /srv/secret is full".into()).for_visitors().to_string();
         assert!(told.contains("our fault") && !told.contains("secret"), "{told}");
         assert_eq!(

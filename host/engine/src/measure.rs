@@ -56,7 +56,7 @@ pub struct Stop {
 #[derive(Default)]
 struct Stopping {
     asked: bool,
-    /// For the owner of what is stopped.
+    /// Shown to the owner of the run.
     reason: Option<String>,
     killer: Option<Killer>,
 }
@@ -67,7 +67,7 @@ impl Stop {
         self.stop_because(None);
     }
 
-    /// The same, with a reason for the owner of what is stopped; the first one stands.
+    /// The same, with a reason for the owner of the run; the first reason is kept.
     pub fn stop_because(&self, reason: Option<String>) {
         let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
         if !inner.asked {

@@ -118,7 +118,7 @@ impl Objects {
             return Ok(mesh);
         }
         let _alone = self.making.acquire().await;
-        // Whoever was before may have wanted the same.
+        // It may have been made while this request waited.
         if let Some(mesh) = self.meshes.get(&id) {
             return Ok(mesh);
         }

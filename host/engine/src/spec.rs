@@ -185,8 +185,8 @@ fn contestants(spec: &RunSpec, registry: &Registry, viewer: Option<&str>) -> Res
         match chosen.iter().find(|(_, c)| c.info.id == contestant.info.id) {
             Some((other, _)) if *other != name => {
                 return Err(EngineError::Invalid(format!(
-                    "{other:?} and {name:?} are the same: a setting that is as it is without being named makes no other \
-                     contestant; name it once."
+                    "{other:?} and {name:?} are the same contestant: a setting at its default value does not make another one. \
+                     List it once."
                 )));
             }
             Some(_) => {}

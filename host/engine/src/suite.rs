@@ -119,7 +119,7 @@ impl Suite {
     }
 }
 
-/// What was asked, whoever answered: two runs of one scenario are equal here, whatever was drawn for either.
+/// The scenario of a run: equal for two runs that differ in algorithms and drawn configurations only.
 pub fn scenario_of(spec: &RunSpec) -> RunSpec {
     RunSpec { algorithms: Vec::new(), ..drawn_anew(spec, 0) }
 }

@@ -108,7 +108,7 @@ async fn no_bad_request_is_queued() {
         }
     }
     let error = engine.add_configurations(b"no matrices".to_vec()).await.unwrap_err();
-    check_sentence(&error, "no file of configurations");
+    check_sentence(&error, "Not a configuration file");
     assert_eq!(inventory(&engine, data.path()).await, before);
     let run = engine.submit(good, Some("guest")).await.unwrap();
     assert_eq!(run.spec.algorithms, ["box-tree", "brute-force", "parry"], "all that answer the question");

@@ -2,10 +2,14 @@
 
 mod common;
 
+use std::fs::File;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
 use ocb_core::configuration::{Class, Method};
 use ocb_core::statistics::{Outliers, Statistic};
 use ocb_engine::model::{ChartKind, ChartRequest, Ecdf, HeatmapRequest, Measure, Page, RunSpec, StageKind, State};
-use ocb_engine::{Engine, EngineConfig, EngineError};
+use ocb_engine::{Ceilings, Engine, EngineConfig, EngineError};
 
 fn request(algorithm: &str, measure: Measure, statistic: Statistic) -> HeatmapRequest {
     HeatmapRequest::new(algorithm, measure, statistic, Outliers::Keep)
@@ -134,7 +138,35 @@ async fn only_the_owner_cancels_and_the_next_run_goes_on() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_plugin_file_that_was_replaced_is_told_and_blames_nobody() {
+async fn a_guests_run_is_stopped_at_its_time_limit_and_the_next_run_goes_on() {
+    let data = tempfile::tempdir().unwrap();
+    let ceilings = Ceilings { guest_run: Duration::from_secs(4), ..Ceilings::default() };
+    let engine = Engine::open(EngineConfig { ceilings, ..common::config(data.path()) }).await.unwrap();
+    let spec = |seed| RunSpec {
+        algorithms: vec!["brute-force".into()],
+        budget_seconds: 1.0,
+        ..common::spec("proximity", 20, seed)
+    };
+    // Another process measures, so that the run has to wait for longer than it may.
+    let folder = if Path::new("/run/lock").is_dir() { "/run/lock" } else { "/tmp" };
+    let lock = File::options().create(true).append(true).open(Path::new(folder).join("opencollbench-measuring.lock"));
+    let lock = lock.unwrap();
+    lock.lock().unwrap();
+    let (guest, begun) = ("0193f1a0-0000-4000-8000-000000000000", Instant::now());
+    let late = engine.submit(spec(1), Some(guest)).await.unwrap();
+    let (late, _) = common::finish(&engine, &late.id).await;
+    assert_eq!(late.state, State::Cancelled, "{:?}", late.message);
+    assert!(late.message.is_some_and(|message| message.contains("time limit for guests")));
+    assert!(begun.elapsed() >= Duration::from_secs(4));
+    lock.unlock().unwrap();
+    let next = engine.submit(spec(2), Some(guest)).await.unwrap();
+    let (next, _) = common::finish(&engine, &next.id).await;
+    assert_eq!(next.state, State::Done, "{:?}", next.message);
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_replaced_plugin_file_is_reported_as_such() {
     let (data, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let mut config = common::config(data.path());
     let brought = folder.path().join("libocb_parry.so");

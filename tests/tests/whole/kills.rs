@@ -39,7 +39,7 @@ struct Promised {
     runs: Vec<String>,
 }
 
-/// Everybody who is at work when the service is killed.
+/// The clients at work when the service is killed.
 struct People {
     guest: Guest,
     developer: Guest,

@@ -61,7 +61,7 @@ fn a_head_that_does_not_end_is_not_waited_for(service: &Service) {
 }
 
 fn a_body_that_drips_gets_a_408_and_uploads_go_on_meanwhile(service: &Service) {
-    // Whoever sends slowly waits for itself alone: its upload lies on the disk until all of it is there.
+    // Slow uploads arrive on disk and delay no other.
     let began = Instant::now();
     let slow = [connect(service), connect(service)];
     for mut stream in &slow {

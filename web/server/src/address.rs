@@ -1,5 +1,4 @@
-//! Where a request comes from: what is limited by address must not be escaped with another cookie, or another of the addresses
-//! that every subscriber has.
+//! The network a request comes from. Limits by address hold for the whole /64 of IPv6, since every subscriber has one.
 
 use std::convert::Infallible;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
@@ -7,29 +6,27 @@ use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 use axum::extract::{ConnectInfo, FromRequestParts};
 use axum::http::request::Parts;
 
-/// The network of who asks: an address of version 4, the 64 first bits of one of version 6. A proxy on the same machine says
-/// whose request it passes on; nobody else is believed.
+/// The visitor's network: an IPv4 address, or the /64 of an IPv6 address. `X-Forwarded-For` is trusted from this machine only.
 pub(crate) struct Address(pub String);
 
 impl<S: Send + Sync> FromRequestParts<S> for Address {
     type Rejection = Infallible;
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Infallible> {
-        let (peer, told) = asker(parts);
-        Ok(Self(told.unwrap_or_else(|| network(peer))))
+        let peer = parts.extensions.get::<ConnectInfo<SocketAddr>>().map_or(Ipv4Addr::LOCALHOST.into(), |c| c.0.ip());
+        let forwarded = parts.headers.get_all("x-forwarded-for").iter().next_back().filter(|_| peer.is_loopback());
+        Ok(Self(forwarded.map_or_else(|| network(peer), |list| last_of(list.to_str().unwrap_or_default()))))
     }
 }
 
-/// What all share whose address a proxy does not tell readably.
+/// Shared by all visitors whose address the proxy reports in an unknown form.
 const UNREADABLE: &str = "unreadable";
 
-/// The other end of the connection, and the network of whom a proxy at this machine says that it speaks for.
-fn asker(parts: &Parts) -> (IpAddr, Option<String>) {
-    let peer = parts.extensions.get::<ConnectInfo<SocketAddr>>().map_or(Ipv4Addr::LOCALHOST.into(), |c| c.0.ip());
-    let told = parts.headers.get_all("x-forwarded-for").iter().next_back().filter(|_| peer.is_loopback());
-    let last = told.map(|list| list.to_str().unwrap_or_default().rsplit(',').next().unwrap_or_default().trim());
-    let with_port = |text: &str| text.parse::<SocketAddr>().map(|address| address.ip());
-    (peer, last.map(|text| text.parse().or_else(|_| with_port(text)).map_or_else(|_| UNREADABLE.to_owned(), network)))
+/// The network of the last address in the list, which the proxy on this machine has added.
+fn last_of(list: &str) -> String {
+    let text = list.rsplit(',').next().unwrap_or_default().trim();
+    let with_port = |_| text.parse::<SocketAddr>().map(|address| address.ip());
+    text.parse().or_else(with_port).map_or_else(|_| UNREADABLE.to_owned(), network)
 }
 
 fn network(address: IpAddr) -> String {
@@ -60,7 +57,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn an_address_is_that_of_the_visitor_and_a_subscriber_has_one() {
+    async fn the_address_is_the_visitors_and_an_ipv6_subnet_is_one() {
         assert_eq!(of("127.0.0.1", None).await, "127.0.0.1");
         assert_eq!(of("127.0.0.1", Some("198.51.100.1, 203.0.113.7")).await, "203.0.113.7");
         assert_eq!(of("203.0.113.9", Some("198.51.100.1")).await, "203.0.113.9", "it is no proxy of ours");

@@ -20,10 +20,10 @@ pub(crate) fn download(media_type: &str, name: &str, bytes: Vec<u8>) -> Response
     (head(media_type, name), bytes).into_response()
 }
 
-/// How many archives lie on the disk at a time: readers may be slow.
+/// Most archives on the disk at a time: downloads may be slow.
 const ARCHIVES: usize = 8;
 
-/// The archives that are written or sent, and whose turn it is to write one.
+/// Limits the archives being written or downloaded.
 pub(crate) struct Archives {
     places: Arc<Semaphore>,
     writing: Mutex<()>,
@@ -46,9 +46,11 @@ impl Archives {
         name: &str,
         write: impl Future<Output = ocb_engine::Result<File>>,
     ) -> Result<Response> {
-        let place = self.places.clone().try_acquire_owned().map_err(|_| {
-            Problem::too_much("Others are taking archives along; try again when one of them has theirs.", 30)
-        })?;
+        let place = self
+            .places
+            .clone()
+            .try_acquire_owned()
+            .map_err(|_| Problem::too_much("Too many archives are being downloaded; try again in a moment.", 30))?;
         let writing = self.writing.lock().await;
         let file = write.await?;
         drop(writing);
@@ -56,7 +58,7 @@ impl Archives {
     }
 }
 
-/// What an open file holds, from where it stands; its place is free when all of it is sent.
+/// The rest of an open file; `place` is released when it is sent or the client leaves.
 fn download_file(media_type: &str, name: &str, file: File, place: OwnedSemaphorePermit) -> Result<Response> {
     let length = file.metadata().map_err(Problem::fault)?.len();
     let chunks = stream::try_unfold((tokio::fs::File::from_std(file), place), async |(mut file, place)| {

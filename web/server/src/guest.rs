@@ -29,11 +29,11 @@ pub(crate) struct Browser(pub String);
 #[derive(Clone, Debug)]
 pub(crate) struct Member(pub AccountInfo);
 
-/// Who is logged in in person, not by a token.
+/// The account of a browser session, as opposed to a token.
 #[derive(Clone, Debug)]
 pub(crate) struct Person(pub AccountInfo);
 
-/// What the token is for by which somebody asks.
+/// The scopes of the request's token.
 #[derive(Clone, Debug)]
 pub(crate) struct Token(pub Vec<Scope>);
 
@@ -74,7 +74,7 @@ pub(crate) async fn recognise(State(app): State<App>, mut request: Request, next
     response
 }
 
-/// Whose session or token it is, and what the token is for.
+/// The account of the session or token, and the token's scopes.
 async fn account(
     app: &App,
     headers: &HeaderMap,
@@ -107,8 +107,8 @@ async fn account(
     }
 }
 
-/// What a token must be for. Accounts, what they are told, and decisions need a person, on every way that leads there; a run's
-/// archive holds the plugins that it measured.
+/// The scope that a token needs for a path; none opens accounts, notices and decisions, which need a browser session. Repro archives
+/// contain plugins.
 pub(crate) fn scope_of(path: &str, reads: bool) -> Option<Scope> {
     match resource(path) {
         "account" | "accounts" | "curation" | "invitations" | "notices" => None,
@@ -119,7 +119,7 @@ pub(crate) fn scope_of(path: &str, reads: bool) -> Option<Scope> {
     }
 }
 
-/// May what is public there be read with any token?
+/// Can public data at this path be read with any token?
 pub(crate) fn anybody_reads(path: &str) -> bool {
     scope_of(path, true).is_some() && resource(path) != "plugins"
 }

@@ -46,7 +46,7 @@ pub struct App {
     /// Held while a plugin is taken: what room its account has is looked at first, and must be there still when it is added.
     submitting: std::sync::Arc<tokio::sync::Mutex<()>>,
     archives: std::sync::Arc<download::Archives>,
-    /// Held while a large mesh is drawn up for the viewer.
+    /// Held while the viewer's copy of a mesh is built.
     drawing: std::sync::Arc<tokio::sync::Semaphore>,
     limits: std::sync::Arc<limits::Limits>,
     names: origin::Names,

@@ -16,7 +16,7 @@ use crate::problem::{Problem, Result};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limit {
     name: &'static str,
-    /// Different ones may have one name for people.
+    /// What it is counted by: several limits of one name differ in this.
     of: &'static str,
     times: u32,
     per: Duration,
@@ -26,8 +26,8 @@ const fn limit(name: &'static str, of: &'static str, times: u32, seconds: u64) -
     Limit { name, of, times, per: Duration::from_secs(seconds) }
 }
 
-/// Passwords: per address; per address and name; and per name, wherever it is tried from, but for devices that have entered
-/// with it before. One address alone cannot use up the last, so that nobody locks another out.
+/// Login attempts per address, per address and name, and per name alone; the last does not apply to browsers that have logged in
+/// before, and one address cannot exhaust it, so that no visitor can lock an account.
 pub(crate) const LOG_IN: Limit = limit("log in", "address", 10, 60);
 pub(crate) const LOG_IN_AS: Limit = limit("log in", "address and name", 10, 3600);
 pub(crate) const LOG_IN_ANYWHERE: Limit = limit("log in", "name", 100, 3600);
@@ -52,19 +52,18 @@ pub(crate) const TURN_OFF: Limit = limit("turn mails off", "address", 20, 60);
 /// Plugins, per account.
 pub(crate) const SUBMIT: Limit = limit("submit a plugin", "account", 30, 3600);
 
-/// Runs, advice, objects and the MiB of what is uploaded, per address.
+/// Runs, requests for advice, objects and uploaded MiB, per address.
 pub(crate) const ASK_RUN: Limit = limit("ask for a run", "address", 120, 600);
 pub(crate) const ASK_ADVICE: Limit = limit("ask for advice", "address", 60, 3600);
 pub(crate) const ADD_OBJECT: Limit = limit("add an object", "address", 120, 3600);
 pub(crate) const ADD_MEBIBYTES: Limit = limit("upload so much", "MiB", 4096, 24 * 3600);
 
-/// Who tried: one of so many places, which a secret of this process gives. Memory is bounded by that, and two strangers share
-/// a place with a probability of 1 in 65,536.
+/// A keyed hash of the address or name. 16 bits bound the memory; two visitors share a bucket with a probability of 1 in 65,536.
 type Place = u16;
 
 type Limiter = RateLimiter<Place, HashMapStateStore<Place>, DefaultClock>;
 
-/// What was tried lately.
+/// Recent attempts.
 #[derive(Default)]
 pub(crate) struct Limits {
     limiters: Mutex<HashMap<(&'static str, &'static str), Limiter>>,
@@ -72,7 +71,7 @@ pub(crate) struct Limits {
 }
 
 impl Limits {
-    /// Counts a try of `who`, in whatever case it is written.
+    /// Counts an attempt of `who`, ignoring case.
     ///
     /// # Errors
     /// 429 with the seconds to wait when there were too many.
@@ -80,7 +79,7 @@ impl Limits {
         self.count_many(limit, who, 1)
     }
 
-    /// The same for so many at once, of which there may be none.
+    /// Counts `many` attempts at once, which may be 0.
     pub(crate) fn count_many(&self, limit: Limit, who: &str, many: u32) -> Result<()> {
         let Some(many) = NonZeroU32::new(many.min(limit.times)) else { return Ok(()) };
         let mut limiters = self.limiters.lock().unwrap_or_else(PoisonError::into_inner);
@@ -118,6 +117,16 @@ mod tests {
         assert!(refused.detail.contains("wait 6 seconds") && refused.retry_seconds == Some(6), "{refused:?}");
         limits.count(LOG_IN, "b").unwrap();
         limits.count(LOG_IN_AS, "a").unwrap();
+    }
+
+    #[test]
+    fn a_bucket_drains() {
+        const QUICK: Limit = Limit { name: "test", of: "test", times: 2, per: Duration::from_millis(400) };
+        let limits = Limits::default();
+        limits.count_many(QUICK, "a", 2).unwrap();
+        assert!(limits.count(QUICK, "a").is_err());
+        std::thread::sleep(Duration::from_millis(250));
+        limits.count(QUICK, "a").unwrap();
     }
 
     #[test]

@@ -12,10 +12,9 @@ use crate::App;
 use crate::guest::is_secure;
 use crate::problem::{Problem, Result};
 
-/// The names under which this service may be reached beside addresses and loopback names, in lower case.
+/// Host names of this service, in lower case, in addition to IP addresses and loopback names.
 ///
-/// A page of another site can have its own name lead to this machine, and would then be of the same origin: but under that
-/// name it would have to ask.
+/// Against DNS rebinding: a foreign site can point its own name at this machine, but its requests then carry that name.
 #[derive(Clone, Debug, Default)]
 pub struct Names(Vec<String>);
 
@@ -36,14 +35,12 @@ impl Names {
     }
 }
 
-/// Refuses what was sent to a name that is not this service's.
+/// Refuses requests for other host names.
 pub(crate) async fn refuse_other_names(State(app): State<App>, request: Request, next: Next) -> Response {
     let host = request.headers().get(header::HOST).map(|host| host.to_str().unwrap_or_default());
     if let Some(host) = host.filter(|host| !app.names.know(host)) {
         let shown: String = host.chars().filter(|c| !c.is_control()).take(100).collect();
-        let detail = format!(
-            "This service is not known under the name {shown:?}; who runs it allows a name with `ocb serve --host-name`."
-        );
+        let detail = format!("Unknown host name {shown:?}; the operator can add it with `ocb serve --host-name`.");
         return Problem::new(StatusCode::MISDIRECTED_REQUEST, detail).into_response();
     }
     next.run(request).await
@@ -101,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn only_own_names_are_known() {
+    fn foreign_host_names_are_unknown() {
         let names = Names::new(["Bench.Example".to_owned(), String::new()]);
         for own in [
             "localhost",

@@ -20,7 +20,7 @@ pub struct Problem {
     pub status: u16,
     /// One sentence for the person who asked.
     pub detail: String,
-    /// Worth another try after so many seconds; sent as `Retry-After`.
+    /// Seconds until a retry is useful; sent as `Retry-After`.
     #[serde(skip)]
     pub retry_seconds: Option<u32>,
 }
@@ -40,7 +40,7 @@ impl Problem {
         }
     }
 
-    /// Too much at once: what helps, and after how many seconds the same works.
+    /// A limit is reached (429); a retry is useful after so many seconds.
     pub fn too_much(detail: impl Into<String>, retry_seconds: u32) -> Self {
         Self { retry_seconds: Some(retry_seconds), ..Self::new(StatusCode::TOO_MANY_REQUESTS, detail) }
     }

@@ -1,4 +1,4 @@
-//! One uploaded file: on disk while it comes, however slowly, and in memory when its turn has come.
+//! File uploads: written to disk while they arrive, read into memory one after the other.
 
 use std::sync::{Arc, PoisonError};
 use std::time::Duration;
@@ -30,7 +30,7 @@ pub(crate) const MAX_BODY_BYTES: u64 = MAX_BYTES as u64 + (1 << 20);
 const MANIFEST_BYTES: usize = 64 << 10;
 const SIGNATURE_BYTES: usize = 4 << 10;
 
-/// The most that a part may have that nobody asked for.
+/// Most bytes of any other part of the form.
 const OTHER_BYTES: usize = 64 << 10;
 
 /// What counts as a small upload, and how many small and large ones are held in memory at a time; others wait. A large one may
@@ -39,7 +39,7 @@ const SMALL_BYTES: usize = 8 << 20;
 const SMALL_AT_A_TIME: usize = 16;
 const LARGE_AT_A_TIME: usize = 2;
 
-/// How many uploads may come at a time, and how many of these from one address.
+/// Most concurrent uploads, in all and from one address.
 const COMING: usize = 400;
 const COMING_FROM_ONE: usize = 100;
 
@@ -47,15 +47,15 @@ const COMING_FROM_ONE: usize = 100;
 const DRAIN_BYTES: u64 = 4 << 30;
 const DRAIN_TIME: Duration = Duration::from_secs(60);
 
-/// Uploads take turns: that bounds the memory, and the room on disk, of many at once.
+/// Bounds memory and disk space of concurrent uploads.
 pub(crate) struct Turns {
     small: Semaphore,
     large: Semaphore,
-    /// From where those come that are under way.
+    /// Addresses of the uploads in progress.
     coming: std::sync::Mutex<Vec<String>>,
 }
 
-/// An upload that is under way.
+/// An upload in progress.
 pub(crate) struct Coming<'a>(&'a Turns, String);
 
 impl Drop for Coming<'_> {
@@ -75,35 +75,35 @@ impl Default for Turns {
 }
 
 impl Turns {
-    /// Lets an upload come; what is given back is held until it is there.
+    /// Admits an upload; hold the result until the body has been received.
     ///
     /// # Errors
-    /// 429 when too many are coming already.
+    /// 429 when too many are in progress.
     pub(crate) fn begin(&self, from: &str) -> Result<Coming<'_>> {
         let mut coming = self.coming.lock().unwrap_or_else(PoisonError::into_inner);
         let of_one = coming.iter().filter(|other| *other == from).count();
         if coming.len() >= COMING || of_one >= COMING_FROM_ONE {
-            return Err(Problem::too_much("Too many uploads are under way; try again when one of them has ended.", 30));
+            return Err(Problem::too_much("Too many uploads are in progress; try again in a moment.", 30));
         }
         coming.push(from.to_owned());
         Ok(Coming(self, from.to_owned()))
     }
 
-    /// Waits for the turn of a file that is there; it is held until the file is stored.
+    /// Waits until a received file may be read into memory; hold the permit until it is stored.
     pub(crate) async fn take(&self, file: &Spooled) -> Result<SemaphorePermit<'_>> {
         let pool = if file.bytes <= SMALL_BYTES { &self.small } else { &self.large };
         pool.acquire().await.map_err(Problem::fault)
     }
 }
 
-/// A file without a name on disk: nothing is left of it when the service ends.
+/// An unnamed temporary file.
 pub(crate) struct Spooled {
     file: File,
     bytes: usize,
 }
 
 impl Spooled {
-    /// All of it.
+    /// Its content.
     pub(crate) async fn read(mut self) -> Result<Vec<u8>> {
         let mut bytes = Vec::with_capacity(self.bytes);
         self.file.rewind().await.map_err(Problem::fault)?;
@@ -235,8 +235,7 @@ impl Submission {
     }
 }
 
-/// What comes is written at once, so that whoever sends slowly holds no memory, and counted at once, so that many who send
-/// together do not fill the disk.
+/// Writes and counts each chunk as it arrives: slow senders hold no memory, and many senders together cannot fill the disk.
 async fn spool(mut field: Field<'_>, most: usize, app: &App, from: &str) -> Result<Spooled> {
     let mut file = File::from_std(app.engine.temporary_file()?);
     let mut bytes = 0;

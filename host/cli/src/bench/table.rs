@@ -63,9 +63,9 @@ pub fn summary(run: &RunInfo) -> String {
         let null = units::time(machine.null_ns.value);
         let (cpu, class, clock) = (&machine.cpu, &machine.hardware_class, &machine.clock);
         text.push(format!("Measured on {cpu} (class {class}), clock {clock}, null round trip {null} subtracted."));
-        text.extend(machine.moved().map(|drift| {
+        text.extend(machine.notable_drift().map(|drift| {
             format!(
-                "The clock's pace changed by {:.3} % meanwhile: take no time of this run for more exact.",
+                "The clock's rate changed by {:.3} % during the run; its times are no more accurate than that.",
                 100.0 * drift.abs()
             )
         }));

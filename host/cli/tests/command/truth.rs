@@ -105,7 +105,7 @@ fn bad_questions_are_refused_in_one_sentence() {
         (&["pairs", &pairs, "-o", "out.txt"], ".parquet, .csv or .json"),
         (&[&a], "--configurations"),
         (&[], "--configurations"),
-        (&[&a, "--configurations", &a], "no file of configurations"),
+        (&[&a, "--configurations", &a], "Not a configuration file"),
         (&[&a, "--configurations", &poses, "--query", "pd"], "pd"),
         (&["stock:unicorn@100", "--configurations", &poses], "unicorn"),
     ];

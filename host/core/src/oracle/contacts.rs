@@ -34,7 +34,7 @@ pub(crate) fn each(scene: &Scene, mut visit: impl FnMut([u32; 2], &Triangle, &Tr
     }
 }
 
-/// How many pairs of triangles may be within a distance (in units): no fewer than are.
+/// Upper bound of the number of pairs of triangles within a distance (in units).
 pub(crate) fn count_within(scene: &Scene, distance: f64) -> u64 {
     let Some(frame) = &scene.frame else { return scene.all_pairs().count() as u64 };
     let (mut count, mut stack) = (0, vec![frame.roots()]);

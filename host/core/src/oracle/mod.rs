@@ -201,8 +201,8 @@ impl<'a> Pair<'a> {
         scene_size([self.a.largest, self.b.largest], configuration)
     }
 
-    /// Half-width of the band in which an answer is not scored: `32 u S`, and where a pose is a little off a rotation what
-    /// two honest programs make of that.
+    /// Half-width of the band in which an answer is not scored: `32 u S`, plus [`Pose::bend`](crate::pose::Pose::bend) times S
+    /// where a linear part is slightly off a rotation.
     pub fn tau(&self, configuration: &Configuration, unit_roundoff: f64) -> f64 {
         let bend = configuration.pose_a.bend().max(configuration.pose_b.bend());
         (32.0 * unit_roundoff + bend) * self.scene_size(configuration)
@@ -233,7 +233,7 @@ impl<'a> Pair<'a> {
         pairs
     }
 
-    /// How many pairs of triangles an honest program may count as contacts: all that are within this distance.
+    /// Largest number of contacts that a correct program may count: the pairs of triangles within this distance.
     pub fn most_contacts(&self, configuration: &Configuration, tau: f64) -> u64 {
         Scene::with(self, configuration, |scene| contacts::count_within(scene, tau / scene.unit))
     }

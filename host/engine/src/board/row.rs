@@ -31,8 +31,8 @@ pub fn rows(left: &[Measured], expected: &[(String, String)]) -> Vec<BoardRow> {
     algorithms.iter().filter_map(row).collect()
 }
 
-/// The run with the most configurations, of those the newest; in this scenario. Runs of a suite have as many each,
-/// which another oracle may judge otherwise.
+/// The run with the most configurations in this scenario, of those the newest. Runs of a suite all have the same number; of these
+/// the newest oracle decides.
 fn best<'a>(own: &[&'a Measured], (scene, distance): (&str, &str)) -> Option<&'a Measured> {
     let here = own.iter().filter(|m| m.scene.value == scene && m.distance.value == distance);
     let better = |m: &&&Measured| match m.suite {

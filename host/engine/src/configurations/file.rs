@@ -17,41 +17,40 @@ const SMALLEST: f64 = 1e-100;
 /// Bytes of one raw matrix.
 const MATRIX_BYTES: usize = 16 * 8;
 
-/// What a file of configurations holds.
+/// The content of a configuration file.
 #[derive(Debug, PartialEq)]
-pub struct Brought {
-    /// Each with two rotations.
+pub struct ConfigurationFile {
+    /// Every linear part is a rotation.
     pub poses: Vec<Configuration>,
-    /// In so many a matrix was replaced by the nearest rotation, because it was one in single precision only.
+    /// Number of configurations in which a single-precision rotation was replaced by the nearest rotation.
     pub straightened: usize,
 }
 
-impl Brought {
-    /// For the run that is measured with it; nothing where all were rotations.
+impl ConfigurationFile {
+    /// The note on the run, if any matrix was replaced.
     pub fn note(&self) -> Option<String> {
         let (some, all) = (self.straightened, self.poses.len());
         (some > 0).then(|| {
-            format!("In {some} of {all} configurations a matrix is a rotation in single precision only; the nearest one is used.")
+            format!("In {some} of {all} configurations a matrix is a rotation in single precision only; the nearest rotation is used.")
         })
     }
 }
 
-/// Reads a file of configurations.
-pub fn read_file(bytes: &[u8]) -> Result<Brought> {
-    read(bytes).and_then(checked).and_then(straightened).map_err(none)
+/// Reads a configuration file for a run, in which plugins are promised rotations.
+pub fn read_file(bytes: &[u8]) -> Result<ConfigurationFile> {
+    read(bytes).and_then(checked).and_then(straightened).map_err(invalid)
 }
 
-/// The same for who asks the oracle alone: it knows the truth for any matrix.
+/// Reads a configuration file for the oracle alone, which accepts any matrix.
 pub fn read_matrices(bytes: &[u8]) -> Result<Vec<Configuration>> {
-    read(bytes).and_then(checked).map_err(none)
+    read(bytes).and_then(checked).map_err(invalid)
 }
 
-fn none(why: String) -> EngineError {
-    EngineError::Invalid(format!("This is no file of configurations: {why}."))
+fn invalid(why: String) -> EngineError {
+    EngineError::Invalid(format!("Not a configuration file: {why}."))
 }
 
-/// Plugins are promised rotations.
-fn straightened(mut poses: Vec<Configuration>) -> std::result::Result<Brought, String> {
+fn straightened(mut poses: Vec<Configuration>) -> std::result::Result<ConfigurationFile, String> {
     let mut straightened = 0;
     for (row, configuration) in (1..).zip(&mut poses) {
         let mut bent = false;
@@ -64,16 +63,16 @@ fn straightened(mut poses: Vec<Configuration>) -> std::result::Result<Brought, S
         }
         straightened += usize::from(bent);
     }
-    Ok(Brought { poses, straightened })
+    Ok(ConfigurationFile { poses, straightened })
 }
 
 fn no_rotation(row: u32, off: f64) -> String {
     if off.is_infinite() {
-        return format!("row {row}: the 3x3 part of a matrix mirrors or flattens, and must be a rotation");
+        return format!("row {row}: the 3x3 part of a matrix must be a rotation, and this one mirrors or flattens");
     }
     format!(
         "row {row}: the 3x3 part R of a matrix must be a rotation, and R^T R is off by {off:.1e} (at most {STRAIGHTENED:.0e}); \
-         scale and shear the object instead"
+         apply scale and shear to the object instead"
     )
 }
 
@@ -291,8 +290,8 @@ mod tests {
 
     #[test]
     fn a_bad_file_is_refused_with_the_place() {
-        assert_eq!(refused(&[]), "This is no file of configurations: it holds none.");
-        assert_eq!(refused(b"# nothing\n"), "This is no file of configurations: it holds none.");
+        assert_eq!(refused(&[]), "Not a configuration file: it holds none.");
+        assert_eq!(refused(b"# nothing\n"), "Not a configuration file: it holds none.");
         assert!(refused(&[0; 5]).contains("5 bytes are no whole number"));
         let with = |i: usize, x: f64| {
             let mut m = SHIFT;
@@ -302,7 +301,7 @@ mod tests {
         let two = [raw(SHIFT), raw(with(3, f64::NAN))].concat();
         assert!(refused(&two).contains("matrix 2: matrix entry 3"), "{}", refused(&two));
         assert!(refused(&raw(with(12, 1.0))).contains("last row"));
-        assert!(refused(b"PAR1 but no more").starts_with("This is no file of configurations: "));
+        assert!(refused(b"PAR1 but no more").starts_with("Not a configuration file: "));
         let good = line(&SHIFT, ",");
         let text = |s: String| refused(s.as_bytes());
         assert!(text(format!("{good}\n1,2,x")).contains("line 2: \"x\" is no number"));
@@ -333,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_nearly_a_rotation_becomes_one_and_the_rest_is_refused() {
+    fn near_rotations_are_straightened_and_other_matrices_refused() {
         let read = |longer: f64| read_file(&[raw(SHIFT), raw(turned(0.7, longer))].concat());
         for as_it_is in [0.0, 1e-13] {
             let brought = read(as_it_is).expect("a good file");
@@ -354,7 +353,7 @@ mod tests {
         assert!(told.contains("row 2") && told.contains("off by 2.0e-2"), "{told}");
         let mut mirror = SHIFT;
         mirror[0] = -1.0;
-        assert!(refused(&raw(mirror)).contains("row 1: the 3x3 part of a matrix mirrors"));
+        assert!(refused(&raw(mirror)).contains("row 1: the 3x3 part of a matrix must be a rotation"));
         let mut flat = SHIFT;
         flat[0] = 0.0;
         assert!(refused(&raw(flat)).contains("flattens"));

@@ -19,12 +19,12 @@ use crate::{EngineError, Result};
 pub struct Contents {
     /// Plugins with their files.
     pub plugins: bool,
-    /// What is known of the person: the account, its address and choices, what it was told.
+    /// Personal data: the account, its address, choices and notices.
     pub account: bool,
 }
 
 impl Contents {
-    /// Everything, for the person themselves.
+    /// Everything, for the logged-in owner.
     pub const ALL: Contents = Contents { plugins: true, account: true };
 }
 
@@ -101,7 +101,7 @@ impl Engine {
         }
     }
 
-    /// The account with its choices, and what it was told.
+    /// The account with its choices and notices.
     async fn pack_account(&self, packer: &mut Packer, account: &AccountInfo) -> Result<()> {
         packer.json("account.json", account)?;
         packer.json("choices.json", &self.choices(account).await?)?;

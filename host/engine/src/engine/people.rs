@@ -17,7 +17,7 @@ const NAME: std::ops::RangeInclusive<usize> = 3..=80;
 const WORDS: usize = 2000;
 /// Who has the data folder, in the log.
 pub(super) const NAME_OF_OPERATOR: &str = "the operator";
-/// Browsers of one account that are remembered.
+/// Remembered browsers of one account.
 const MAX_DEVICES: i64 = 20;
 /// Tokens of one account.
 const MAX_TOKENS: usize = 20;
@@ -51,18 +51,13 @@ impl Engine {
         Ok(account)
     }
 
-    /// Could an account have this name? Asked before anything is made of what a visitor sends.
-    pub fn may_be_a_name(&self, name: &str) -> bool {
-        name.len() <= *NAME.end()
-    }
-
-    /// Was the account of this name entered from this browser before?
+    /// Has this browser logged in to the account of this name before?
     #[boxed]
     pub async fn knows_device(&self, name: &str, browser: &str) -> Result<bool> {
-        self.inner.store.knows_device(name, &sha256_hex(browser.as_bytes())).await
+        Ok(name.len() <= *NAME.end() && self.inner.store.knows_device(name, &sha256_hex(browser.as_bytes())).await?)
     }
 
-    /// Remembers the browser that has just entered the account; the newest of them are kept.
+    /// Remembers a browser that has just logged in; the newest ones are kept.
     #[boxed]
     pub async fn remember_device(&self, account: &AccountInfo, browser: &str) -> Result<()> {
         self.inner.store.remember_device(&account.id, &sha256_hex(browser.as_bytes()), MAX_DEVICES).await
@@ -71,14 +66,16 @@ impl Engine {
     /// The account that name and password open; the answer to a wrong name is that to a wrong password.
     #[boxed]
     pub async fn account_with(&self, name: &str, password: &str) -> Result<AccountInfo> {
-        let known = self.inner.store.password_of(name.trim()).await?;
+        let name = name.trim();
+        // No account has a longer name, and the database need not see megabytes.
+        let known = if name.len() <= *NAME.end() { self.inner.store.password_of(name).await? } else { None };
         let (id, stored) = known.map_or((None, None), |(id, stored)| (Some(id), Some(stored)));
         let fits = passwords::fits(password, stored).await?;
         let account = match id.filter(|_| fits) {
             Some(id) => self.inner.store.account(&id).await?,
             None => None,
         };
-        account.ok_or_else(|| EngineError::Forbidden("Name and password do not belong together.".into()))
+        account.ok_or_else(|| EngineError::Forbidden("Wrong user name or password.".into()))
     }
 
     /// Changes the password and logs out everywhere.

@@ -231,7 +231,7 @@ impl Engine {
                 row.state.name()
             )));
         }
-        // Two that publish the same id at once: the first has it.
+        // Of two concurrent approvals of one id the second must see the first.
         let publishing = if step.to == PluginState::Public { Some(self.inner.publishing.lock().await) } else { None };
         if publishing.is_some() {
             self.is_free_to_publish(&row).await?;
@@ -255,9 +255,9 @@ impl Engine {
         }
         drop(publishing);
         self.inner.post_soon();
-        // The decision stands; what follows from it is made up for at the next start.
+        // The decision is stored, so a failure from here on is logged, not answered; the next start reads the registry again.
         if let Err(e) = self.follow_decision(&row, step.to).await {
-            tracing::error!("plugin {id}: what follows from the decision about it could not be done: {e}");
+            tracing::error!("plugin {id}: the decision is stored, but applying it failed: {e}");
         }
         self.plugin(id, Some(by)).await
     }

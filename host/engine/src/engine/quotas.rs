@@ -1,6 +1,6 @@
-//! How much one visitor may have, so that nobody fills the queue or the disk. The command line has no quota.
+//! Quotas that keep one visitor from filling the queue or the disk. The command line has none.
 //!
-//! A guest is whoever sends no cookie, and accounts cost nothing: so an address has a quota beside them.
+//! Guest cookies and accounts are free, so addresses have a quota as well.
 
 use std::time::Duration;
 
@@ -9,16 +9,16 @@ use crate::model::RunSpec;
 use crate::store::{Granted, RunRow};
 use crate::{EngineError, Result};
 
-/// Who asks over the network.
+/// The sender of a request over the network.
 #[derive(Clone, Debug)]
 pub struct Visitor {
     /// The account or the guest.
     pub owner: String,
-    /// The network that it comes from, where that is known.
+    /// Its network, if known.
     pub address: Option<String>,
 }
 
-/// Whose turn its runs take: the account's; guests of one address share theirs.
+/// The turn in the queue that a run takes. Each account has one; guests of one address share one.
 pub(super) fn turn(owner: &str, address: Option<&str>) -> String {
     match (kind(owner), address) {
         (Some(Kind::Guest), Some(address)) => format!("address:{address}"),
@@ -33,6 +33,10 @@ enum Kind {
     Account,
     Address,
 }
+
+/// Bytes of objects.
+const GUEST_OBJECTS: u64 = 512 << 20;
+const ACCOUNT_OBJECTS: u64 = 4 << 30;
 
 /// Guests are random ids.
 fn kind(owner: &str) -> Option<Kind> {
@@ -49,14 +53,6 @@ impl Kind {
             Kind::Guest => 20,
             Kind::Account => 100,
             Kind::Address => 200,
-        }
-    }
-
-    /// Bytes of objects; those of an address are limited by how many it may upload.
-    fn objects(self) -> u64 {
-        match self {
-            Kind::Guest => 512 << 20,
-            Kind::Account | Kind::Address => 4 << 30,
         }
     }
 
@@ -79,15 +75,14 @@ impl Inner {
         ceiling.as_secs_f64()
     }
 
-    /// How long a run may take; absent when as long as it wants.
+    /// The time limit of a run, if it has one.
     pub fn longest_run(&self, row: &RunRow) -> Option<Duration> {
         let guest = row.owner.as_deref().and_then(kind) == Some(Kind::Guest);
         (guest && row.campaign.is_none()).then_some(self.config.ceilings.guest_run)
     }
 
     /// # Errors
-    /// `Invalid` when such a run of this owner would be ended before it is through, or may measure for longer than all of its
-    /// owner's together.
+    /// `Invalid` when the run exceeds the time limit of a guest's run, or the ceiling of its owner even alone.
     pub fn may_be_asked_for(&self, owner: &str, spec: &RunSpec, expected_seconds: f64) -> Result<()> {
         let Some(kind) = kind(owner) else { return Ok(()) };
         let (asks, ceiling) = (granted(spec), self.ceiling(kind));
@@ -98,9 +93,9 @@ impl Inner {
             return Ok(());
         }
         Err(EngineError::Invalid(format!(
-            "This run may measure for {}, and all runs {} for {} at most: give its algorithms less time, or ask for fewer.",
+            "This run may measure for {}, but your limit is {} for all your runs together. Lower the budget per algorithm or choose \
+             fewer algorithms.",
             time(asks),
-            kind.whose(),
             time(ceiling)
         )))
     }
@@ -113,8 +108,7 @@ pub(super) fn granted(spec: &RunSpec) -> f64 {
 
 impl Engine {
     /// # Errors
-    /// `Invalid` when the run alone asks for more than its owner may have, `TooMuch` when that is so beside what waits and
-    /// is under way.
+    /// `Invalid` when the run alone exceeds a limit, `TooMuch` when it does so together with the queued and running ones.
     pub(super) async fn has_room_for_a_run(&self, row: &RunRow) -> Result<()> {
         let Some((owner, kind)) = row.owner.as_deref().and_then(|owner| Some((owner, kind(owner)?))) else {
             return Ok(());
@@ -133,7 +127,7 @@ impl Engine {
     /// `Busy` when the objects of this owner would have too many bytes with these.
     pub(super) async fn has_room_for_an_object(&self, owner: Option<&str>, bytes: usize) -> Result<()> {
         let Some((owner, kind)) = owner.and_then(|owner| Some((owner, kind(owner)?))) else { return Ok(()) };
-        let most = kind.objects();
+        let most = if kind == Kind::Guest { GUEST_OBJECTS } else { ACCOUNT_OBJECTS };
         if self.inner.store.object_bytes(owner).await? + bytes as u64 <= most {
             return Ok(());
         }
@@ -144,13 +138,13 @@ impl Engine {
     }
 }
 
-/// Is a guest's run through before it is ended?
+/// Can a guest's run finish within its time limit?
 fn can_be_run(spec: &RunSpec, expected_seconds: f64, longest: Duration) -> Result<()> {
     let (longest, algorithms) = (longest.as_secs_f64(), spec.algorithms.len());
     if granted(spec) > longest {
         return Err(EngineError::Invalid(format!(
-            "A guest's run may measure for {} in all, and {algorithms} algorithms with {} each may take {}: give each at most \
-             {:.0} s, ask for fewer, or log in.",
+            "The limit for a guest's run is {} of measuring; {algorithms} algorithms at {} each may take {}. Set the budget to {:.0} s \
+             per algorithm or less, choose fewer algorithms, or log in.",
             time(longest),
             time(spec.budget_seconds),
             time(granted(spec)),
@@ -159,7 +153,7 @@ fn can_be_run(spec: &RunSpec, expected_seconds: f64, longest: Duration) -> Resul
     }
     if expected_seconds > longest {
         return Err(EngineError::Invalid(format!(
-            "A guest's run ends after {}, and this one is expected to take {}: ask for fewer configurations or algorithms, or \
+            "The time limit for a guest's run is {}; this one is expected to take {}. Choose fewer configurations or algorithms, or \
              log in.",
             time(longest),
             time(expected_seconds)
@@ -172,14 +166,14 @@ fn room(kind: Kind, has: Granted, row: &RunRow, ceiling: f64) -> Result<()> {
     let (whose, asks) = (kind.whose(), row.granted_seconds);
     if has.waiting >= kind.waiting() {
         let message =
-            format!("{} runs {whose} wait already; ask again when one of them has begun, or delete some.", has.waiting);
+            format!("{} runs {whose} are queued already; try again when one has started, or delete some.", has.waiting);
         return Err(EngineError::TooMuch { message, retry_seconds: later(row.expected_seconds) });
     }
     let over = has.seconds + asks - ceiling;
     if over > 0.0 {
         let message = format!(
-            "The runs {whose} that wait or are under way may measure for {} already, and with this one for more than {}; ask \
-             again when some of them have ended, in {} or so.",
+            "Queued and running runs {whose} may measure for {} already; with this one they would exceed the limit of {}. Try again \
+             when some have finished, in about {}.",
             time(has.seconds),
             time(ceiling),
             time(f64::from(later(over)))
@@ -189,7 +183,7 @@ fn room(kind: Kind, has: Granted, row: &RunRow, ceiling: f64) -> Result<()> {
     Ok(())
 }
 
-/// When another try is worth it: at most in an hour.
+/// Seconds until a retry is useful, an hour at most.
 fn later(seconds: f64) -> u32 {
     seconds.ceil().clamp(10.0, 3600.0) as u32
 }
@@ -212,9 +206,9 @@ mod tests {
 
     #[test]
     fn guests_have_less_than_accounts_and_the_command_line_as_much_as_it_wants() {
-        let of = |owner: &str| kind(owner).map(|kind| (kind.waiting(), kind.objects() >> 20));
-        assert_eq!(of(GUEST), Some((20, 512)));
-        assert_eq!(of(&format!("account:{GUEST}")), Some((100, 4096)));
+        let of = |owner: &str| kind(owner).map(Kind::waiting);
+        assert_eq!(of(GUEST), Some(20));
+        assert_eq!(of(&format!("account:{GUEST}")), Some(100));
         assert_eq!(of("cli"), None);
     }
 

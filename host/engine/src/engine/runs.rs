@@ -18,7 +18,7 @@ const CANCEL_PATIENCE: Duration = Duration::from_secs(3);
 pub(super) struct Asking<'a> {
     /// Who owns it; the service when nobody does.
     pub owner: Option<&'a str>,
-    /// The network that it is asked from.
+    /// Network of the request.
     pub address: Option<&'a str>,
     /// Smaller is served first.
     pub priority: i64,
@@ -42,8 +42,7 @@ impl Engine {
         self.queue(spec, asking).await.map(|(run, _)| run)
     }
 
-    /// The same for a visitor. Who asks again under the same key, because the first answer was lost, gets the run that there
-    /// is. True when it is a new one.
+    /// The same for a visitor. Repeating a request with the same key returns the existing run. True when the run is new.
     #[boxed]
     pub async fn submit_for(&self, spec: RunSpec, visitor: &Visitor, key: Option<&str>) -> Result<(RunInfo, bool)> {
         let (owner, address) = (Some(visitor.owner.as_str()), visitor.address.as_deref());
@@ -96,7 +95,7 @@ impl Engine {
             finished_us: None,
             spec: checked.spec,
         };
-        // Two at once must not both find the last room.
+        // Two concurrent requests must not share the last of a quota.
         let _alone = self.inner.asking.lock().await;
         if !asked_before && campaign.is_none() {
             self.has_room_for_a_run(&row).await?;
@@ -195,21 +194,21 @@ impl Engine {
         self.run(id, caller).await
     }
 
-    /// The same for whoever keeps order here: any run, whose owner is told.
+    /// Cancels any run, for curators and administrators; its owner sees who did.
     ///
     /// # Errors
-    /// `Forbidden` for everybody but curators and administrators, who see every run.
+    /// `Forbidden` for all others.
     #[boxed]
     pub async fn cancel_of_others(&self, id: &str, curator: &AccountInfo) -> Result<RunInfo> {
         if curator.role < Role::Curator {
-            return Err(EngineError::Forbidden("Only who asked for this run, or a curator, may cancel it.".into()));
+            return Err(EngineError::Forbidden("Only the owner of this run or a curator may cancel it.".into()));
         }
         let row = self.inner.run_row(id).await?;
-        self.end(&row, Some("A curator ended this run.")).await?;
+        self.end(&row, Some("Cancelled by a curator.")).await?;
         self.run(id, Some(&curator.owner())).await
     }
 
-    /// Ends a run that waits or is under way, whoever owns it, with a reason for its owner.
+    /// Cancels any queued or running run, with a reason for its owner.
     pub(super) async fn end(&self, row: &RunRow, reason: Option<&'static str>) -> Result<()> {
         let id = row.id.as_str();
         let asked = Instant::now();

@@ -20,8 +20,8 @@ pub struct Environment {
     pub hardware_class: String,
     /// `spin` or `futex`.
     pub clock: String,
-    /// By which share the clock's pace, compared with the kernel's clock, differs at the end from what it was at the beginning;
-    /// some millionths are what can be told. Absent in results of older versions.
+    /// Relative change of the clock's rate against the kernel's clock from the start of the program to the end of the run; a few
+    /// millionths are measurement error. Absent in results of older versions.
     #[serde(default)]
     pub clock_drift: Option<f64>,
     /// Null round trip that is subtracted: median, with p05 and p95 as its interval, nanoseconds.
@@ -48,8 +48,8 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// The drift of a clock that has changed its pace: more than every honest reading can make of it.
-    pub fn moved(&self) -> Option<f64> {
+    /// The drift, if it is more than measurement error.
+    pub fn notable_drift(&self) -> Option<f64> {
         self.clock_drift.filter(|drift| drift.abs() > 1e-4)
     }
 }

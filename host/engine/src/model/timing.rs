@@ -14,7 +14,8 @@ pub struct Reference {
 
 /// Where the seed of a run comes from. A drawn one is the first 53 bits of SHA-256 over the text `secret`, followed by the
 /// SHA-256 of the configuration set and of every plugin file in the run's order; `commitment` is the SHA-256 of `secret`
-/// and was published when the run was asked for, before anything was measured.
+/// and was published when the run was asked for, before anything was measured. A run of the public suite draws its configurations,
+/// too: their seed is the same with the word `configurations` in place of the configuration set's hash.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Draw {
     /// The seed.

@@ -30,9 +30,9 @@ impl Brought {
 /// What developers brought.
 #[derive(Default)]
 pub struct AllBrought {
-    /// What may be asked for.
+    /// The offered ones.
     pub plugins: Vec<Brought>,
-    /// What keeps others from it.
+    /// Why others are not offered, as sentences.
     pub problems: Vec<String>,
 }
 
@@ -47,8 +47,9 @@ pub async fn brought(store: &Store, blobs: &Blobs, data: &Path) -> Result<AllBro
             Err(e) => {
                 tracing::error!("plugin {}: {e}", row.id);
                 let (name, version) = (&row.manifest.name, &row.manifest.version);
-                problems
-                    .push(format!("The plugin {name} {version} cannot be read and is not offered; the log says why."));
+                problems.push(format!(
+                    "The plugin {name} {version} cannot be read and is not offered; see the log of the service."
+                ));
                 continue;
             }
         };

@@ -1,10 +1,10 @@
-//! From which browsers an account was entered.
+//! The browsers that have logged in to an account.
 
 use super::{Store, now_us};
 use crate::Result;
 
 impl Store {
-    /// Was the account of this name entered from it?
+    /// Has it logged in to the account of this name?
     pub async fn knows_device(&self, name: &str, sha256: &str) -> Result<bool> {
         let text = "SELECT COUNT(*) FROM devices d JOIN accounts a ON a.id = d.account \
                     WHERE a.folded = $1 AND a.deleted_us IS NULL AND d.sha256 = $2";
@@ -12,7 +12,7 @@ impl Store {
         Ok(known > 0)
     }
 
-    /// Notes that the account was entered from it, and forgets all but the newest of its devices.
+    /// Records a login, and keeps the newest devices of the account only.
     pub async fn remember_device(&self, account: &str, sha256: &str, most: i64) -> Result<()> {
         sqlx::query(
             "INSERT INTO devices (account, sha256, entered_us) VALUES ($1, $2, $3) \

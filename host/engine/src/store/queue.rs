@@ -3,12 +3,12 @@
 use super::{Store, now_us};
 use crate::Result;
 
-/// What somebody has waiting and under way.
+/// The queued and running work of an owner or an address.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Granted {
-    /// Runs that wait.
+    /// Queued runs.
     pub waiting: u64,
-    /// Measuring time of these and of those under way.
+    /// Measuring time of queued and running runs.
     pub seconds: f64,
 }
 
@@ -78,12 +78,12 @@ impl Store {
         Ok(())
     }
 
-    /// What this owner has waiting and under way, without runs of campaigns, for which nobody asked.
+    /// Of this owner, without runs of campaigns.
     pub async fn granted_to(&self, owner: &str) -> Result<Granted> {
         self.granted(granted!("owner"), owner).await
     }
 
-    /// The same of all who asked from this address.
+    /// Of all visitors from this address.
     pub async fn granted_at(&self, address: &str) -> Result<Granted> {
         self.granted(granted!("address"), address).await
     }

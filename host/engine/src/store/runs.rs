@@ -25,9 +25,9 @@ pub struct RunRow {
     pub priority: i64,
     /// Whose turn it takes; the empty text for runs of the service itself and of campaigns, which take nobody's.
     pub turn: String,
-    /// The network that it was asked from, where that is known.
+    /// Network of the request, if known.
     pub address: Option<String>,
-    /// How long it may measure in all.
+    /// Longest measuring time: budget times algorithms.
     pub granted_seconds: f64,
     /// The suite that it belongs to, by its hash.
     pub suite: Option<String>,
@@ -39,7 +39,7 @@ pub struct RunRow {
     pub state: State,
     /// How often it was started.
     pub attempts: u32,
-    /// Why it failed or was ended.
+    /// Why it failed or was cancelled.
     pub message: Option<String>,
     /// What was asked, defaults filled in.
     pub spec: RunSpec,
@@ -269,33 +269,23 @@ impl Store {
         Ok(())
     }
 
-    /// Notes the machine that measured the run.
+    /// Records the machine that measured the run.
     pub async fn environment_of_run(&self, id: &str, environment: &Environment) -> Result<()> {
-        sqlx::query("UPDATE runs SET environment = $1 WHERE id = $2")
-            .bind(to_json(environment)?)
-            .bind(id)
-            .execute(&self.pool)
-            .await?;
-        Ok(())
+        self.set_column("UPDATE runs SET environment = $1 WHERE id = $2", Some(to_json(environment)?), id).await
     }
 
-    /// Notes what the run asks, once the rest of it is drawn.
+    /// Records the request with the configurations' seed that was drawn for it.
     pub async fn spec_of_run(&self, id: &str, spec: &RunSpec) -> Result<()> {
-        sqlx::query("UPDATE runs SET spec = $1 WHERE id = $2")
-            .bind(to_json(spec)?)
-            .bind(id)
-            .execute(&self.pool)
-            .await?;
-        Ok(())
+        self.set_column("UPDATE runs SET spec = $1 WHERE id = $2", Some(to_json(spec)?), id).await
     }
 
-    /// Notes what the run's results are a preview of, if so.
+    /// Records what the run's results are a preview of, if so.
     pub async fn preview_of_run(&self, id: &str, preview: Option<&Preview>) -> Result<()> {
-        sqlx::query("UPDATE runs SET preview = $1 WHERE id = $2")
-            .bind(preview.map(to_json).transpose()?)
-            .bind(id)
-            .execute(&self.pool)
-            .await?;
+        self.set_column("UPDATE runs SET preview = $1 WHERE id = $2", preview.map(to_json).transpose()?, id).await
+    }
+
+    async fn set_column(&self, text: &'static str, value: Option<String>, id: &str) -> Result<()> {
+        sqlx::query(text).bind(value).bind(id).execute(&self.pool).await?;
         Ok(())
     }
 

@@ -910,7 +910,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Ends a run that is queued or at work; one that has ended stays as it is. A curator who is logged in ends anybody's. */
+        /** Cancels a queued or running run; a finished one stays as it is. Curators may cancel any run, in a browser session. */
         post: operations["cancel_run"];
         delete?: never;
         options?: never;
@@ -1191,7 +1191,10 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** The run with all that its answers follow from, as one file: `ocb replay` asks every question again. */
+        /**
+         * The run with all that its answers follow from, as one file: `ocb replay` asks every question again. For a run that is not public a
+         *     token needs the scope for plugins.
+         */
         get: operations["repro_zip"];
         put?: never;
         post?: never;
@@ -1387,8 +1390,8 @@ export interface paths {
         };
         /**
          * Everything that the visitor has made, to take along: objects, runs with their configurations and records, advice with its
-         *     reduced objects, plugins with their reports, and the account with what it was told. With a token only what it is for: the account
-         *     is for the person alone, plugins need their scope.
+         *     reduced objects, plugins with their reports, the account and its notices. A token gets no account data, and plugins only with their
+         *     scope.
          */
         get: operations["take_along"];
         put?: never;
@@ -2423,7 +2426,8 @@ export interface components {
         /**
          * @description Where the seed of a run comes from. A drawn one is the first 53 bits of SHA-256 over the text `secret`, followed by the
          *     SHA-256 of the configuration set and of every plugin file in the run's order; `commitment` is the SHA-256 of `secret`
-         *     and was published when the run was asked for, before anything was measured.
+         *     and was published when the run was asked for, before anything was measured. A run of the public suite draws its configurations,
+         *     too: their seed is the same with the word `configurations` in place of the configuration set's hash.
          */
         Draw: {
             /** @description What was published before. */
@@ -2457,8 +2461,8 @@ export interface components {
             clock: string;
             /**
              * Format: double
-             * @description By which share the clock's pace, compared with the kernel's clock, differs at the end from what it was at the beginning;
-             *     some millionths are what can be told. Absent in results of older versions.
+             * @description Relative change of the clock's rate against the kernel's clock from the start of the program to the end of the run; a few
+             *     millionths are measurement error. Absent in results of older versions.
              */
             clock_drift?: number | null;
             /** @description CPU model. */
@@ -5314,7 +5318,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Name and password do not belong together */
+            /** @description Wrong user name or password */
             403: {
                 headers: {
                     [name: string]: unknown;

@@ -49,7 +49,7 @@ pub(crate) async fn make_account(
 #[utoipa::path(post, path = "/account/login", tag = "account", request_body = Credentials,
     responses(
         (status = 200, description = "Entered", body = Identity),
-        (status = 403, description = "Name and password do not belong together", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "Wrong user name or password", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "Something is missing", body = Problem, content_type = "application/problem+json"),
         (status = 429, description = "Too many tries", body = Problem, content_type = "application/problem+json"),
     ))]
@@ -62,16 +62,11 @@ pub(crate) async fn log_in(
 ) -> Result<Response> {
     app.limits.count(LOG_IN, &address)?;
     let name = asked.name.trim();
-    // Before anything is made of it: no account has a name of megabytes.
-    if !app.engine.may_be_a_name(name) {
-        return Err(Problem::new(StatusCode::FORBIDDEN, "Name and password do not belong together."));
-    }
     app.limits.count(LOG_IN_AS, &format!("{address} {name}"))?;
     if !app.engine.knows_device(name, &guest).await? {
         app.limits.count(LOG_IN_ANYWHERE, name)?;
     }
     let account = app.engine.account_with(name, &asked.password).await?;
-    app.engine.remember_device(&account, &guest).await?;
     enter(&app, &guest, &headers, account, asked.keep).await
 }
 
@@ -79,6 +74,7 @@ async fn enter(app: &App, guest: &str, headers: &HeaderMap, account: AccountInfo
     if keep {
         app.engine.keep_things(guest, &account).await?;
     }
+    app.engine.remember_device(&account, guest).await?;
     let secret = app.engine.add_session(&account).await?;
     let session = cookie(SESSION, &secret, ocb_engine::SESSION.as_secs(), is_secure(headers));
     let identity = Identity { account: Some(account) };

@@ -100,7 +100,8 @@ pub(crate) async fn configurations_parquet(State(app): State<App>, Path(id): Pat
     Ok(download(PARQUET, &format!("{id}-configurations.parquet"), bytes))
 }
 
-/// The run with all that its answers follow from, as one file: `ocb replay` asks every question again.
+/// The run with all that its answers follow from, as one file: `ocb replay` asks every question again. For a run that is not public a
+/// token needs the scope for plugins.
 #[utoipa::path(get, path = "/runs/{id}/repro.zip", tag = "results",
     params(("id" = String, Path, description = "Run id")),
     responses(

@@ -98,7 +98,7 @@ pub(crate) async fn show_run(
     Ok(Answer(app.engine.run(&id, Some(&guest)).await?))
 }
 
-/// Ends a run that is queued or at work; one that has ended stays as it is. A curator who is logged in ends anybody's.
+/// Cancels a queued or running run; a finished one stays as it is. Curators may cancel any run, in a browser session.
 #[utoipa::path(post, path = "/runs/{id}/cancel", tag = "runs",
     params(("id" = String, Path, description = "Run id")),
     responses(

@@ -35,8 +35,8 @@ pub(crate) async fn keep_longer(State(app): State<App>, Guest(guest): Guest) -> 
 }
 
 /// Everything that the visitor has made, to take along: objects, runs with their configurations and records, advice with its
-/// reduced objects, plugins with their reports, and the account with what it was told. With a token only what it is for: the account
-/// is for the person alone, plugins need their scope.
+/// reduced objects, plugins with their reports, the account and its notices. A token gets no account data, and plugins only with their
+/// scope.
 #[utoipa::path(get, path = "/things.tar", tag = "things",
     responses(
         (status = 200, description = "A folder per thing, JSON beside OBJ and Parquet", body = [u8], content_type = "application/x-tar"),

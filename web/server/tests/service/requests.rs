@@ -94,7 +94,7 @@ async fn a_guest_does_not_fill_the_queue() {
     for _ in 1..20 {
         guest.start(&small_spec()).await;
     }
-    assert!(problem(ask(&guest).send().await.expect("an answer"), 429).await.contains("20 runs of yours wait"));
+    assert!(problem(ask(&guest).send().await.expect("an answer"), 429).await.contains("20 runs of yours are queued"));
     // What was asked for is found again, and others have room.
     assert_eq!(made(under("night", ask(&guest)).await, StatusCode::OK).await["id"], waiting["id"]);
     other.start(&small_spec()).await;

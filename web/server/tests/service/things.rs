@@ -147,7 +147,7 @@ async fn everything_is_taken_along_in_one_archive() {
     assert_eq!(json("account.json")["name"], "owner");
     assert_eq!(json("notices.json"), made.owner.json("/api/v1/notices").await);
     assert_eq!(json("choices.json"), made.owner.json("/api/v1/account/choices").await);
-    // A token takes along what it is for, and nothing of the person.
+    // A token exports what its scopes allow, and no account data.
     for (scopes, plugins) in [(json!(["runs"]), false), (json!(["runs", "plugins"]), true)] {
         let asked = json!({ "name": scopes.to_string(), "scopes": scopes });
         let token = made.owner.post("/api/v1/account/tokens").json(&asked).send().await.expect("an answer");

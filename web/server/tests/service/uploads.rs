@@ -1,4 +1,4 @@
-//! Uploads that come slowly keep nobody else waiting, and no part of a form is without a limit.
+//! Slow uploads do not delay others, and every part of a form has a limit.
 
 use std::time::{Duration, Instant};
 
@@ -64,7 +64,7 @@ async fn one_address_has_some_uploads_at_a_time() {
 }
 
 #[tokio::test]
-async fn a_part_that_nobody_asked_for_is_small() {
+async fn other_parts_of_the_form_are_limited() {
     let service = Service::start_with(&["libocb_box_tree.so"]).await;
     let guest = service.guest();
     let form = |other: usize| {

@@ -1,4 +1,4 @@
-//! One visitor cannot take the service: not with cookies thrown away, not with addresses of one subscriber, not with a name.
+//! One visitor cannot monopolise the service: not by dropping cookies, using many addresses of one subnet, or trying a name.
 
 use std::time::Duration;
 
@@ -33,7 +33,7 @@ fn ceilings() -> Ceilings {
 }
 
 #[tokio::test]
-async fn who_throws_cookies_away_has_what_an_address_has() {
+async fn requests_without_cookies_share_the_limits_of_their_address() {
     let service = Service::start_limited(ceilings()).await;
     for _ in 0..40 {
         let told = problem(asked(&service, "203.0.113.7", 86_400.0).await, 422).await;
@@ -75,7 +75,7 @@ async fn guests_and_accounts_have_a_ceiling_of_their_own() {
     let told = problem(ask(&guest, 300.0).await.expect("an answer"), 429).await;
     assert!(told.contains("of yours") && told.contains("15 minutes"), "{told}");
     assert_eq!(ask(&guest, 150.0).await.expect("an answer").status(), StatusCode::CREATED);
-    // What was ended is free again.
+    // A cancelled run frees its share.
     let waiting = guest.json("/api/v1/runs").await;
     let ended = guest.post(&format!("/api/v1/runs/{}/cancel", waiting[0]["id"].as_str().expect("an id"))).send().await;
     assert_eq!(ended.expect("an answer").status(), StatusCode::OK);
@@ -89,7 +89,7 @@ async fn guests_and_accounts_have_a_ceiling_of_their_own() {
 }
 
 #[tokio::test]
-async fn two_at_once_do_not_both_get_the_last_room() {
+async fn concurrent_requests_do_not_exceed_a_limit() {
     let service = Service::start_limited(ceilings()).await;
     let all = futures::future::join_all((0..20).map(|_| asked(&service, "203.0.113.7", 300.0))).await;
     assert_eq!(all.iter().filter(|answer| answer.status() == StatusCode::CREATED).count(), 3);
@@ -97,7 +97,7 @@ async fn two_at_once_do_not_both_get_the_last_room() {
 }
 
 #[tokio::test]
-async fn a_curator_ends_anybodys_run_and_its_owner_is_told() {
+async fn a_curator_cancels_any_run_and_its_owner_sees_why() {
     let service = Service::start_limited(ceilings()).await;
     let (guest, curator) = (service.guest(), member(&service, "curator", Role::Curator).await);
     let id = guest.start(&spec(60.0)).await;
@@ -119,12 +119,12 @@ async fn a_curator_ends_anybodys_run_and_its_owner_is_told() {
 
     assert_eq!(curator.post(&path).send().await.expect("an answer").status(), StatusCode::OK);
     let run = guest.json(&format!("/api/v1/runs/{id}")).await;
-    assert_eq!((&run["state"], &run["message"]), (&json!("cancelled"), &json!("A curator ended this run.")));
+    assert_eq!((&run["state"], &run["message"]), (&json!("cancelled"), &json!("Cancelled by a curator.")));
     service.stop().await;
 }
 
 #[tokio::test]
-async fn nobody_locks_another_out_of_an_account() {
+async fn trying_a_name_does_not_lock_its_account() {
     let service = Service::start_limited(ceilings()).await;
     let ada = member(&service, "ada", Role::User).await;
     let tried = async |address: &str, password: &str| {
@@ -150,7 +150,7 @@ async fn nobody_locks_another_out_of_an_account() {
 }
 
 #[tokio::test]
-async fn a_name_of_megabytes_is_not_looked_at() {
+async fn a_name_of_megabytes_gets_the_same_answer_as_an_unknown_one() {
     let service = Service::start_limited(ceilings()).await;
     let told = problem(log_in(&service.guest(), &"a".repeat(1_900_000), PASSWORD).await, 403).await;
     assert_eq!(told, problem(log_in(&service.guest(), "nobody", PASSWORD).await, 403).await);

@@ -38,8 +38,9 @@ impl Engine {
             match self.estimate(&due.spec, due.owner()).await {
                 Ok(expected) => {
                     seconds += expected.total_seconds;
-                    // Runs of one scenario share its configurations.
-                    if !found.insert(scenario(&due.spec)?) {
+                    // Runs of one scenario share its configurations, unless each draws its own.
+                    let shared = !due.of_suite || self.inner.suite.document.seed.is_some();
+                    if shared && !found.insert(scenario(&due.spec)?) {
                         seconds -= expected.configuration_seconds;
                     }
                 }
