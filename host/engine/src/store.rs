@@ -28,6 +28,7 @@ mod suites;
 #[cfg(test)]
 pub(crate) mod tests;
 mod things;
+mod unused;
 mod visibility;
 
 use std::path::Path;

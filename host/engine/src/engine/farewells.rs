@@ -95,7 +95,7 @@ impl Inner {
     }
 
     async fn told_leaving(&self, account: &AccountInfo, goes: &Belongings, stays: &Belongings) -> Result<Leaving> {
-        let bytes = self.store.take_away(goes, false).await?.iter().map(|file| file.bytes).sum();
+        let bytes = self.store.unused_without(goes).await?.iter().map(|file| file.bytes).sum();
         let hindrance = self.hindrance(account).await?;
         Ok(Leaving { goes: counted(goes), stays: counted(stays), bytes, hindrance })
     }

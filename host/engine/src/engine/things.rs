@@ -137,7 +137,7 @@ impl Inner {
     }
 
     async fn told(&self, owner: &str, what: Belongings) -> Result<Things> {
-        let bytes = self.store.take_away(&what, false).await?.iter().map(|file| file.bytes).sum();
+        let bytes = self.store.unused_without(&what).await?.iter().map(|file| file.bytes).sum();
         let kept_until_us = self.kept_until(owner).await?;
         Ok(Things { runs: what.runs, objects: what.objects, advice: what.advice.len() as u32, bytes, kept_until_us })
     }
@@ -155,7 +155,7 @@ impl Inner {
     async fn take_away(&self, what: &Belongings) -> Result<()> {
         // Nobody stores a file meanwhile that is about to go.
         let _alone = self.blobs.removing().await;
-        for file in self.store.take_away(what, true).await? {
+        for file in self.store.take_away(what).await? {
             self.blobs.remove(&file.sha256).await?;
         }
         Ok(())

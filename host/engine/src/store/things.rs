@@ -64,15 +64,11 @@ impl Store {
         })
     }
 
-    /// Takes these away and tells which files nobody uses any more; unless `really`, everything stays as it is.
-    pub async fn take_away(&self, what: &Belongings, really: bool) -> Result<Vec<Unused>> {
+    /// Takes these away and tells which files nobody uses any more.
+    pub async fn take_away(&self, what: &Belongings) -> Result<Vec<Unused>> {
         let mut transaction = self.pool.begin().await?;
         let unused = take(&mut transaction, what).await?;
-        if really {
-            transaction.commit().await?;
-        } else {
-            transaction.rollback().await?;
-        }
+        transaction.commit().await?;
         Ok(unused)
     }
 

@@ -41,16 +41,29 @@ pub async fn what_is_taken_away_takes_the_files_that_nobody_else_uses(store: Sto
 
     let unused = |sha256: &str, bytes| Unused { sha256: sha256.into(), bytes };
     let expected = [unused("paper", 40), unused("proof", 50), unused("records", 30)];
-    assert_eq!(store.take_away(&with_object, false).await.unwrap(), expected, "the mesh and the set are others', too");
+    assert_eq!(store.unused_without(&with_object).await.unwrap(), expected, "the mesh and the set are others', too");
     assert!(store.run("r").await.unwrap().is_some() && store.set("k").await.unwrap().is_some());
-    assert_eq!(store.take_away(&with_object, true).await.unwrap(), expected);
+    assert_eq!(store.take_away(&with_object).await.unwrap(), expected);
     assert!(store.run("r").await.unwrap().is_none() && store.object("o").await.unwrap().is_none());
     assert!(store.advice("v").await.unwrap().is_none() && store.results("r").await.unwrap().is_empty());
     assert!(store.run("s").await.unwrap().is_some() && store.run("t").await.unwrap().is_some());
     // With the last run that has it the set goes, with the last object the mesh.
     for (owner, left) in [("me", vec![]), ("other", vec![unused("mesh", 10), unused("set", 20)])] {
         let all = store.belongings(owner, None).await.unwrap();
-        assert_eq!(store.take_away(&all, true).await.unwrap(), left);
+        assert_eq!(store.unused_without(&all).await.unwrap(), left);
+        assert_eq!(store.take_away(&all).await.unwrap(), left);
     }
     assert!(store.set("k").await.unwrap().is_none() && store.owners().await.unwrap().is_empty());
+}
+
+#[tokio::test]
+async fn looking_at_ones_things_waits_for_no_writer() {
+    let (store, _folder) = super::sqlite().await;
+    add(&store, run("r", Some("me"), 1, 1)).await;
+    let mut writer = store.pool.begin().await.unwrap();
+    sqlx::query("UPDATE runs SET attempts = 1").execute(&mut *writer).await.unwrap();
+    let look = async { store.unused_without(&store.belongings("me", None).await.unwrap()).await };
+    let looked = tokio::time::timeout(std::time::Duration::from_secs(5), look).await;
+    assert_eq!(looked.expect("it waited for the writer").unwrap(), []);
+    writer.rollback().await.unwrap();
 }

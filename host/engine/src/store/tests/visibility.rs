@@ -54,9 +54,9 @@ pub async fn what_an_object_hid_stays_hidden_without_it(store: Store) {
         let objects = vec![Thing { id: this, name: String::new() }];
         let what = Belongings { objects, ..Belongings::default() };
         // Looking at what would go changes nothing.
-        store.take_away(&what, false).await.unwrap();
+        store.unused_without(&what).await.unwrap();
         assert_eq!(store.run(&with).await.unwrap().unwrap().visibility, of_run);
-        store.take_away(&what, true).await.unwrap();
+        store.take_away(&what).await.unwrap();
         assert_eq!(
             store.run(&with).await.unwrap().unwrap().visibility,
             of_run.min(of_object),
