@@ -16,8 +16,14 @@ const FIRST_QUERY: f64 = 1e-4;
 /// Starting a runner and building both structures, per pass.
 const START: f64 = 0.5;
 
-/// Expected numbers of a checked request.
+/// Expected numbers of a checked request, and of what would be before it in the queue.
 pub async fn estimate(inner: &Inner, checked: &Checked) -> Result<Estimate> {
+    let (runs_ahead, wait_seconds) = queue_ahead(inner).await?;
+    Ok(Estimate { runs_ahead, wait_seconds, ..estimate_alone(inner, checked).await? })
+}
+
+/// Expected numbers of a checked request, as if nothing waited.
+pub async fn estimate_alone(inner: &Inner, checked: &Checked) -> Result<Estimate> {
     let spec = &checked.spec;
     let triangles = u64::from(checked.object_a.triangles) + u64::from(checked.object_b.triangles);
     let key = set_key(&checked.object_a.sha256, &checked.object_b.sha256, spec)?;
@@ -42,15 +48,14 @@ pub async fn estimate(inner: &Inner, checked: &Checked) -> Result<Estimate> {
         measuring_seconds.push(AlgorithmSeconds { algorithm, seconds: timed + counters + starts, budget_limited });
     }
     let total_seconds = configuration_seconds + measuring_seconds.iter().map(|m| m.seconds).sum::<f64>();
-    let (runs_ahead, wait_seconds) = queue_ahead(inner).await?;
     Ok(Estimate {
         configurations,
         configurations_stored,
         configuration_seconds,
         measuring_seconds,
         total_seconds,
-        runs_ahead,
-        wait_seconds,
+        runs_ahead: 0,
+        wait_seconds: 0.0,
     })
 }
 

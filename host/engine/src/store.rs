@@ -15,6 +15,7 @@ mod invitations;
 mod mails;
 mod notices;
 mod objects;
+mod places;
 mod plugin_lists;
 mod plugins;
 mod queue;
@@ -61,6 +62,7 @@ pub struct Store {
     pool: AnyPool,
     /// Begins a transaction whose reads all see the same moment.
     one_moment: &'static str,
+    turns: places::Known,
 }
 
 impl Store {
@@ -95,7 +97,7 @@ impl Store {
         migrations().run(&pool).await.map_err(|e| EngineError::fault("Migrating the database failed", e))?;
         // SQLite's transactions see one moment anyway, PostgreSQL's have to ask for it.
         let one_moment = if sqlite { "BEGIN" } else { "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY" };
-        Ok(Self { pool, one_moment })
+        Ok(Self { pool, one_moment, turns: places::Known::default() })
     }
 
     /// Closes all connections; what was written is on disk.
@@ -133,6 +135,7 @@ fn migrations() -> Migrator {
         one(21, "turns", include_str!("../migrations/0021_turns.sql")),
         one(22, "grants", include_str!("../migrations/0022_grants.sql")),
         one(23, "devices", include_str!("../migrations/0023_devices.sql")),
+        one(24, "waiting", include_str!("../migrations/0024_waiting.sql")),
     ])
 }
 

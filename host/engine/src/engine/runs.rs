@@ -62,7 +62,7 @@ impl Engine {
             (Some(owner), Some(key)) => self.inner.store.run_of_request(owner, key).await?.is_some(),
             _ => false,
         };
-        let expected = estimate::estimate(&self.inner, &checked).await?;
+        let expected = estimate::estimate_alone(&self.inner, &checked).await?;
         let row = RunRow {
             id: uuid::Uuid::now_v7().to_string(),
             owner: owner.map(str::to_owned),
@@ -138,7 +138,7 @@ impl Engine {
         }
         let whole = RunSpec { precision: None, at_most: None, ..row.spec.clone() };
         let checked = self.check(&whole, caller).await?;
-        let expected_seconds = estimate::estimate(&self.inner, &checked).await?.total_seconds;
+        let expected_seconds = estimate::estimate_alone(&self.inner, &checked).await?.total_seconds;
         // The old secret is known by now.
         let granted_seconds = granted(&checked.spec);
         let row = RunRow { spec: checked.spec, secret: Some(draw::secret()), expected_seconds, granted_seconds, ..row };

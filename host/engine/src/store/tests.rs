@@ -84,6 +84,7 @@ on_both!(
     a_request_makes_one_run,
     events_are_numbered_from_one,
     the_queue_is_fair,
+    places_are_right_where_many_wait,
     interrupted_runs_are_tried_three_times,
     results_replace_those_of_an_earlier_attempt,
     the_newest_finished_featured_run_is_shown,
@@ -323,6 +324,22 @@ mod contract {
         assert_eq!(served, ["a1", "b1", "a2", "a3", "background"]);
         assert_eq!(foretold, served, "what the pages say about the queue is what happens");
         assert_eq!(store.runs_before("a1").await.unwrap(), None, "it waits no more");
+    }
+
+    pub async fn places_are_right_where_many_wait(store: Store) {
+        let mut foretold = Vec::new();
+        for i in 0..240 {
+            add(&store, run(&format!("r{i}"), Some(&format!("owner{}", i % 120)), 1, 1 + i)).await;
+        }
+        for i in 0..240 {
+            let id = format!("r{i}");
+            foretold.push((store.runs_before(&id).await.unwrap().unwrap(), id));
+        }
+        foretold.sort_unstable();
+        for (place, (before, id)) in foretold.iter().enumerate() {
+            assert_eq!((*before as usize, Some(id)), (place, store.claim().await.unwrap().as_ref()));
+            store.end_run(id, State::Running, State::Done, None).await.unwrap();
+        }
     }
 
     pub async fn interrupted_runs_are_tried_three_times(store: Store) {
