@@ -1,7 +1,7 @@
 //! The local dispatcher: one process owns the queue, one run is at work at a time, each on a thread of its own.
 
 use std::sync::{Arc, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use tokio::runtime::Handle;
 
@@ -18,6 +18,8 @@ const MAX_ATTEMPTS: i64 = 3;
 const IDLE: Duration = Duration::from_secs(30);
 /// After a fault of the database.
 const BACK_OFF: Duration = Duration::from_secs(2);
+/// After several of checks in succession at most.
+const LONGEST_BACK_OFF: Duration = Duration::from_secs(60);
 
 /// Puts back what an ended process left behind.
 pub async fn recover(inner: &Inner) -> Result<()> {
@@ -34,16 +36,20 @@ pub async fn recover(inner: &Inner) -> Result<()> {
 
 /// Works on the queue until the engine closes.
 pub async fn work(inner: Arc<Inner>) {
+    let (mut faults, mut next_check) = (0, Instant::now());
     while !inner.closing() {
         // In turn, so that neither waits for all of the other.
-        let checked = match check_next(&inner).await {
-            Ok(checked) => checked,
-            Err(e) => {
-                tracing::error!("checking a plugin: {e}");
-                tokio::time::sleep(BACK_OFF).await;
-                false
+        let mut checked = false;
+        if Instant::now() >= next_check {
+            match check_next(&inner).await {
+                Ok(done) => (checked, faults) = (done, 0),
+                Err(e) => {
+                    let pause = back_off(faults);
+                    (faults, next_check) = (faults + 1, Instant::now() + pause);
+                    tracing::error!("checking a plugin, again in {} s: {e}", pause.as_secs());
+                }
             }
-        };
+        }
         match inner.store.claim().await {
             Ok(Some(id)) => {
                 if let Err(e) = carry_out(&inner, &id).await {
@@ -53,7 +59,8 @@ pub async fn work(inner: Arc<Inner>) {
             }
             Ok(None) if checked => {}
             Ok(None) => {
-                let _ = tokio::time::timeout(IDLE, inner.wake.notified()).await;
+                let idle = if faults > 0 { next_check.saturating_duration_since(Instant::now()) } else { IDLE };
+                let _ = tokio::time::timeout(idle, inner.wake.notified()).await;
             }
             Err(e) => {
                 tracing::error!("looking at the queue: {e}");
@@ -61,6 +68,11 @@ pub async fn work(inner: Arc<Inner>) {
             }
         }
     }
+}
+
+/// How long checks wait after so many faults before this one.
+fn back_off(faults: u32) -> Duration {
+    BACK_OFF.saturating_mul(2_u32.saturating_pow(faults)).min(LONGEST_BACK_OFF)
 }
 
 /// Checks the plugin whose turn it is; false when none waits.
@@ -185,4 +197,9 @@ impl Inner {
             stop.stop_because(reason.map(str::to_owned));
         }
     }
+}
+
+#[test]
+fn faults_in_succession_are_further_and_further_apart() {
+    assert_eq!([0, 1, 2, 4, 5, 900].map(|faults| back_off(faults).as_secs()), [2, 4, 8, 32, 60, 60]);
 }

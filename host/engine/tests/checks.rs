@@ -2,6 +2,7 @@
 
 mod common;
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -184,5 +185,70 @@ async fn author_and_curators_end_a_check() {
     {
         assert_eq!(engine.plugin(&plugin.id, Some(&curator)).await.unwrap().state, state);
     }
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_fault_of_the_database_costs_a_check_no_attempt() {
+    let _alone = alone().await;
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(config(data.path())).await.unwrap();
+    let database = common::database(data.path()).await;
+    let refuse = "CREATE TRIGGER refuse BEFORE INSERT ON submission_lines \
+                  BEGIN SELECT RAISE(ABORT, 'disk I/O error'); END";
+    sqlx::query(refuse).execute(&database).await.unwrap();
+    let author = developer(&engine, "author").await;
+    let plugin = sent(&engine, &author, &slow(data.path(), 0, 800, 1)).await;
+    // Begun three times, which is as often as a check may end the service.
+    let (begun, mut starts) = (Instant::now(), HashSet::new());
+    while starts.len() < 3 {
+        assert!(begun.elapsed() < Duration::from_secs(60), "{starts:?}");
+        let now = "SELECT begun_us FROM submissions WHERE begun_us IS NOT NULL AND state = 'uploaded'";
+        starts.extend(sqlx::query_scalar::<_, i64>(now).fetch_optional(&database).await.unwrap());
+        tokio::time::sleep(Duration::from_millis(20)).await;
+    }
+    sqlx::query("DROP TRIGGER refuse").execute(&database).await.unwrap();
+    under_way(&engine, &plugin.id, &author).await;
+    database.close().await;
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn one_of_two_concurrent_approvals_wins_and_a_lost_file_stops_no_start() {
+    let data = tempfile::tempdir().unwrap();
+    let idle = || common::idle_config(data.path());
+    let engine = Engine::open(idle()).await.unwrap();
+    let database = common::database(data.path()).await;
+    let mut plugins = Vec::new();
+    for name in ["one", "two"] {
+        let author = developer(&engine, name).await;
+        let bytes = format!("\x7fELF of {name}").into_bytes();
+        plugins.push(engine.submit_plugin(&author, "slow.so", bytes, manifest(), None).await.unwrap().0);
+    }
+    let awaiting = "UPDATE submissions SET state = 'awaiting', algorithms = '[{\"id\": \"slow\", \"name\": \"Slow\", \
+        \"version\": \"1.0\", \"authors\": \"Somebody\", \"license\": \"MIT\", \"url\": \"\", \"paper\": \"\", \
+        \"queries\": [\"collision_first\"], \"counters\": false, \"witness_points\": false, \"single_precision\": false, \
+        \"solid\": false, \"coherent\": false, \"threads\": false, \"usual\": true, \"parameters\": [], \
+        \"plugin_sha256\": \"\"}]'";
+    sqlx::query(awaiting).execute(&database).await.unwrap();
+    database.close().await;
+    let curator = engine.add_account("curator", "a long enough password", Role::Curator).await.unwrap();
+    let approve = || Decision { action: Action::Approve, reason: String::new() };
+    let (one, two) = tokio::join!(
+        engine.decide(&plugins[0].id, &curator, approve()),
+        engine.decide(&plugins[1].id, &curator, approve()),
+    );
+    let [won, lost] = if one.is_ok() { [one, two] } else { [two, one] };
+    assert_eq!(won.unwrap().state, PluginState::Public);
+    let lost = lost.unwrap_err();
+    assert!(lost.to_string().contains("belongs to another author's plugin"), "{lost}");
+    engine.shutdown().await;
+
+    for kept in ["blobs", "plugins"] {
+        let _ = std::fs::remove_dir_all(data.path().join(kept));
+    }
+    let engine = Engine::open(idle()).await.unwrap();
+    let problems = engine.status().await.unwrap().problems;
+    assert!(problems.iter().any(|problem| problem.contains("Slow 1.0 cannot be read")), "{problems:?}");
     engine.shutdown().await;
 }

@@ -166,6 +166,34 @@ async fn a_guests_run_is_stopped_at_its_time_limit_and_the_next_run_goes_on() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn a_run_ends_as_soon_as_the_database_can_record_it() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(common::config(data.path())).await.unwrap();
+    let database = common::database(data.path()).await;
+    let refuse = "CREATE TRIGGER refuse BEFORE UPDATE ON runs WHEN NEW.state = 'done' \
+                  BEGIN SELECT RAISE(ABORT, 'disk I/O error'); END";
+    sqlx::query(refuse).execute(&database).await.unwrap();
+    let spec = |seed| RunSpec { algorithms: vec!["brute-force".into()], ..common::spec("proximity", 20, seed) };
+    let run = engine.submit(spec(1), Some("guest")).await.unwrap();
+    let begun = Instant::now();
+    while engine.run(&run.id, None).await.unwrap().results.is_empty() {
+        assert!(begun.elapsed() < Duration::from_secs(60), "nothing was measured");
+        tokio::time::sleep(Duration::from_millis(20)).await;
+    }
+    tokio::time::sleep(Duration::from_secs(1)).await;
+    assert_eq!(engine.run(&run.id, None).await.unwrap().state, State::Running);
+
+    sqlx::query("DROP TRIGGER refuse").execute(&database).await.unwrap();
+    for run in [run.id, engine.submit(spec(2), Some("guest")).await.unwrap().id] {
+        let ended = tokio::time::timeout(Duration::from_secs(60), common::finish(&engine, &run)).await;
+        assert_eq!(ended.expect("it never ends").0.state, State::Done);
+    }
+    engine.remove_things("guest").await.unwrap();
+    database.close().await;
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn a_replaced_plugin_file_is_reported_as_such() {
     let (data, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let mut config = common::config(data.path());

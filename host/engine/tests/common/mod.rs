@@ -59,3 +59,10 @@ pub fn files(folder: &Path) -> usize {
 pub fn quick() -> ocb_engine::Extent {
     ocb_engine::Extent { quick: true, ..ocb_engine::Extent::default() }
 }
+
+/// The database of an engine's data folder, to make it fail.
+pub async fn database(data: &Path) -> sqlx::AnyPool {
+    sqlx::any::install_default_drivers();
+    let file = data.join("opencollbench.sqlite");
+    sqlx::AnyPool::connect(&format!("sqlite://{}", file.display())).await.expect("the database")
+}
