@@ -2,11 +2,12 @@
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};
+use std::path::Path;
 
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 
-use crate::support::Desk;
+use crate::support::{Desk, Ended};
 
 #[test]
 fn it_serves_until_it_is_told_to_stop() {
@@ -72,4 +73,14 @@ fn what_is_wrong_with_a_mail_server_is_told_without_its_password() {
         assert!(told.contains(expected) && !told.contains("secret"), "{told}");
     }
     assert!(!desk.path("data").exists(), "nothing was opened");
+}
+
+#[test]
+fn the_systemd_unit_starts_a_command_that_exists() {
+    let unit = Path::new(env!("CARGO_MANIFEST_DIR")).join("../opencollbench.service");
+    let unit = std::fs::read_to_string(unit).unwrap();
+    let start = unit.lines().find_map(|line| line.strip_prefix("ExecStart=/opt/opencollbench/ocb ")).unwrap();
+    let Ended { code, stdout, stderr } = Desk::new().run(&start.split(' ').chain(["--help"]).collect::<Vec<_>>());
+    assert_eq!(code, 0, "{stderr}");
+    assert!(stdout.contains("Usage: ocb serve"), "{stdout}");
 }
