@@ -4,7 +4,8 @@
 # pairs of triangles for the oracle's filters (OCB_PAIRS), a hundred thousand configurations that no certified level of detail
 # may contradict (OCB_HELD_OUT), a hundred runs that end early (OCB_REPETITIONS); the service is killed two hundred times
 # (OCB_KILLS), two hundred visitors come for a minute and must not change what is measured meanwhile (OCB_LOAD_SECONDS),
-# every route is asked a hundred times and more (OCB_API_EXAMPLES); two hundred runs of forged plugins, in an hour and a half (OCB_FORGERS),
+# every route is asked a hundred times and more (OCB_API_EXAMPLES), and an honest visitor goes on beside hostile ones and ten
+# thousand waiting runs for an hour (OCB_HOSTILE_MINUTES); two hundred runs of forged plugins, in an hour and a half (OCB_FORGERS),
 # which want a machine with nothing else on it. Then the restart tests (the service is killed at every
 # stage of a run) over and over. The first failure ends it; the last line says how often they passed.
 set -euo pipefail
@@ -18,6 +19,7 @@ cargo test --release --workspace --test early --test early_stopping -- --nocaptu
 cargo build --release --workspace
 tests/setup/tools.sh test
 OCB_KILLS=${OCB_KILLS:-200} OCB_LOAD_SECONDS=${OCB_LOAD_SECONDS:-60} OCB_API_EXAMPLES=${OCB_API_EXAMPLES:-100} \
+  OCB_HOSTILE_MINUTES=${OCB_HOSTILE_MINUTES:-60} \
   cargo test --release --workspace --test whole -- --nocapture
 OCB_FORGERS=${OCB_FORGERS:-200} cargo test --release --workspace --test forgers -- --nocapture
 meshes=${OCB_SHARED:-../shared}/meshes

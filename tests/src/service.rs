@@ -6,6 +6,7 @@ use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
 use reqwest::blocking::{Client, Response};
+use reqwest::header::{HeaderMap, HeaderName};
 use serde_json::Value;
 
 use crate::place::built;
@@ -93,12 +94,24 @@ pub struct Guest {
 
 impl Default for Guest {
     fn default() -> Self {
-        let client = Client::builder().cookie_store(true).timeout(Duration::from_secs(120)).build();
-        Self { client: client.expect("an HTTP client") }
+        Self::new(HeaderMap::new())
     }
 }
 
 impl Guest {
+    fn new(headers: HeaderMap) -> Self {
+        let client = Client::builder().cookie_store(true).timeout(Duration::from_secs(120)).default_headers(headers);
+        Self { client: client.build().expect("an HTTP client") }
+    }
+
+    /// A visitor whom a proxy lets in from this address.
+    pub fn from_address(address: &str) -> Self {
+        Self::new(HeaderMap::from_iter([(
+            HeaderName::from_static("x-forwarded-for"),
+            address.parse().expect("an address"),
+        )]))
+    }
+
     /// A visitor who has entered the account of this name.
     pub fn member(service: &Service, name: &str) -> Self {
         let guest = Self::default();
@@ -130,6 +143,14 @@ impl Guest {
     /// The answer to a GET below `/api/v1`.
     pub fn look(&self, service: &Service, path: &str) -> Response {
         self.client.get(format!("{}{path}", service.url)).send().unwrap_or_else(|e| panic!("GET {path}: {e}"))
+    }
+
+    /// Reads a page or an answer, given below the address of the service, that must be there.
+    pub fn page(&self, service: &Service, path: &str) {
+        let answer = self.client.get(format!("{}{path}", service.pages())).send();
+        let answer = answer.unwrap_or_else(|e| panic!("GET {path}: {e}"));
+        assert!(answer.status().is_success(), "GET {path}: {}", answer.status());
+        answer.bytes().unwrap_or_else(|e| panic!("GET {path}: {e}"));
     }
 
     /// JSON that a GET must succeed with.

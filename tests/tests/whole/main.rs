@@ -1,6 +1,7 @@
-//! The service as a whole: what its API says of itself, many visitors at once, slow ones, and SIGKILL.
+//! The service as a whole: what its API says of itself, many visitors at once, slow and hostile ones, and SIGKILL.
 
 mod api;
+mod hostile;
 mod kills;
 mod load;
 mod slow;
