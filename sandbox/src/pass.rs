@@ -36,6 +36,8 @@ const BATCHES: usize = 16;
 /// A batch takes no longer than this, by what its questions took alone; one of fewer than eight is left out.
 const BATCH_NS: f64 = 20e6;
 const SMALLEST_BATCH: usize = 8;
+/// A time is compared with that of a batch when it is so many times the clock's resolution.
+const TOLD: f64 = 2.0;
 
 /// What a pass asks.
 #[derive(Clone, Copy, Debug)]
@@ -81,7 +83,7 @@ pub struct Time {
 pub struct Batched {
     /// How many questions.
     pub questions: u32,
-    /// The time that they took one by one, nanoseconds: as many times their median.
+    /// The time that they took one by one, nanoseconds: as many times their median; 0 where the clock cannot tell that well.
     pub alone_ns: f64,
     /// The time that they took together.
     pub together_ns: f64,
@@ -150,7 +152,7 @@ struct Pass<'a, 's> {
     numbers: Numbers,
     /// Calibrations so far.
     speeds: Vec<f64>,
-    /// Place in the order and official time of what was asked.
+    /// Place in the order and official time of what was asked; 0 when the clock cannot tell it well.
     singles: Vec<(usize, f64)>,
     instances: u32,
     facts: PassFacts,
@@ -213,7 +215,8 @@ impl Pass<'_, '_> {
         let mut flow = ControlFlow::Continue(());
         for (place, sample) in places.zip(samples) {
             self.facts.reached += 1;
-            self.singles.push((place, sample.time_ns));
+            let told = sample.time_ns >= TOLD * self.session.clock().resolution_ns();
+            self.singles.push((place, if told { sample.time_ns } else { 0.0 }));
             let Sample { time_ns: ns, below_resolution, disturbed, answer, .. } = sample;
             let time = Some(Time { ns, below_resolution, disturbed });
             flow = (self.each)(Observation { configuration: self.plan.order[place], instance, answer, time });

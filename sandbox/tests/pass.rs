@@ -148,6 +148,27 @@ fn work_during_the_wake_up_is_not_lost_time() {
     assert!(disturbed < 10, "{disturbed} of 40 on a shared CPU");
 }
 
+#[test]
+fn times_near_the_clocks_resolution_accuse_nobody() {
+    let _alone = alone();
+    let policy = Policy { runner_cpu: Some(0), supervisor_cpu: Some(0), ..common::policy() };
+    let mut session = start(&launcher_with(policy), &fixture(&["WORK=300"])).unwrap();
+    let least_ns = 2.0 * session.clock().resolution_ns();
+    let order: Vec<u32> = (0..2 * QUESTIONS).collect();
+    let present = |configuration: u32, _: Instance| Presented {
+        configuration: apart(0.004 * f64::from(configuration)),
+        swapped: false,
+    };
+    let (facts, ended) = session.pass(&plan(&order), &present, &mut |_| ControlFlow::Continue(()));
+    ended.unwrap();
+    assert!(!facts.batches.is_empty(), "{facts:?}");
+    for batch in &facts.batches {
+        let each_ns = batch.alone_ns / f64::from(batch.questions);
+        assert!(each_ns == 0.0 || each_ns >= least_ns, "{each_ns} ns beside {least_ns} ns: {batch:?}");
+    }
+    assert_eq!(integrity::violated(std::slice::from_ref(&facts)), None, "{facts:?}");
+}
+
 /// A thread that computes on one CPU until dropped.
 struct Busy(Arc<AtomicBool>, Option<JoinHandle<()>>);
 

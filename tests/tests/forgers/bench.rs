@@ -22,6 +22,8 @@ pub struct Found {
     pub rank: Option<u64>,
     /// Mean time of a question, nanoseconds.
     pub time_ns: Option<f64>,
+    /// Most of its questions take longer than the clock's resolution.
+    pub told: bool,
     /// 95 % interval of what ranks are made of.
     pub interval: Option<[f64; 2]>,
     /// Time to build both structures, milliseconds.
@@ -30,8 +32,8 @@ pub struct Found {
     pub ending: String,
 }
 
-/// Measures as the service would.
-pub fn measure(folder: &Path, kit: &Kit, run: &Run) -> Vec<Found> {
+/// Measures as the service would, and gives the results as `ocb bench` tells them.
+pub fn measure(folder: &Path, kit: &Kit, run: &Run) -> Value {
     let data = tempfile::tempdir().expect("a folder");
     let mut ocb = command(built("ocb"));
     ocb.arg("--json").arg("--data").arg(data.path()).arg("bench").args(FILES.map(|name| folder.join(name)));
@@ -77,8 +79,15 @@ pub fn measure(folder: &Path, kit: &Kit, run: &Run) -> Vec<Found> {
     let slow = results.iter().any(|r| r["algorithm"] == REFERENCE && r["name"] == SLOW_REFERENCE);
     let compared = &report["environment"]["reference"]["algorithm"];
     assert!(!slow || compared != REFERENCE, "{run:?}: all are compared with a stranger's algorithm");
+    report["results"].clone()
+}
+
+/// What these results say of each algorithm of the kit.
+pub fn found(run: &Run, results: &Value) -> Vec<Found> {
+    let results = results.as_array().expect("a list of results");
     let found: Vec<Found> = results.iter().filter_map(|result| read(result, &run.classes)).collect();
-    assert_eq!(found.len(), ids.len(), "{run:?}: not every algorithm has a result");
+    let asked = run.classes.len() * run.algorithms.len();
+    assert_eq!(found.len(), asked, "{run:?}: not every algorithm has a result");
     found
 }
 
@@ -98,6 +107,8 @@ fn read(result: &Value, classes: &[Class]) -> Option<Found> {
         name: name.to_string(),
         rank: result["rank"].as_u64(),
         time_ns: result["time"]["mean_ns"]["value"].as_f64(),
+        told: 2 * result["time"]["below_resolution"].as_u64().unwrap_or_default()
+            < result["n"].as_u64().unwrap_or_default(),
         interval: interval(&result["ratio"]),
         build_ms: result["build_ms"].as_f64(),
         ending,

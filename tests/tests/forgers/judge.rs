@@ -33,7 +33,7 @@ pub struct Entry {
     /// It has a place.
     pub ranked: bool,
     /// How much shorter than that of the twins its time is, if it has one: nanoseconds, and share of theirs. Nothing without a
-    /// rank.
+    /// rank, or where the clock cannot tell the twins' time.
     pub gain: Option<[f64; 2]>,
     /// The same of its build time, less what its questions took longer than theirs: milliseconds, share.
     pub build_gain: Option<[f64; 2]>,
@@ -102,14 +102,15 @@ fn entry(found: &Found, twins: &[&Found], run: &Run) -> Entry {
     let halved = |of: Number, paid: f64, least_gain: f64| {
         of(found).is_some_and(|mine| 2.0 * (mine + paid) < least(of) && least(of) - mine - paid > least_gain)
     };
+    let told = twins.iter().all(|twin| twin.told);
     // A build is one stretch of time, which other work may double.
     let halved_build = !run.condition.busy && halved(build, paid_ms, NO_GAIN_MS);
     Entry {
         ranked,
-        gain: gain(time, 0.0),
+        gain: gain(time, 0.0).filter(|_| told),
         build_gain: gain(build, paid_ms),
         twin_ns: mean(time),
-        gross: ranked && (halved(time, 0.0, NO_GAIN_NS) || halved_build),
+        gross: ranked && (told && halved(time, 0.0, NO_GAIN_NS) || halved_build),
         ending: found.ending.clone(),
     }
 }
@@ -174,6 +175,7 @@ fn a_forger_is_judged_by_its_rank_its_time_and_its_build() {
         name: name.into(),
         rank,
         time_ns: Some(time_ns),
+        told: true,
         interval: Some([time_ns - 1.0, time_ns + 1.0]),
         build_ms: Some(build_ms),
         ending: "Completed".into(),

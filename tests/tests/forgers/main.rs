@@ -2,10 +2,12 @@
 //! plugin, in the production profile, and no forger may have a rank with a time, or a build time, that honest plugins
 //! of the same work do not reach. The honest ones keep their rank.
 //!
-//! `OCB_FORGERS` says how many runs to make; without it a slice of the grossest forgers is measured.
+//! `OCB_FORGERS` says how many runs to make; without it a slice of the grossest forgers is measured. A campaign goes on where it
+//! ended when `OCB_FORGERS_KEPT` names a file for its results.
 
 mod bench;
 mod judge;
+mod kept;
 mod kit;
 mod layout;
 mod load;
@@ -16,6 +18,7 @@ mod table;
 use std::time::Instant;
 
 use judge::Ledger;
+use kept::Kept;
 use kit::Kit;
 
 #[test]
@@ -24,11 +27,11 @@ fn forgers_gain_nothing_and_honest_twins_keep_their_rank() {
     let folder = tempfile::tempdir().expect("a folder");
     let kit = Kit::new(folder.path());
     objects::write(folder.path());
-    let mut ledger = Ledger::default();
+    let (mut ledger, mut kept) = (Ledger::default(), Kept::open());
     for (i, run) in (1..).zip(rounds.map_or_else(plan::slice, plan::soak)) {
         let begun = Instant::now();
-        let results = bench::measure(folder.path(), &kit, &run);
-        ledger.enter(&run, &results);
+        let results = kept.next(|| bench::measure(folder.path(), &kit, &run));
+        ledger.enter(&run, &bench::found(&run, &results));
         eprintln!("{:?} {:?} {:?}: {:.0} s", run.classes, run.question, run.condition, begun.elapsed().as_secs_f64());
         // What a long campaign has found so far, in case that it is ended early.
         if i % plan::CYCLE == 0 {
