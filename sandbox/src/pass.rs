@@ -152,7 +152,7 @@ struct Pass<'a, 's> {
     numbers: Numbers,
     /// Calibrations so far.
     speeds: Vec<f64>,
-    /// Place in the order and official time of what was asked; 0 when the clock cannot tell it well.
+    /// Place in the order and official time of what was asked.
     singles: Vec<(usize, f64)>,
     instances: u32,
     facts: PassFacts,
@@ -215,8 +215,7 @@ impl Pass<'_, '_> {
         let mut flow = ControlFlow::Continue(());
         for (place, sample) in places.zip(samples) {
             self.facts.reached += 1;
-            let told = sample.time_ns >= TOLD * self.session.clock().resolution_ns();
-            self.singles.push((place, if told { sample.time_ns } else { 0.0 }));
+            self.singles.push((place, sample.time_ns));
             let Sample { time_ns: ns, below_resolution, disturbed, answer, .. } = sample;
             let time = Some(Time { ns, below_resolution, disturbed });
             flow = (self.each)(Observation { configuration: self.plan.order[place], instance, answer, time });
@@ -266,8 +265,9 @@ impl Pass<'_, '_> {
         };
         let mut sum = 0.0;
         members.retain(|(_, ns)| {
-            sum += ns;
-            sum <= BATCH_NS
+            let fits = sum + ns <= BATCH_NS;
+            sum += if fits { *ns } else { 0.0 };
+            fits
         });
         if members.len() < SMALLEST_BATCH {
             return Ok(ControlFlow::Break(()));
@@ -276,6 +276,7 @@ impl Pass<'_, '_> {
         let mut alone: Vec<f64> = members.iter().map(|(_, ns)| *ns).collect();
         alone.sort_by(f64::total_cmp);
         let usual_ns = quantile(&alone, 0.5);
+        let told = usual_ns >= TOLD * self.session.clock().resolution_ns();
         self.instances += 1;
         let instance = Instance { number: self.instances, aside: true };
         let configurations: Vec<u32> = members.iter().map(|(place, _)| self.plan.order[*place]).collect();
@@ -286,7 +287,7 @@ impl Pass<'_, '_> {
         if waited_ns <= WAITED * batch.time_ns && !batch.disturbed {
             self.facts.batches.push(Batched {
                 questions: members.len() as u32,
-                alone_ns: usual_ns * members.len() as f64,
+                alone_ns: if told { usual_ns * members.len() as f64 } else { 0.0 },
                 together_ns: batch.time_ns,
             });
         }
