@@ -8,13 +8,15 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use common::{apart, fixture, launcher, launcher_with, start};
+use common::{Others, apart, fixture, launcher, launcher_with, start};
 use ocb_core::instance::{Instance, Presented};
 use ocb_core::query::{Answer, Query};
 use ocb_sandbox::integrity::{self, Check};
 use ocb_sandbox::{Observation, Outcome, PassFacts, PassPlan, Policy, Sample};
 
 const QUESTIONS: u32 = 500;
+/// As many as the engine usually starts.
+const PROCESSES: usize = 5;
 
 /// One of these tests keeps a CPU busy, so they run one after the other.
 fn alone() -> MutexGuard<'static, ()> {
@@ -101,14 +103,24 @@ fn remembering_gains_nothing_and_is_seen_where_questions_come_again() {
         times.sort_by(f64::total_cmp);
         times[times.len() / 2]
     };
-    let (memoiser, facts, _) = pass(&["WORK=100000", "MEMOISES"], &plan(&order), usize::MAX);
-    let (twin, honest, _) = pass(&["WORK=100000"], &plan(&order), usize::MAX);
+    let others = Others::look();
+    let (mut memoiser, mut twin) = ((Vec::new(), Vec::new()), (Vec::new(), Vec::new()));
+    for _ in 0..PROCESSES {
+        for (defines, (seen, facts)) in
+            [(&["WORK=100000", "MEMOISES"][..], &mut memoiser), (&["WORK=100000"], &mut twin)]
+        {
+            let (observations, found, _) = pass(defines, &plan(&order), usize::MAX);
+            seen.extend(observations);
+            facts.push(found);
+        }
+    }
     // An answer that is only looked up takes less than a hundredth of one that is computed.
-    assert!(median(&memoiser) > 0.5 * median(&twin), "{} against {}", median(&memoiser), median(&twin));
-    let seen = integrity::violated(std::slice::from_ref(&facts)).map(|finding| finding.check);
-    let told = facts.batches.len() >= 3;
-    assert!(seen == told.then_some(Check::Batches), "{facts:?}");
-    assert_eq!(integrity::violated(std::slice::from_ref(&honest)), None, "{honest:?}");
+    let times = [median(&memoiser.0), median(&twin.0)];
+    assert!(times[0] > 0.5 * times[1], "{} against {}", times[0], times[1]);
+    assert_eq!(integrity::violated(&twin.1), None, "{:?}", twin.1);
+    // Batches that other work disturbed say nothing, and three are needed.
+    let seen = integrity::violated(&memoiser.1).map(|finding| finding.check);
+    others.hold(seen == Some(Check::Batches), || format!("{seen:?} in {:?}", memoiser.1));
 }
 
 #[test]
@@ -141,11 +153,12 @@ fn a_wait_for_the_cpu_is_taken_off_the_question_that_it_fell_into() {
 #[test]
 fn work_during_the_wake_up_is_not_lost_time() {
     let _alone = alone();
+    let others = Others::look();
     let policy = Policy { runner_cpu: Some(0), supervisor_cpu: Some(0), ..common::policy() };
     let mut session = start(&launcher_with(policy), &fixture(&["WORK=1000000"])).unwrap();
     let samples: Vec<Sample> = (0..40).map(|_| session.query(Query::CollisionFirst, &apart(0.5)).unwrap()).collect();
     let disturbed = samples.iter().filter(|sample| sample.disturbed).count();
-    assert!(disturbed < 10, "{disturbed} of 40 on a shared CPU");
+    others.hold(disturbed < 10, || format!("{disturbed} of 40 on a shared CPU"));
 }
 
 #[test]

@@ -5,6 +5,7 @@ use ocb_sandbox::integrity::Check;
 use ocb_sandbox::{Outcome, Phase};
 
 use crate::common::grouped;
+use crate::pass::{FOUND, MEASUREMENTS, PROCESSES, found};
 use crate::run::Ran;
 
 /// What must come of an attack.
@@ -36,9 +37,9 @@ pub enum Expected {
     WorkSeen,
     /// The same as harmless, and no time is below the clock's resolution.
     Bounded,
-    /// Some of its answers are wrong, and every one is judged.
+    /// Some of its answers are wrong in each process, and every one is judged.
     Wrong,
-    /// One of these checks of the times is not met: `TimingIntegrity`.
+    /// One of these checks of the times is not met: `TimingIntegrity`. Found by statistics, so in enough measurements of many.
     Caught(&'static [Check]),
     /// It says the same in every trial; its words begin like this.
     SaysAlike(&'static str),
@@ -72,7 +73,8 @@ impl Expected {
             Expected::Wrong => "judged `FalseNegative`".into(),
             Expected::Caught(checks) => {
                 let names: Vec<&str> = checks.iter().map(|check| check.name()).collect();
-                format!("`TimingIntegrity` ({})", names.join(" or "))
+                let names = names.join(" or ");
+                format!("`TimingIntegrity` ({names}) in at least {FOUND} of {MEASUREMENTS} measurements")
             }
             Expected::SaysAlike(_) => "sees the same in every trial".into(),
         }
@@ -95,11 +97,9 @@ impl Expected {
             (Expected::OutputLimit, Outcome::OutputLimit { .. }) => true,
             (Expected::Violation, Outcome::ProtocolViolation { phase: p, .. }) => *p == phase,
             (Expected::Refused(words), Outcome::LoadError { reason }) => reason.contains(words),
-            (Expected::Harmless, Outcome::Completed) => ran.caught.is_none() && ran.wrong == 0,
-            (Expected::Wrong, Outcome::Completed) => ran.wrong > 0,
-            (Expected::Caught(checks), Outcome::Completed) => {
-                ran.wrong == 0 && ran.caught.is_some_and(|finding| checks.contains(&finding.check))
-            }
+            (Expected::Harmless, Outcome::Completed) => ran.caught.is_empty() && ran.wrong == 0,
+            (Expected::Wrong, Outcome::Completed) => ran.wrong_in == PROCESSES,
+            (Expected::Caught(checks), Outcome::Completed) => ran.wrong == 0 && found(&ran.caught, checks) >= FOUND,
             (Expected::SaysAlike(words), Outcome::Failed { .. }) => Expected::Says(words).met_by(ran, phase),
             (Expected::Judged(verdicts), Outcome::Completed) => ran.verdicts == verdicts,
             (Expected::WorkSeen, Outcome::Completed) => ran.shortest_ns > LEAST_WORK_NS,

@@ -6,7 +6,7 @@ use std::time::Duration;
 use ocb_core::configuration::Configuration;
 use ocb_core::instance::{Instance, Presented};
 use ocb_core::query::{Answer, Query};
-use ocb_sandbox::integrity;
+use ocb_sandbox::integrity::{self, Check, Finding};
 use ocb_sandbox::{Ending, Launcher, Outcome, PassFacts, PassPlan};
 
 use crate::common::{apart, fixture, start};
@@ -14,35 +14,37 @@ use crate::run::Ran;
 use crate::{Attack, Expected};
 
 const QUESTIONS: u32 = 1000;
-/// Processes at most: on a busy machine many blocks are disturbed and show nothing.
-const PROCESSES: u64 = 20;
-/// As many as the engine usually starts.
-const USUAL: u64 = 5;
+/// Processes of a measurement, as many as the engine usually starts.
+pub const PROCESSES: usize = 5;
+/// An attack that is found by statistics is measured so often, and so many of these must find it.
+pub const MEASUREMENTS: usize = 10;
+pub const FOUND: usize = 9;
 
-/// Passes in fresh processes, until what is expected of them has been seen.
+/// Passes in fresh processes: one measurement, or a fixed number where statistics find the attack.
 pub fn ask(launcher: &Launcher, attack: &Attack, defines: &[&str]) -> Ran {
-    let mut ran = Ran {
-        ending: Ending::from(Outcome::Completed),
-        shortest_ns: 0.0,
-        bounded: true,
-        verdicts: vec![],
-        wrong: 0,
-        caught: None,
-    };
-    let mut passes: Vec<PassFacts> = Vec::new();
-    for round in 0..PROCESSES {
-        ran.ending = one(launcher, defines, round, &mut passes, &mut ran.wrong);
-        ran.caught = integrity::violated(&passes);
-        let seen = match attack.expected {
-            Expected::Caught(_) => ran.caught.is_some(),
-            Expected::Wrong => ran.wrong > 0,
-            _ => round + 1 == USUAL,
-        };
-        if seen || ran.ending.outcome != Outcome::Completed {
-            break;
+    let mut ran = Ran::new();
+    let measurements = if let Expected::Caught(_) = attack.expected { MEASUREMENTS } else { 1 };
+    for measurement in 0..measurements {
+        let mut passes: Vec<PassFacts> = Vec::new();
+        for process in 0..PROCESSES {
+            let (seed, before) = ((measurement * PROCESSES + process) as u64, ran.wrong);
+            ran.ending = one(launcher, defines, seed, &mut passes, &mut ran.wrong);
+            ran.wrong_in += usize::from(ran.wrong > before);
+            if ran.ending.outcome != Outcome::Completed {
+                return ran;
+            }
         }
+        ran.caught.extend(integrity::violated(&passes));
+    }
+    if let Expected::Caught(checks) = attack.expected {
+        println!("{}: found in {} of {measurements} measurements", attack.title, found(&ran.caught, checks));
     }
     ran
+}
+
+/// How many of these findings are of one of the checks.
+pub fn found(findings: &[Finding], checks: &[Check]) -> usize {
+    findings.iter().filter(|finding| checks.contains(&finding.check)).count()
 }
 
 fn one(launcher: &Launcher, defines: &[&str], seed: u64, passes: &mut Vec<PassFacts>, wrong: &mut usize) -> Ending {

@@ -3,7 +3,7 @@
 use ocb_core::query::{Answer, Query};
 use ocb_core::record::Verdict;
 use ocb_sandbox::integrity::Finding;
-use ocb_sandbox::{Ending, Launcher, Phase, Policy};
+use ocb_sandbox::{Ending, Launcher, Outcome, Phase, Policy};
 
 use crate::common::{apart, fixture, judged, launcher_with, policy, start};
 use crate::{Attack, Expected, Form, pass};
@@ -20,8 +20,18 @@ pub struct Ran {
     pub verdicts: Vec<Verdict>,
     /// Wrong answers of the passes.
     pub wrong: usize,
-    /// The check that the passes do not meet.
-    pub caught: Option<Finding>,
+    /// Processes with wrong answers.
+    pub wrong_in: usize,
+    /// The checks that measurements did not meet, one of each that did not.
+    pub caught: Vec<Finding>,
+}
+
+impl Ran {
+    /// Nothing came of it yet.
+    pub fn new() -> Self {
+        let ending = Ending::from(Outcome::Completed);
+        Ran { ending, shortest_ns: 0.0, bounded: true, verdicts: vec![], wrong: 0, wrong_in: 0, caught: vec![] }
+    }
 }
 
 /// The difference to what was expected.
@@ -57,14 +67,7 @@ fn run(attack: &Attack, constructor: bool) -> Ran {
 
 /// Asks what the form wants, and two collision queries, so that a harmless attack has to go on being honest.
 fn ask(launcher: &Launcher, attack: &Attack, defines: &[&str]) -> Ran {
-    let mut ran = Ran {
-        ending: Ending::from(ocb_sandbox::Outcome::Completed),
-        shortest_ns: f64::MAX,
-        bounded: true,
-        verdicts: vec![],
-        wrong: 0,
-        caught: None,
-    };
+    let mut ran = Ran { shortest_ns: f64::MAX, ..Ran::new() };
     let mut session = match start(launcher, &fixture(defines)) {
         Ok(session) => session,
         Err(ending) => return Ran { ending, ..ran },

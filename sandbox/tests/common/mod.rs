@@ -15,8 +15,10 @@ use ocb_core::validation::{Precision, Terms, judge};
 use ocb_sandbox::{Ending, Launcher, Outcome, Policy, Profile, Session, Trial};
 
 mod build;
+mod others;
 
 pub use build::{cc, fixture, honest};
+pub use others::Others;
 
 /// Short limits, so that a test ends.
 pub fn policy() -> Policy {
