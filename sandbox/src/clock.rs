@@ -192,6 +192,8 @@ impl ClockFacts {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Instant;
+
     use super::*;
 
     #[test]
@@ -224,24 +226,37 @@ mod tests {
         assert_eq!(ClockFacts::of(ClockKind::Spin, trips).subtract(24_400.0, 64), (24_000.0, false));
     }
 
-    #[test]
-    fn the_clock_agrees_with_the_kernel() {
-        let clock = Clock::get();
-        let moment = || Moment { kernel_ns: raw_ns(), ticks: clock.ticks() };
-        let readings = |n| (0..n).map(|_| moment()).collect::<Vec<_>>();
-        // Preemption between two readings spoils few of many, so the median is right.
-        let (then, now) = (readings(99), {
-            std::thread::sleep(Duration::from_millis(50));
-            readings(99)
-        });
-        let mut ratios: Vec<f64> = then
-            .iter()
-            .zip(&now)
-            .map(|(a, b)| clock.nanoseconds(a.ticks, b.ticks) / (b.kernel_ns - a.kernel_ns) as f64)
-            .collect();
+    /// How many nanoseconds of the clock pass in one of the standard library's: the median of many readings, of which
+    /// preemption between the two clocks spoils few.
+    fn rate(clock: Clock) -> f64 {
+        let readings = || (0..99).map(|_| (Instant::now(), clock.ticks())).collect::<Vec<_>>();
+        let then = readings();
+        std::thread::sleep(Duration::from_millis(50));
+        let ratio = |((a, from), (b, to)): (&(Instant, u64), &(Instant, u64))| {
+            clock.nanoseconds(*from, *to) / (*b - *a).as_nanos() as f64
+        };
+        let mut ratios: Vec<f64> = then.iter().zip(&readings()).map(ratio).collect();
         ratios.sort_by(f64::total_cmp);
-        assert!((ratios[49] - 1.0).abs() < 1e-3, "{ratios:?}");
+        ratios[49]
+    }
+
+    #[test]
+    fn a_second_of_the_clock_is_a_second_and_another_scale_is_seen() {
+        let clock = Clock::get();
+        assert!((rate(clock) - 1.0).abs() < 2e-3, "{}", rate(clock));
         assert!(clock.drift().abs() < 1e-3, "{}", clock.drift());
+        for wrong in [0.5, 1.02, 2.0] {
+            let other = Clock { nanoseconds_per_tick: clock.nanoseconds_per_tick * wrong, ..clock };
+            assert!((rate(other) / wrong - 1.0).abs() < 2e-3, "{wrong} gives {}", rate(other));
+        }
+    }
+
+    #[test]
+    fn ticks_are_nanoseconds_turned_round() {
+        let clock = Clock::get();
+        let ticks = clock.in_ticks(1e9);
+        assert!((clock.nanoseconds(7, 7 + ticks) - 1e9).abs() < 10.0, "{ticks} ticks a second");
+        assert_eq!(clock.nanoseconds(8, 7), 0.0);
     }
 
     #[test]
