@@ -50,7 +50,8 @@ fn the_death_of_the_supervisor_ends_the_jail() {
     assert!(alive(runner));
     supervisor.kill().unwrap();
     supervisor.wait().unwrap();
-    assert!(gone_within(runner, Duration::from_secs(1)), "the runner outlived its supervisor");
+    // Within a second, and later where other work keeps the CPUs from the three processes of the jail.
+    assert!(gone_within(runner, Duration::from_secs(10)), "the runner outlived its supervisor");
     // What a process cannot take away after its death, the next supervisor does when it starts its first jail.
     let left = groups_of(supervisor.id());
     drop(start(&launcher_with(policy()), &fixture(&[])).unwrap());

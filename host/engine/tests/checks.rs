@@ -85,8 +85,8 @@ async fn many_slow_algorithms_share_one_limit() {
     let folder = tempfile::tempdir().unwrap();
     let limit = Duration::from_secs(12);
     let (report, took) = checked_within(limit, &slow(folder.path(), 0, 800, 64), false).await;
-    // Where nothing is shared it takes 64 times 36 questions of 0.8 s.
-    assert!(took < limit + Duration::from_secs(3), "{took:?}");
+    // Where nothing is shared it takes 64 times 36 questions of 0.8 s, half an hour.
+    assert!(took < 5 * limit, "{took:?}");
     assert!(!report.passed);
     let late: Vec<_> =
         report.lines.iter().filter(|line| line.evidence.starts_with("Not reached within the limit")).collect();
@@ -102,7 +102,8 @@ async fn one_slow_algorithm_is_asked_as_long_as_there_is_time() {
     let limit = Duration::from_secs(30);
     let (report, took) = checked_within(limit, &slow(folder.path(), 0, 60, 1), false).await;
     assert!(report.passed, "{:?}", report.lines);
-    assert!(took < limit + Duration::from_secs(3), "{took:?}");
+    // All of its questions would take hours.
+    assert!(took < 5 * limit, "{took:?}");
     // It is too slow for all four hundred thousand questions, but every scene was reached.
     let reached = report.lines.iter().filter(|line| line.evidence.contains("answers agree with the reference"));
     assert_eq!(reached.count(), 1 + 1 + 5, "{:?}", report.lines);
@@ -117,8 +118,8 @@ async fn check_stopped(file: &Path) {
     under_way(&engine, &plugin.id, &author).await;
     let begun = Instant::now();
     engine.shutdown().await;
-    // A second, and what other work on the machine adds; without obeying it would be minutes.
-    assert!(begun.elapsed() < Duration::from_secs(4), "{:?}", begun.elapsed());
+    // A second, and what other work on the machine adds; one slow build takes fifteen seconds.
+    assert!(begun.elapsed() < Duration::from_secs(10), "{:?}", begun.elapsed());
     let engine = Engine::open(EngineConfig { dispatch: false, ..config(data.path()) }).await.unwrap();
     let now = engine.plugin(&plugin.id, Some(&author)).await.unwrap();
     assert_eq!(now.state, PluginState::Uploaded, "{}", now.reason);

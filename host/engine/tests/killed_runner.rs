@@ -4,6 +4,8 @@
 
 mod common;
 
+use std::time::{Duration, Instant};
+
 use ocb_engine::Engine;
 use ocb_engine::model::State;
 
@@ -14,9 +16,15 @@ async fn a_killed_runner_gets_its_outcome_and_the_next_algorithm_is_measured() {
     let mut spec = common::spec("proximity", 3000, 6);
     (spec.algorithms, spec.passes) = (vec!["brute-force".into(), "box-tree".into()], 1);
     let run = engine.submit(spec, Some("guest")).await.unwrap();
-    let killer = std::thread::spawn(kill_the_runner_of_this_process);
+    // Not before it has answered: one that dies while its jail is being closed is no fault of its plugin.
+    let answered = async || engine.run(&run.id, None).await.unwrap().stages[2].done > 0;
+    let begun = Instant::now();
+    while !answered().await {
+        assert!(begun.elapsed() < Duration::from_secs(120), "it answers nothing");
+        tokio::time::sleep(Duration::from_millis(20)).await;
+    }
+    kill_the_runner_of_this_process();
     let (run, _) = common::finish(&engine, &run.id).await;
-    assert!(killer.join().unwrap(), "a runner was seen");
     let (killed, next) = (&run.results[0], &run.results[1]);
     assert_eq!(killed.outcome.name, "Signaled", "{}", killed.outcome.message);
     assert!(killed.n < killed.of, "what was measured before is kept: {} of {}", killed.n, killed.of);
@@ -25,25 +33,13 @@ async fn a_killed_runner_gets_its_outcome_and_the_next_algorithm_is_measured() {
     engine.shutdown().await;
 }
 
-/// Kills the first jailed process that this test process has, wherever it hangs in the tree below.
-fn kill_the_runner_of_this_process() -> bool {
+/// Kills the jailed process that this test process has now.
+fn kill_the_runner_of_this_process() {
     use nix::sys::signal::{Signal, kill};
     use nix::unistd::Pid;
-    let started = std::time::Instant::now();
-    while started.elapsed().as_secs() < 60 {
-        if !descendants(std::process::id()).is_empty() {
-            // Long enough for the jail to be complete, and for some answers.
-            std::thread::sleep(std::time::Duration::from_millis(700));
-            // The deepest one holds the plugin; those above it keep the jail.
-            if let Some(runner) = descendants(std::process::id()).pop()
-                && kill(Pid::from_raw(runner as i32), Signal::SIGKILL).is_ok()
-            {
-                return true;
-            }
-        }
-        std::thread::sleep(std::time::Duration::from_millis(20));
-    }
-    false
+    // The deepest one holds the plugin; those above it keep the jail.
+    let runner = descendants(std::process::id()).pop().expect("a runner");
+    kill(Pid::from_raw(runner as i32), Signal::SIGKILL).expect("it was alive");
 }
 
 fn descendants(pid: u32) -> Vec<u32> {

@@ -100,19 +100,27 @@ async fn a_small_budget_measures_the_same_prefix_and_says_so() {
     let mut spec = common::spec("collision_first", 4000, 2);
     spec.algorithms = vec!["brute-force".into()];
     spec.relative_distance = 0.05;
-    spec.budget_seconds = 0.05;
-    let run = engine.submit(spec.clone(), Some("guest")).await.unwrap();
-    let (run, _) = common::finish(&engine, &run.id).await;
+    // Nothing is measured in a microsecond. How much more a first answer takes depends on what else the machine does, so the
+    // budget is doubled until there is one; all questions take many times as long.
+    spec.budget_seconds = 1e-6;
+    let mut empty = 0;
+    let run = loop {
+        let run = engine.submit(spec.clone(), Some("guest")).await.unwrap();
+        let (run, _) = common::finish(&engine, &run.id).await;
+        if run.results[0].n > 0 {
+            break run;
+        }
+        assert_eq!(run.state, State::Failed);
+        assert!(run.message.as_deref().is_some_and(|m| m.contains("time budget")), "{:?}", run.message);
+        empty += 1;
+        spec.budget_seconds = (2.0 * spec.budget_seconds).max(0.05);
+        assert!(spec.budget_seconds < 30.0, "nothing is measured in {} s", spec.budget_seconds / 2.0);
+    };
+    assert!(empty > 0, "{:?}", run.results[0]);
     let result = &run.results[0];
-    assert!(result.budget_limited && 0 < result.n && result.n < result.of, "{} of {}", result.n, result.of);
+    assert!(result.budget_limited && result.n < result.of, "{} of {}", result.n, result.of);
     assert!(run.stages[2].message.as_deref().is_some_and(|m| m.contains(&format!("{} of {}", result.n, result.of))));
     assert_eq!(run.state, State::Done);
-
-    spec.budget_seconds = 1e-6;
-    let run = engine.submit(spec, Some("guest")).await.unwrap();
-    let (run, _) = common::finish(&engine, &run.id).await;
-    assert_eq!((run.state, run.results[0].n), (State::Failed, 0));
-    assert!(run.message.as_deref().is_some_and(|m| m.contains("time budget")), "{:?}", run.message);
     engine.shutdown().await;
 }
 
@@ -160,7 +168,8 @@ async fn a_guests_run_is_stopped_at_its_time_limit_and_the_next_run_goes_on() {
     assert!(late.message.is_some_and(|message| message.contains("time limit for guests")));
     assert!(begun.elapsed() >= Duration::from_secs(4));
     lock.unlock().unwrap();
-    let next = engine.submit(spec(2), Some(guest)).await.unwrap();
+    // The next one is no guest's: on a busy machine it may need more than a guest's time.
+    let next = engine.submit(spec(2), Some("cli")).await.unwrap();
     let (next, _) = common::finish(&engine, &next.id).await;
     assert_eq!(next.state, State::Done, "{:?}", next.message);
     engine.shutdown().await;
