@@ -42,10 +42,11 @@ stock: tools target/stock/dragon.obj
 target/stock/dragon.obj: web/stock/package.json web/stock/package-lock.json web/stock/write.mjs
 	cd web/stock && npm ci --no-audit --no-fund && node write.mjs ../../target/stock
 
-check: pages ## rustfmt, clippy, rustdoc, tidy tests, TypeScript and its linter: warnings are errors
+check: pages ## rustfmt, clippy, rustdoc, dependencies, tidy tests, TypeScript and its linter: warnings are errors
 	cargo fmt --all --check
 	cargo clippy $(CARGO_FLAGS) --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc $(CARGO_FLAGS) --no-deps --document-private-items
+	tests/setup/deny.sh
 	cargo test $(CARGO_FLAGS) --test tidy
 	cd web/app && npm run check
 

@@ -50,10 +50,13 @@ reasons=$(sed 's/\x1b\[[0-9;]*m//g' "$logs/rust.log" 2>/dev/null | awk '
   /^failures:$/           { name = "" }
   END                     { for (name in reason) n[reason[name]]++; for (why in n) print n[why] " not run: " why }')
 not_run=$(awk '{ n += $1 } END { print n + 0 }' <<< "$reasons")
+# A check of the dependencies that lacks something only says so, and fails nothing.
+lacking=$(sed -n 's/^not run: /1 not run: /p' "$logs/check.log" 2>/dev/null)
 
 # Each test program says its own counts; a step that broke without a counted failure counts as one.
-read -r passed failed < <(cat "$logs"/{rust,vitest,browser}.log 2>/dev/null | sed 's/\x1b\[[0-9;]*m//g' | awk '
+read -r passed failed < <({ cat "$logs"/{rust,vitest,browser}.log; grep '^deny: ' "$logs/check.log"; } 2>/dev/null | sed 's/\x1b\[[0-9;]*m//g' | awk '
   /^test result:/          { p += $4; f += $6 }
+  /^deny: /                { p += $2; f += $4 }
   /^ *Tests  /             { for (i = 2; i <= NF; i++) { if ($i ~ /^passed/) p += $(i - 1); if ($i ~ /^failed/) f += $(i - 1) } }
   /^(#|ℹ) (pass|fail) /    { if ($2 == "pass") p += $3; else f += $3 }
   END                      { print p + 0, f + 0 }')
@@ -67,6 +70,7 @@ if [ "$not_run" -gt 0 ]; then
   fi
   echo "$reasons"
 fi
+[ -z "$lacking" ] || echo "$lacking"
 if [ ${#broken[@]} -gt 0 ]; then
   echo "test: these steps failed: ${broken[*]} (output in $logs)"
   [ "$failed" -gt 0 ] || failed=${#broken[@]}

