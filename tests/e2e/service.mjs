@@ -13,10 +13,10 @@ const target = resolve(root, process.env.CARGO_TARGET_DIR ?? 'target')
 /** A built file, such as `ocb` or a plugin. */
 export const built = (name) => join(target, 'release', name)
 
-/** Runs `ocb` to its end, which must be a good one. */
-export function ocb(args, env = {}) {
+/** Runs `ocb` to its end, with this exit code. */
+export function ocb(args, env = {}, code = 0) {
   const ended = spawnSync(built('ocb'), args, { env: { ...process.env, ...env }, encoding: 'utf8' })
-  if (ended.status !== 0) throw new Error(`ocb ${args.join(' ')}: ${ended.stderr}`)
+  if (ended.status !== code) throw new Error(`ocb ${args.join(' ')}: ${ended.stderr}`)
   return ended.stdout
 }
 
