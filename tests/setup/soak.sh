@@ -3,7 +3,7 @@
 # for the supervisor, a thousand trials, a hundred rounds of honest plugins (OCB_FUZZ, OCB_TRIALS, OCB_HONEST), ten million
 # pairs of triangles for the oracle's filters (OCB_PAIRS), a hundred thousand configurations that no certified level of detail
 # may contradict (OCB_HELD_OUT), a hundred runs that end early (OCB_REPETITIONS); the service is killed two hundred times
-# (OCB_KILLS), two hundred visitors come for a minute and must not change what is measured meanwhile (OCB_LOAD_SECONDS),
+# (OCB_KILLS), two hundred visitors come for a minute (OCB_LOAD_SECONDS), and must not change sixty runs (OCB_LOAD_ROUNDS),
 # every route is asked a hundred times and more (OCB_API_EXAMPLES), and an honest visitor goes on beside hostile ones and ten
 # thousand waiting runs for an hour (OCB_HOSTILE_MINUTES); two hundred runs of forged plugins, in an hour and a half (OCB_FORGERS),
 # which want a machine with nothing else on it. Then the restart tests (the service is killed at every
@@ -18,8 +18,8 @@ cargo test --release --workspace --lib troublesome_pairs -- --nocapture
 cargo test --release --workspace --test early --test early_stopping -- --nocapture
 cargo build --release --workspace
 tests/setup/tools.sh test
-OCB_KILLS=${OCB_KILLS:-200} OCB_LOAD_SECONDS=${OCB_LOAD_SECONDS:-60} OCB_API_EXAMPLES=${OCB_API_EXAMPLES:-100} \
-  OCB_HOSTILE_MINUTES=${OCB_HOSTILE_MINUTES:-60} \
+OCB_KILLS=${OCB_KILLS:-200} OCB_LOAD_SECONDS=${OCB_LOAD_SECONDS:-60} OCB_LOAD_ROUNDS=${OCB_LOAD_ROUNDS:-20} \
+  OCB_API_EXAMPLES=${OCB_API_EXAMPLES:-100} OCB_HOSTILE_MINUTES=${OCB_HOSTILE_MINUTES:-60} \
   cargo test --release --workspace --test whole -- --nocapture
 OCB_FORGERS=${OCB_FORGERS:-200} cargo test --release --workspace --test forgers -- --nocapture
 meshes=${OCB_SHARED:-../shared}/meshes

@@ -1,10 +1,12 @@
-//! The service as a whole: what its API says of itself, many visitors at once, slow and hostile ones, and SIGKILL.
+//! The service as a whole: what its API says of itself, many visitors at once and what they leave unchanged, slow and hostile
+//! ones, and SIGKILL.
 
 mod api;
 mod hostile;
 mod kills;
 mod load;
 mod slow;
+mod unchanged;
 
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
