@@ -31,4 +31,5 @@ pub mod selection;
 pub mod sequential;
 pub mod statistics;
 pub mod stock;
+pub mod units;
 pub mod validation;
