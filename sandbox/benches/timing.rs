@@ -12,7 +12,7 @@ use std::time::Duration;
 use nalgebra::{Rotation3, Vector3};
 use ocb_core::comparison::compare;
 use ocb_core::configuration::Configuration;
-use ocb_core::instance::{Instance, Presentation};
+use ocb_core::instance::{Instance, OTHER_UNITS, Presentation};
 use ocb_core::mesh::Mesh;
 use ocb_core::numbers::Numbers;
 use ocb_core::pose::Pose;
@@ -76,7 +76,8 @@ impl Bench {
 
     /// One pass of box-tree in a fresh process.
     fn process(&self, seed: u64) -> Process {
-        let shown = Presentation::drawn(&self.mesh, None, self.configurations.iter(), false, seed, 2);
+        let shown =
+            Presentation::drawn(&self.mesh, None, self.configurations.iter(), false, seed, OTHER_UNITS.len() as u32);
         let mut session = self.start(&self.box_tree, "box-tree", shown.first());
         let mut order: Vec<u32> = (0..self.configurations.len() as u32).collect();
         Numbers::new(seed).shuffle(&mut order);

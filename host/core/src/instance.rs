@@ -5,9 +5,9 @@
 //! or their exponent and nothing else. So the certified truth of the original holds for every instance, an answer
 //! translates back without a rounding, and a wrong answer to an instance is a wrong answer.
 //!
-//! Renumbering and scaling belong to a [`Presentation`], which lasts as long as a process; the first two processes see the
-//! smallest and the largest scale, so that no luck decides whether a tolerance is met that is a length in nobody's unit. The
-//! rotation differs from question to question, unless the order of the questions is part of what is measured. Only
+//! Renumbering and scaling belong to a [`Presentation`], which lasts as long as a process. Scaling by a power of two gives the
+//! objects another unit of length. The first processes see the objects smaller and larger ([`OTHER_UNITS`]), so that a
+//! tolerance that is an absolute length shows in every run; all other processes see the unit of the files. The rotation differs from question to question, unless the order of the questions is part of what is measured. Only
 //! questions whose time does not count are swapped: a method may be faster one way round, and the time shall be that of
 //! the question as it was asked.
 
@@ -21,9 +21,9 @@ use crate::pose::Pose;
 use crate::query::Answer;
 
 /// Grows when the same seed gives other instances, which a recorded run can then not be asked again as.
-pub const VERSION: u32 = 2;
-/// Scales are from 2^-3 to 2^3.
-const EXPONENTS: usize = 7;
+pub const VERSION: u32 = 3;
+/// The processes 0, 1, 2 and 3 scale everything by two to these powers; all later ones keep the unit of the files.
+pub const OTHER_UNITS: [i32; 4] = [-3, 3, -3, 3];
 /// Coordinates between these magnitudes can be scaled that far, in single precision as well.
 const SCALABLE: std::ops::RangeInclusive<f64> = 1e-30..=1e17;
 
@@ -36,6 +36,12 @@ pub struct Presentation {
     numbering: [Numbering; 2],
     scale: f64,
     rotations: Rotations,
+}
+
+/// Everything is scaled by two to this power in the process of this number, where the coordinates allow it; absent: the
+/// objects as they are.
+pub fn exponent(process: Option<u32>) -> i32 {
+    process.and_then(|process| OTHER_UNITS.get(process as usize)).copied().unwrap_or(0)
 }
 
 /// Which instance of a configuration within one presentation.
@@ -103,15 +109,12 @@ impl Presentation {
         process: u32,
     ) -> Self {
         let mut numbers = Numbers::new(seed);
-        let drawn = numbers.below(EXPONENTS);
-        let exponent = [0, EXPONENTS - 1].get(process as usize).unwrap_or(&drawn);
-        let exponent = *exponent as i32 - EXPONENTS as i32 / 2;
         let fits = |x: f64| x == 0.0 || SCALABLE.contains(&x.abs());
         let poses = |c: &Configuration| [c.pose_a, c.pose_b].iter().all(|p| p.translation.iter().copied().all(fits));
         let scalable =
             [Some(a), b].into_iter().flatten().all(|mesh| mesh.positions().iter().all(|p| p.iter().copied().all(fits)))
                 && configurations.all(poses);
-        let scale = if scalable { 2f64.powi(exponent) } else { 1.0 };
+        let scale = if scalable { 2f64.powi(exponent(Some(process))) } else { 1.0 };
         let (mesh_a, numbering_a) = renumbered(a, scale, &mut numbers);
         let (mesh_b, numbering_b) = match b.map(|b| renumbered(b, scale, &mut numbers)) {
             Some((mesh, numbering)) => (Some(mesh), numbering),
@@ -120,6 +123,11 @@ impl Presentation {
         let rotation = numbers.bits();
         let rotations = if coherent { Rotations::Constant(rotation) } else { Rotations::Varying(rotation) };
         Presentation { first: mesh_a, second: mesh_b, numbering: [numbering_a, numbering_b], scale, rotations }
+    }
+
+    /// What all lengths are multiplied by.
+    pub fn scale(&self) -> f64 {
+        self.scale
     }
 
     /// Object A.
@@ -308,19 +316,18 @@ mod tests {
                 assert!(plain != Verdict::Correct || truth.hit || shown.scale == 1.0, "{seed} {i}: {plain:?}");
             }
         }
-        assert!(hits > 20 && swaps > 20 && scales.len() > 3, "{hits} hits, {swaps} swapped, {} scales", scales.len());
+        assert!(hits > 20 && swaps > 20 && scales.len() == 3, "{hits} hits, {swaps} swapped, {} scales", scales.len());
     }
 
     #[test]
-    fn whatever_the_seed_the_first_two_processes_see_the_smallest_and_the_largest_scale() {
+    fn whatever_the_seed_the_first_processes_see_other_units_and_all_others_that_of_the_file() {
         let (a, near) = (mesh(0.0, 5), configuration(1.0));
-        let scales = |process| -> std::collections::BTreeSet<u64> {
-            let scale = |seed| Presentation::drawn(&a, None, [near].iter(), false, seed, process).scale.to_bits();
-            (0..100).map(scale).collect()
-        };
-        assert_eq!(scales(0), [0.125f64.to_bits()].into());
-        assert_eq!(scales(1), [8f64.to_bits()].into());
-        assert_eq!(scales(2).len(), EXPONENTS);
+        for (process, expected) in [(0, 0.125), (1, 8.0), (2, 0.125), (3, 8.0), (4, 1.0), (5, 1.0), (99, 1.0)] {
+            let scale = |seed| Presentation::drawn(&a, None, [near].iter(), false, seed, process).scale();
+            assert!((0..20).all(|seed| scale(seed) == expected), "process {process}");
+            assert_eq!(2f64.powi(exponent(Some(process))), expected);
+        }
+        assert_eq!(exponent(None), 0);
     }
 
     #[test]

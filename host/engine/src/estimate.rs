@@ -1,5 +1,6 @@
 //! What a run would cost, from what earlier ones did.
 
+use ocb_core::instance::OTHER_UNITS;
 use ocb_core::sampling::controls;
 
 use crate::Result;
@@ -43,9 +44,12 @@ pub async fn estimate_alone(inner: &Inner, checked: &Checked) -> Result<Estimate
         let timed = asked as f64 * f64::from(spec.passes) * nearest(&rates, triangles, FIRST_QUERY);
         let budget_limited = timed > spec.budget_seconds;
         let timed = timed.min(spec.budget_seconds);
-        let counters = if contestant.info.counters { timed / f64::from(spec.passes) } else { 0.0 };
-        let starts = START * f64::from(spec.passes + u32::from(contestant.info.counters));
-        measuring_seconds.push(AlgorithmSeconds { algorithm, seconds: timed + counters + starts, budget_limited });
+        // Two processes share the questions in each other unit.
+        let further = OTHER_UNITS.len() as u32 / 2 + u32::from(contestant.info.counters);
+        let further_seconds = f64::from(further) * timed / f64::from(spec.passes);
+        let starts = spec.passes + OTHER_UNITS.len() as u32 + u32::from(contestant.info.counters);
+        let seconds = timed + further_seconds + START * f64::from(starts);
+        measuring_seconds.push(AlgorithmSeconds { algorithm, seconds, budget_limited });
     }
     let total_seconds = configuration_seconds + measuring_seconds.iter().map(|m| m.seconds).sum::<f64>();
     Ok(Estimate {

@@ -6,12 +6,17 @@
 //! order; an algorithm whose budget ends measures a prefix of it. A trajectory keeps its own order: that each
 //! configuration is near the one before is what it is for.
 //!
+//! The rounds see the unit of the files, and what is ranked comes from them alone: times, building, waiting, integrity. The
+//! questions they reached are then asked in a smaller and a larger unit ([`OTHER_UNITS`]). An answer that is wrong in any unit
+//! is wrong; how time and answers depend on the unit is told apart ([`by_unit`]).
+//!
 //! Control questions are mixed into every timed pass ([`weave`]). Their numbers follow those of the set's configurations;
 //! they are answered and judged like these, and nothing else is made of them.
 //!
 //! A run that asks for a precision takes the order piece by piece, all rounds of a piece before the next one, and looks
 //! after each whether the comparison is settled ([`ocb_core::sequential`]).
 
+mod by_unit;
 mod contract;
 mod controls;
 mod lane;
@@ -28,7 +33,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use ocb_core::configuration::{Configuration, ConfigurationSet, Method, Placed};
-use ocb_core::instance::Presentation;
+use ocb_core::instance::{OTHER_UNITS, Presentation};
 use ocb_core::mesh::Mesh;
 use ocb_core::numbers::Numbers;
 use ocb_core::oracle::{Pair, Shape};
@@ -44,7 +49,7 @@ use crate::registry::{Contestant, Registry};
 pub use controls::draw as draw_controls;
 pub use lane::{Lane, Measured, precision};
 pub use summary::{Asked, environment, rank, summarise};
-use turn::Turn;
+use turn::{Pass, Turn};
 use weave::Piece;
 
 /// Ends the measuring from another thread.
@@ -200,17 +205,16 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
     let n = task.set.placed.len() as u32;
     let mut lanes: Vec<Lane> = all.map(|c| Lane::new(c.clone(), &task.slack(c), n as usize)).collect();
     let base = if task.coherent() { (0..n).collect() } else { task.stratified() };
+    let turns = Turns { task, registry, machine, stop, news, base, elsewhere: task.instance(0).scale() != 1.0 };
     let mut steady = true;
     let (mut measured, mut looks) = (0, 0);
     for end in task.looks() {
         for round in 0..task.passes {
-            let process = looks * task.passes + round;
+            let process = OTHER_UNITS.len() as u32 + looks * task.passes + round;
+            let pass = Pass::Official(round);
             let shown = task.instance(process);
             for (index, lane) in lanes.iter_mut().enumerate() {
-                let piece = task.piece(measured, end);
-                let shown = &shown;
-                let turn =
-                    Turn { task, registry, machine, stop, news, index, round, process, base: &base, piece, shown };
+                let turn = turns.turn(index, pass, process, task.piece(measured, end), &shown);
                 let part = turn.part(lane);
                 if lane.ended() || part.is_empty() {
                     continue;
@@ -233,13 +237,16 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
             break;
         }
     }
+    turns.elsewhere(&mut lanes);
+    if stop.asked() {
+        return;
+    }
     let shown = task.as_it_is();
     for (index, lane) in lanes.iter_mut().enumerate().take(task.contestants.len()) {
         // What is counted is no time, and controls have no counters.
-        let (round, process, piece) =
-            (task.passes, looks * task.passes, Piece { own: 0..lane.reach.own, controls: 0..0 });
-        let shown = &shown;
-        let turn = Turn { task, registry, machine, stop, news, index, round, process, base: &base, piece, shown };
+        let process = OTHER_UNITS.len() as u32 + looks * task.passes;
+        let piece = Piece { own: 0..lane.reach.own, controls: 0..0 };
+        let turn = turns.turn(index, Pass::Counting, process, piece, &shown);
         if !lane.ended() && lane.contestant.info.counters {
             turn.play(lane, &turn.piece);
         }
@@ -257,6 +264,43 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
     }
 }
 
+/// What all turns of a run share.
+struct Turns<'a> {
+    task: &'a Task<'a>,
+    registry: &'a Registry,
+    machine: &'a Machine,
+    stop: &'a Stop,
+    news: &'a Sender<News>,
+    base: Vec<u32>,
+    /// The coordinates can be scaled, so other units are asked as well.
+    elsewhere: bool,
+}
+
+impl Turns<'_> {
+    fn turn<'t>(&'t self, index: usize, pass: Pass, process: u32, piece: Piece, shown: &'t Presentation) -> Turn<'t> {
+        let Self { task, registry, machine, stop, news, ref base, elsewhere } = *self;
+        Turn { task, registry, machine, stop, news, index, pass, elsewhere, process, base, piece, shown }
+    }
+
+    /// Asks in other units what the rounds asked in the unit of the files.
+    fn elsewhere(&self, lanes: &mut [Lane]) {
+        for process in (0..OTHER_UNITS.len() as u32).filter(|_| self.elsewhere) {
+            let shown = self.task.instance(process);
+            for (index, lane) in lanes.iter_mut().enumerate() {
+                let piece = self.task.half(lane.reach.own, process as usize >= OTHER_UNITS.len() / 2);
+                let turn = self.turn(index, Pass::Elsewhere, process, piece, &shown);
+                let part = turn.part(lane);
+                if !lane.ended() && !part.is_empty() {
+                    turn.play(lane, &part);
+                }
+                if self.stop.asked() {
+                    return;
+                }
+            }
+        }
+    }
+}
+
 impl Task<'_> {
     /// Configurations that are measured unless something ends it sooner.
     fn most(&self) -> usize {
@@ -266,6 +310,13 @@ impl Task<'_> {
     /// This part of the set's order, and the controls that go with it.
     fn piece(&self, from: usize, to: usize) -> Piece {
         Piece { own: from..to, controls: self.controls_before(from)..self.controls_before(to) }
+    }
+
+    /// One half of the first `own` questions of the order: two processes share them in each other unit, so that one slow moment
+    /// of the machine does not look like a slow unit.
+    fn half(&self, own: usize, second: bool) -> Piece {
+        let middle = own.div_ceil(2);
+        if second { self.piece(middle, own) } else { self.piece(0, middle) }
     }
 
     fn controls_before(&self, own: usize) -> usize {

@@ -5,6 +5,7 @@
 mod advice;
 mod agreement;
 mod board;
+mod by_unit;
 mod campaign;
 mod chart;
 mod choices;
@@ -43,6 +44,7 @@ use utoipa::ToSchema;
 pub use advice::{AdviceInfo, AdviceSpec, Asked};
 pub use agreement::{Agreement, ContactQuality};
 pub use board::{Accuracy, Board, BoardFilter, BoardOption, BoardRequest, BoardRow, StabilityPassed};
+pub use by_unit::{InUnit, UnitDependence};
 pub use campaign::{CampaignInfo, CampaignPreview, CampaignRequest, CampaignRuns, Compared, ComparedResult};
 pub use chart::{ChartKind, ChartRequest};
 pub use choices::{Choices, NewAddress, NewChoices, OpenedLink};
@@ -105,11 +107,12 @@ pub struct RunSpec {
     /// empty, every one that does for `["all"]`.
     #[serde(default)]
     pub algorithms: Vec<String>,
-    /// Fresh processes, with one timed pass over the configurations each (1 to 99).
+    /// Fresh processes that see the unit of the files, with one timed pass over the configurations each (1 to 99). Two more
+    /// share the configurations in a smaller unit, and two in a larger one.
     #[serde(default = "default_passes")]
     pub passes: u32,
     /// Measuring time allowed per algorithm; a slower one is measured on as many configurations (taken in a shuffled
-    /// order that all algorithms share) as fit.
+    /// order that all algorithms share) as fit. Other units and counters are not part of it; each may take as long as two passes.
     #[serde(default = "default_budget")]
     pub budget_seconds: f64,
     /// Seed of everything that is drawn while measuring (order, equivalent instances, blocks), below 2^53; to repeat a
@@ -345,7 +348,7 @@ pub struct AlgorithmResult {
     pub of: u32,
     /// Stopped by the time budget before the whole set.
     pub budget_limited: bool,
-    /// Time per query; absent when nothing was measured.
+    /// Time per query in the unit of the files; absent when nothing was measured.
     pub time: Option<TimeSummary>,
     /// Against the reference algorithm: geometric mean of the ratios of the times of the same configuration, with its 95 %
     /// interval over the processes; below 1 is faster.
@@ -369,8 +372,14 @@ pub struct AlgorithmResult {
     pub timing: Option<Timing>,
     /// All answers by verdict (`correct`, `false_negative`, `gave_up`, ...); those that do not occur are left out.
     pub verdicts: Vec<VerdictCount>,
-    /// Wrong answers in all. Giving up and not supporting the question are none.
+    /// Configurations answered wrongly at least once, in any unit. Giving up and not supporting the question are not wrong.
     pub wrong: u32,
+    /// Time and answers in each unit of length, the unit of the files first; empty in runs of older versions.
+    #[serde(default)]
+    pub by_unit: Vec<InUnit>,
+    /// Present when its time or its answers depend on the unit of length.
+    #[serde(default)]
+    pub depends_on_unit: Option<UnitDependence>,
     /// The answers that are not scored, because the configuration is narrower than the precision of the algorithm.
     #[serde(default)]
     pub grazing: Agreement,

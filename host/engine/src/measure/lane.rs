@@ -10,10 +10,13 @@ use ocb_core::oracle::Pair;
 use ocb_core::query::{Answer, Counters, Query, Semantics};
 use ocb_core::record::{Record, Verdict};
 use ocb_core::statistics::Statistic;
+use ocb_core::units::Tally;
 use ocb_core::validation::{Judged, Precision, Terms, judge};
 use ocb_sandbox::{ClockFacts, Ending, Observation, Outcome, PassFacts, Session, SetUp, integrity};
 use rayon::prelude::*;
 
+use super::by_unit::{UNITS, unit};
+use super::turn::Pass;
 use super::weave::Reach;
 use super::{outcome_info, surplus};
 use crate::model::{AlgorithmInfo, OutcomeInfo};
@@ -38,7 +41,7 @@ pub struct Lane {
     passes: Vec<PassFacts>,
     /// What the process under way was asked undisturbed, with the times.
     asked: Vec<(u32, f64)>,
-    /// Of each timed pass: the number of its process, and what that was asked.
+    /// Of each official pass: the number of its process, and what that was asked.
     sequences: Vec<(usize, Vec<(u32, f64)>)>,
     set_ups: Vec<SetUp>,
     memory_bytes: Option<u64>,
@@ -64,6 +67,10 @@ struct Cell {
     first: Option<Said>,
     slack: f64,
     flips: u32,
+    /// Process and time in other units, nanoseconds.
+    elsewhere: Vec<(u32, f64)>,
+    /// Its answers in each unit.
+    tallies: [Tally; UNITS],
 }
 
 impl Cell {
@@ -75,6 +82,14 @@ impl Cell {
     fn said(&mut self, said: Said) {
         let first = *self.first.get_or_insert(said);
         self.flips += u32::from(first.contradicts(said, self.slack));
+    }
+
+    /// Counts an answer to the unit in which it was given.
+    fn count(&mut self, asked: AskedAs, verdict: Verdict) {
+        let tally = &mut self.tallies[unit(asked.process)];
+        tally.answers += 1;
+        tally.wrong += u32::from(verdict.is_wrong());
+        tally.missed += u32::from(verdict == Verdict::FalseNegative);
     }
 
     fn keep(&mut self, asked: AskedAs, answer: Answer, judged: Judged) {
@@ -110,12 +125,16 @@ pub struct Measured {
     pub memory_bytes: Option<u64>,
     /// The clock of each process.
     pub clocks: Vec<ClockFacts>,
-    /// What each timed pass showed.
+    /// What each official pass showed.
     pub passes: Vec<PassFacts>,
     /// Layers of the jail.
     pub layers: Vec<String>,
     /// Round and time of every official time, by configuration.
     pub times: Vec<Vec<(u32, f64)>>,
+    /// Number of the process and time of every time in other units, by configuration.
+    pub elsewhere: Vec<Vec<(u32, f64)>>,
+    /// The answers in each unit, by configuration.
+    pub tallies: Vec<[Tally; UNITS]>,
     /// Wall seconds per question with everything around it.
     pub seconds_per_query: Option<f64>,
 }
@@ -154,9 +173,12 @@ impl Lane {
         self.outcome.get_or_insert(outcome);
     }
 
-    /// A fresh process has built both structures.
-    pub fn begin_turn(&mut self, session: &Session) {
-        self.set_ups.push(session.set_up());
+    /// A fresh process has built both structures. What it took for that in another unit is in no number: a plugin that
+    /// recognises the unit could build less there.
+    pub fn begin_turn(&mut self, session: &Session, pass: Pass) {
+        if pass != Pass::Elsewhere {
+            self.set_ups.push(session.set_up());
+        }
         self.asked.clear();
         self.clocks.push(*session.clock());
         self.layers = session.layers().to_vec();
@@ -168,15 +190,17 @@ impl Lane {
     }
 
     /// An answer of a timed pass in this process, in the original's numbers.
-    pub fn observe(&mut self, round: u32, process: u32, seen: Observation) {
+    pub fn observe(&mut self, pass: Pass, process: u32, seen: Observation) {
         if let Some(time) = seen.time {
             let cell = &mut self.cells[seen.configuration as usize];
-            if time.disturbed {
-                cell.late.push((round, time.ns));
-            } else {
-                cell.times.push((round, time.ns));
-                cell.below += u32::from(time.below_resolution);
-                self.asked.push((seen.configuration, time.ns));
+            match pass {
+                Pass::Official(round) if time.disturbed => cell.late.push((round, time.ns)),
+                Pass::Official(round) => {
+                    cell.times.push((round, time.ns));
+                    cell.below += u32::from(time.below_resolution);
+                    self.asked.push((seen.configuration, time.ns));
+                }
+                Pass::Elsewhere | Pass::Counting => cell.elsewhere.push((process, time.ns)),
             }
             self.done += 1;
         }
@@ -184,7 +208,7 @@ impl Lane {
         self.answered(seen.configuration, asked, seen.answer);
     }
 
-    /// A timed pass is over.
+    /// An official pass is over.
     pub fn end_pass(&mut self, facts: PassFacts) {
         if let Some(set_up) = self.set_ups.last_mut() {
             set_up.build_ns += facts.beside_ns;
@@ -220,9 +244,10 @@ impl Lane {
     fn answered(&mut self, configuration: u32, asked: AskedAs, answer: Answer) {
         let cell = &mut self.cells[configuration as usize];
         cell.said(Said::of(&answer));
-        let known = cell.judged.as_ref();
-        if known.is_none_or(|(known, _)| *known != answer) {
-            self.unjudged.push((configuration, asked, answer));
+        let known = cell.judged.as_ref().filter(|(known, _)| *known == answer).map(|(_, judged)| judged.verdict);
+        match known {
+            Some(verdict) => cell.count(asked, verdict),
+            None => self.unjudged.push((configuration, asked, answer)),
         }
     }
 
@@ -239,6 +264,7 @@ impl Lane {
         let judged: Vec<Judged> =
             self.unjudged.par_iter().map(|(i, _, answer)| judge(pair, placed(*i), terms, answer)).collect();
         for ((i, asked, answer), judged) in self.unjudged.drain(..).zip(judged) {
+            self.cells[i as usize].count(asked, judged.verdict);
             self.cells[i as usize].keep(asked, answer, judged);
         }
     }
@@ -265,7 +291,7 @@ impl Lane {
             self.end(outcome_info(&Outcome::TimingIntegrity { finding }));
         }
         let of = self.own;
-        let queries: usize = self.cells.iter().map(|c| c.times.len() + c.late.len()).sum();
+        let queries: usize = self.cells.iter().map(|c| c.times.len() + c.late.len() + c.elsewhere.len()).sum();
         for (process, asked) in &self.sequences {
             let usual = |configuration: u32| surplus::usual(&self.cells[configuration as usize].times);
             self.set_ups[*process].build_ns += surplus::surplus_ns(asked, usual);
@@ -273,11 +299,14 @@ impl Lane {
         let verdict = |cell: Cell| cell.judged.map(|(_, judged)| judged.verdict);
         let controls = self.cells.split_off(of).into_iter().map(verdict).collect();
         let (mut records, mut times) = (Vec::new(), Vec::with_capacity(of));
+        let (mut elsewhere, mut tallies) = (Vec::with_capacity(of), Vec::with_capacity(of));
         for (configuration, cell) in (0..).zip(self.cells) {
             let official = cell.official().to_vec();
             let passes = official.len() as u32;
             let median = Statistic::Median.of(&mut official.iter().map(|(_, ns)| *ns).collect::<Vec<_>>());
             times.push(official);
+            elsewhere.push(cell.elsewhere);
+            tallies.push(cell.tallies);
             if let (Some(time_ns), Some((answer, Judged { verdict, contacts }))) = (median, cell.judged) {
                 let below_resolution = 2 * cell.below >= passes;
                 let counters = cell.counters;
@@ -308,6 +337,8 @@ impl Lane {
             passes: self.passes,
             layers: self.layers,
             times,
+            elsewhere,
+            tallies,
             seconds_per_query: (queries > 0).then(|| self.spent.as_secs_f64() / queries as f64),
         }
     }
@@ -325,6 +356,23 @@ mod tests {
             cell.said(said);
         }
         assert_eq!(cell.flips, 2);
+    }
+
+    #[test]
+    fn an_answer_counts_in_the_unit_of_its_process() {
+        let mut cell = Cell::default();
+        let asked = |process| AskedAs { process, instance: Instance::default() };
+        for (process, verdict) in [
+            (None, Verdict::Correct),
+            (Some(4), Verdict::Correct),
+            (Some(0), Verdict::FalseNegative),
+            (Some(2), Verdict::FalsePositive),
+            (Some(1), Verdict::GaveUp),
+        ] {
+            cell.count(asked(process), verdict);
+        }
+        let counted = cell.tallies.map(|Tally { answers, wrong, missed }| [answers, wrong, missed]);
+        assert_eq!(counted, [[2, 0, 0], [2, 2, 1], [1, 0, 0]]);
     }
 
     #[test]

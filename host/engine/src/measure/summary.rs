@@ -16,7 +16,7 @@ use ocb_sandbox::{PassFacts, Profile, SetUp, integrity};
 use super::contract::contract;
 use super::lane::precision;
 use super::waiting::kept_waiting;
-use super::{Measured, controls};
+use super::{Measured, by_unit, controls};
 use crate::machine::Machine;
 use crate::model::{
     Agreement, AlgorithmInfo, AlgorithmResult, ContactQuality, ContractClass, Draw, Environment, Estimated,
@@ -66,6 +66,8 @@ pub fn summarise(
     let set_up = |of: fn(&SetUp) -> f64| {
         Statistic::Median.of(&mut measured.set_ups.iter().map(of).collect::<Vec<_>>()).map(|ns| ns / 1e6)
     };
+    let time = compared.map(|compared| time_summary(measured, compared.mean_ns.into()));
+    let units = by_unit::of(measured, reference, time.as_ref());
     AlgorithmResult {
         algorithm: measured.contestant.info.id.clone(),
         name: measured.contestant.info.name.clone(),
@@ -73,7 +75,7 @@ pub fn summarise(
         n: records.len() as u32,
         of: measured.of as u32,
         budget_limited: measured.budget_limited,
-        time: compared.map(|compared| time_summary(measured, compared.mean_ns.into())),
+        time,
         ratio: compared.and_then(|compared| compared.ratio).map(Estimated::from),
         class: Some(contract(&measured.contestant, records.iter().map(|r| &r.answer), query, coherent)),
         rank: None,
@@ -85,6 +87,8 @@ pub fn summarise(
         timing: Some(timing(&measured.passes)),
         verdicts: verdicts(measured),
         wrong: records.iter().filter(|r| r.verdict.is_wrong()).count() as u32,
+        by_unit: units.iter().map(by_unit::Found::info).collect(),
+        depends_on_unit: by_unit::dependence(&units),
         grazing: agreement(records, asked),
         resolution: Some(Resolution::of(&pair, placed, records, terms)),
         contacts: contact_quality(records),

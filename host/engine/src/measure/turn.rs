@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
 
-use ocb_core::instance::{Instance, Presentation};
+use ocb_core::instance::{Instance, OTHER_UNITS, Presentation};
 use ocb_core::oracle::Pair;
 use ocb_sandbox::{Killer, Observation, Outcome, PassPlan, Policy, Session, Trial};
 
@@ -16,6 +16,17 @@ use crate::registry::Registry;
 
 /// How often a lane may report, so that pages live and nothing else suffers.
 const REPORT_EVERY: Duration = Duration::from_millis(200);
+
+/// What a pass is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pass {
+    /// The official times of this round, in the unit of the files.
+    Official(u32),
+    /// Times and answers in another unit.
+    Elsewhere,
+    /// Counters, without a clock.
+    Counting,
+}
 
 /// One algorithm's pass in a fresh process.
 pub struct Turn<'a> {
@@ -31,8 +42,10 @@ pub struct Turn<'a> {
     pub news: &'a Sender<News>,
     /// Which lane.
     pub index: usize,
-    /// Which round; the last one is untimed and counts.
-    pub round: u32,
+    /// What the answers are for.
+    pub pass: Pass,
+    /// The run also asks in other units.
+    pub elsewhere: bool,
     /// Number of the process: pieces of the order come one after the other, with all rounds each.
     pub process: u32,
     /// The set's order.
@@ -46,8 +59,8 @@ pub struct Turn<'a> {
 impl Turn<'_> {
     /// What of the piece this algorithm is asked; the first round finds out how far it comes.
     pub fn part(&self, lane: &Lane) -> Piece {
-        match self.round {
-            0 if !lane.cut => self.piece.clone(),
+        match self.pass {
+            Pass::Official(0) if !lane.cut => self.piece.clone(),
             _ => self.piece.before(lane.reach),
         }
     }
@@ -62,7 +75,7 @@ impl Turn<'_> {
         }
         // Both are drawn anew, so that no question always follows the same one.
         let seed = task.process_seed(process).rotate_left(2);
-        if self.round == 0 {
+        if self.pass == Pass::Official(0) {
             return weave::evenly(own, &controls, seed);
         }
         let again = |part: &[u32]| order::reshuffled(part, task.seed, process);
@@ -83,9 +96,9 @@ impl Turn<'_> {
                 return 0.0;
             }
         };
-        lane.begin_turn(&session);
+        lane.begin_turn(&session, self.pass);
         let started = Instant::now();
-        let (reached, steal) = if self.counting() {
+        let (reached, steal) = if self.pass == Pass::Counting {
             (self.count(&mut session, lane, &order), 0.0)
         } else {
             self.time(&mut session, lane, &order)
@@ -93,7 +106,7 @@ impl Turn<'_> {
         lane.spent += started.elapsed();
         self.stop.watch(None);
         let ending = session.finish();
-        if self.round == 0 {
+        if self.pass == Pass::Official(0) {
             let n = self.task.set.placed.len();
             let own = order[..reached].iter().filter(|number| (**number as usize) < n).count();
             let controls = self.piece.controls.start + reached - own;
@@ -125,13 +138,15 @@ impl Turn<'_> {
         let mut reported = Instant::now();
         let mut each = |seen: Observation| {
             let answer = self.shown.translate(seen.answer, seen.configuration, seen.instance);
-            lane.observe(self.round, self.process, Observation { answer, ..seen });
+            lane.observe(self.pass, self.process, Observation { answer, ..seen });
             self.go_on(lane, &mut reported)
         };
         // What it died of is in the session's ending.
         let (facts, _) = session.pass(&plan, &present, &mut each);
         let found = (facts.reached, facts.steal.unwrap_or(0.0));
-        lane.end_pass(facts);
+        if self.pass != Pass::Elsewhere {
+            lane.end_pass(facts);
+        }
         found
     }
 
@@ -187,19 +202,18 @@ impl Turn<'_> {
         launcher.start_with(&trial, killer).map_err(|ending| outcome_info(&ending.outcome))
     }
 
-    fn counting(&self) -> bool {
-        self.round == self.task.passes
-    }
-
     /// The first pass over a piece decides how far the algorithm gets; later ones may use what it left. Counting makes an
-    /// algorithm slower and is not timed, so it gets the share of two passes, and what it does not reach has no counters.
+    /// algorithm slower and is not timed, so it gets the share of two passes, and what it does not reach has no counters. In each
+    /// other unit two processes have half of the questions and half of a share each: however slow an algorithm is there, the run
+    /// ends.
     fn allowance(&self, lane: &Lane) -> Duration {
         let share = self.task.budget / self.task.passes;
         let left = self.task.budget.saturating_sub(lane.spent);
-        match self.round {
-            0 => left / self.task.passes,
-            _ if self.counting() => share * 2,
-            _ => left.max(share),
+        match self.pass {
+            Pass::Official(0) => left / self.task.passes,
+            Pass::Official(_) => left.max(share),
+            Pass::Elsewhere => share / 2,
+            Pass::Counting => share * 2,
         }
     }
 
@@ -209,9 +223,10 @@ impl Turn<'_> {
             return;
         }
         let all = self.task.piece(0, self.task.most());
-        let reach = if lane.cut || self.counting() { all.before(lane.reach) } else { all };
+        let reach = if lane.cut || self.pass == Pass::Counting { all.before(lane.reach) } else { all };
         let counted = if lane.contestant.info.counters { reach.own.len() as u64 } else { 0 };
-        let total = (reach.questions() as u64 * u64::from(self.task.passes) + counted).max(lane.done);
+        let timed = self.task.passes + if self.elsewhere { OTHER_UNITS.len() as u32 / 2 } else { 0 };
+        let total = (reach.questions() as u64 * u64::from(timed) + counted).max(lane.done);
         let _ = self.news.send(News::Progress { lane: self.index, done: lane.done, total });
     }
 }

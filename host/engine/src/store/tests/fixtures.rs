@@ -111,6 +111,8 @@ pub(crate) fn result(algorithm: &str, n: u32) -> StoredResult {
             timing: None,
             verdicts: Vec::new(),
             wrong: 0,
+            by_unit: Vec::new(),
+            depends_on_unit: None,
             grazing: Agreement::default(),
             resolution: None,
             contacts: None,
