@@ -262,7 +262,7 @@ pub struct BenchArgs {
         conflicts_with_all = ["paper_compat", "rotate", "move_by", "count", "seed", "distance", "step", "ladder", "center_distance", "hit_share"]
     )]
     pub configurations: Option<PathBuf>,
-    /// Fresh processes, with one timed pass over the configurations each; the median counts.
+    /// Fresh processes in the unit of the files, with one timed pass over the configurations each; the median counts.
     #[arg(long, default_value_t = 5)]
     pub passes: u32,
     /// Seed of the order, the equivalent instances and the blocks of questions, to repeat a run [default: drawn].

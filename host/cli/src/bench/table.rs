@@ -1,4 +1,4 @@
-//! The table of a run. Rows stand in the run's order, never ranked: a failed or wrong algorithm has no rank to lose.
+//! The table of a run, in the unit of the files. Rows stand in the run's order, never ranked: a failed or wrong algorithm has no rank to lose.
 
 use ocb_core::configuration::{Class, Method, Separation};
 use ocb_core::record::Verdict;
@@ -9,6 +9,7 @@ use ocb_engine::model::{
     Timing,
 };
 
+use super::by_unit;
 use crate::{output, plugin, run, units};
 
 const HEADINGS: [&str; 15] = [
@@ -38,7 +39,7 @@ pub fn summary(run: &RunInfo) -> String {
     if !rows.is_empty() {
         text.push(output::table(&HEADINGS, rows, &[0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13]));
         text.push(
-            "Times per query with 95 % interval, tests are means per query, load is of the plugin's file, build of both \
+            "Times per query in the unit of the files with 95 % interval, tests are means per query, load is of the plugin's file, build of both \
              structures."
                 .to_owned(),
         );
@@ -50,6 +51,7 @@ pub fn summary(run: &RunInfo) -> String {
                 reference.algorithm
             )
         }));
+        text.extend(by_unit::table(&run.results));
         text.extend(classes(&run.results));
         text.extend(controls(&run.results));
         text.push(
@@ -173,7 +175,7 @@ fn row(result: &AlgorithmResult) -> Vec<String> {
         result.load_ms.map_or_else(dash, |ms| units::time(ms * 1e6)),
         result.build_ms.map_or_else(dash, |ms| units::time(ms * 1e6)),
         result.memory_bytes.map_or_else(dash, units::bytes),
-        result.outcome.name.clone(),
+        format!("{}{}", result.outcome.name, by_unit::mark(result)),
     ]
 }
 
@@ -198,10 +200,11 @@ fn wrong(result: &AlgorithmResult) -> String {
     if result.n == 0 {
         return dash();
     }
-    match count(result, Verdict::FalseNegative) {
+    let wrong = match count(result, Verdict::FalseNegative) {
         0 => result.wrong.to_string(),
         missed => format!("{} ({missed} missed)", result.wrong),
-    }
+    };
+    if by_unit::only_elsewhere(result) { format!("0, in other units {wrong}") } else { wrong }
 }
 
 fn count(result: &AlgorithmResult, verdict: Verdict) -> u32 {
@@ -214,6 +217,7 @@ fn note(result: &AlgorithmResult) -> Option<String> {
     if result.outcome.name != "Completed" {
         parts.push(result.outcome.message.clone());
     }
+    parts.extend(by_unit::finding(result));
     parts.extend(result.unranked.iter().map(|unranked| format!("no rank: {}", unranked.message.trim_end_matches('.'))));
     if result.budget_limited {
         parts.push(format!("the time budget sufficed for {} of {} configurations", result.n, result.of));
