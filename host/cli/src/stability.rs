@@ -114,11 +114,7 @@ fn text(table: &StabilityTable) -> String {
             blocks.push(tessellations(&method.tessellations));
         }
         blocks.extend(method.search.as_ref().map(searched));
-        if let Some([low, high]) = method.unit_safe {
-            blocks.push(format!(
-                "The unit of length may change from 2^{low} to 2^{high}, where triangles are about one unit long."
-            ));
-        }
+        blocks.extend(unit(method));
         if let Some(offset) = method.offset_safe {
             blocks.push(format!("Right up to {offset} lengths from the origin."));
         }
@@ -126,6 +122,22 @@ fn text(table: &StabilityTable) -> String {
         blocks.extend(cases.map(|(family, first)| case(family, first)));
     }
     blocks.join("\n\n")
+}
+
+/// Does the method depend on the unit of length, and in which range does it not?
+fn unit(method: &Stability) -> Option<String> {
+    let tried = method.relations.iter().find(|found| found.relation == "unit")?;
+    let range = method.unit_safe.map(|[low, high]| {
+        format!("The unit of length may change from 2^{low} to 2^{high}, where triangles are about one unit long.")
+    });
+    let depends = (tried.decisions + tried.distances > 0).then(|| {
+        format!(
+            "Depends on the unit of length: of {} scenes in another unit, {} decisions and {} distances differ.",
+            tried.tried, tried.decisions, tried.distances
+        )
+    });
+    let said: Vec<String> = [depends, range].into_iter().flatten().collect();
+    (!said.is_empty()).then(|| said.join(" "))
 }
 
 fn families(table: &StabilityTable, found: &[FamilyResult]) -> String {
