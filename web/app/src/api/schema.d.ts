@@ -1705,9 +1705,12 @@ export interface components {
              * @description Mean BV tests per query.
              */
             bv_tests_mean?: number | null;
+            /** @description Time and answers in each unit of length, the unit of the files first; empty in runs of older versions. */
+            by_unit?: components["schemas"]["InUnit"][];
             class?: components["schemas"]["ContractClass"] | null;
             contacts?: components["schemas"]["ContactQuality"] | null;
             controls?: components["schemas"]["Controls"] | null;
+            depends_on_unit?: components["schemas"]["UnitDependence"] | null;
             /** @description The answers that are not scored, because the configuration is narrower than the precision of the algorithm. */
             grazing?: components["schemas"]["Agreement"];
             /**
@@ -1754,7 +1757,7 @@ export interface components {
             verdicts: components["schemas"]["VerdictCount"][];
             /**
              * Format: int32
-             * @description Wrong answers in all. Giving up and not supporting the question are none.
+             * @description Configurations answered wrongly at least once, in any unit. Giving up and not supporting the question are not wrong.
              */
             wrong: number;
         };
@@ -2706,6 +2709,44 @@ export interface components {
         Identity: {
             account?: components["schemas"]["AccountInfo"] | null;
         };
+        /**
+         * @description Time and answers in one unit. The rank comes from the unit of the files alone, except that a wrong answer in any unit
+         *     takes it away.
+         */
+        InUnit: {
+            /**
+             * Format: int32
+             * @description Answers, control questions not included. A configuration may have several.
+             */
+            answers: number;
+            /**
+             * Format: int32
+             * @description All coordinates were multiplied by two to this power, which rounds nothing; 0 is the unit of the files.
+             */
+            exponent: number;
+            mean_ns?: components["schemas"]["Estimated"] | null;
+            /**
+             * Format: int32
+             * @description Wrong ones that miss a collision.
+             */
+            missed: number;
+            /**
+             * Format: int32
+             * @description Configurations that were timed in it.
+             */
+            n: number;
+            pace?: components["schemas"]["Estimated"] | null;
+            /**
+             * Format: int32
+             * @description Fresh processes that were timed in this unit.
+             */
+            processes: number;
+            /**
+             * Format: int32
+             * @description Wrong ones of them.
+             */
+            wrong: number;
+        };
         /** @description An invitation, as curators see it. */
         InvitationInfo: {
             /** @description Name of the account that accepted it. */
@@ -3479,7 +3520,7 @@ export interface components {
             /**
              * Format: double
              * @description Measuring time allowed per algorithm; a slower one is measured on as many configurations (taken in a shuffled
-             *     order that all algorithms share) as fit.
+             *     order that all algorithms share) as fit. Other units and counters are not part of it; each may take as long as two passes.
              */
             budget_seconds?: number;
             /** @description Instead of a relative distance: the ten steps of the ladder in turn, on which eps* is measured. */
@@ -3492,7 +3533,8 @@ export interface components {
             object_b?: string | null;
             /**
              * Format: int32
-             * @description Fresh processes, with one timed pass over the configurations each (1 to 99).
+             * @description Fresh processes that see the unit of the files, with one timed pass over the configurations each (1 to 99). Two more
+             *     share the configurations in a smaller unit, and two in a larger one.
              */
             passes?: number;
             /**
@@ -4249,6 +4291,20 @@ export interface components {
             name: string;
             /** @description What it may be used for. */
             scopes: components["schemas"]["Scope"][];
+        };
+        /**
+         * @description That time or answers depend on the unit of length. A time does when every process in another unit takes more than 1.2
+         *     times as long as every process in the unit of the files, or the other way round, and the means are 500 ns apart or more. Wrong
+         *     answers do when, on the configurations asked in both units, chance would distribute them so unevenly with a probability
+         *     below 1 %.
+         */
+        UnitDependence: {
+            /** @description Units in which another share of the answers is wrong. */
+            answers: number[];
+            /** @description Both as one sentence. */
+            message: string;
+            /** @description Units in which the time differs, as exponents. */
+            time: number[];
         };
         /** @description Why an algorithm has no rank although it failed nowhere else. */
         Unranked: components["schemas"]["UnrankedCause"] & {

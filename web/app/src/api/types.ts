@@ -38,6 +38,7 @@ export type FamilyResult = Schemas['FamilyResult']
 export type Heatmap = Schemas['Heatmap']
 /** The query string of every heatmap route. */
 export type HeatmapRequest = paths['/api/v1/runs/{id}/heatmap']['get']['parameters']['query']
+export type InUnit = Schemas['InUnit']
 export type Leaving = Schemas['Leaving']
 export type LeavingCounts = Schemas['LeavingCounts']
 export type Measure = Schemas['Measure']

@@ -54,3 +54,23 @@ it('lists what failed without a place, and with the reason', async () => {
   expect(row?.querySelector('td')?.textContent).toBe('–')
   expect(row?.textContent).toContain('It crashed with SIGSEGV.')
 })
+
+it('shows each unit of length, the file’s first, and names what depends on it', async () => {
+  const unit = (exponent: number, value: number, wrong: number) => ({
+    exponent, processes: 2, n: 9, mean_ns: { value, lo: value, hi: value }, pace: null, answers: 18, wrong, missed: 0,
+  })
+  const result: AlgorithmResult = {
+    algorithm: 'ruler', name: 'Ruler', outcome: { name: 'Completed', message: '', ours: false }, n: 9, of: 9, budget_limited: false, time: null,
+    verdicts: [], wrong: 7, bv_tests_mean: null, primitive_tests_mean: null, build_ms: null, memory_bytes: null,
+    by_unit: [unit(0, 1000, 0), unit(-3, 5000, 7), unit(3, 1000, 0)],
+    depends_on_unit: { time: [-3], answers: [-3], message: 'Depends on the unit of length: with all coordinates times 1/8, so.' },
+  }
+  const { host } = await mount(ResultTable, { results: [result, { ...result, algorithm: 'old', by_unit: [], depends_on_unit: null }] })
+  const rows = [...host.querySelectorAll('[data-testid=by-unit] tr[data-algorithm]')]
+  expect(rows.map((row) => [row.getAttribute('data-algorithm'), row.getAttribute('data-exponent')])).toEqual([['ruler', '0'], ['ruler', '-3'], ['ruler', '3']])
+  expect(rows[1]?.textContent).toMatch(/times 1\/8.*5.*µs.*7 of 18/)
+  expect(host.querySelector('[data-testid=depends-on-unit]')?.textContent).toContain('Ruler: Depends on the unit of length')
+  const row = host.querySelector('[data-testid=result-table] tr[data-algorithm=ruler]')
+  expect(row?.textContent).toContain('none in the file’s unit')
+  expect(row?.textContent).toContain('It gave wrong answers in another unit of length')
+})

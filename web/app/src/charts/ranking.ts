@@ -1,5 +1,6 @@
 import type { AlgorithmResult, ContractClass } from '../api/types'
 import { count } from '../ui/format'
+import { onlyElsewhere } from './units'
 
 /** A result that may be compared, and its place. */
 export interface Ranked {
@@ -58,6 +59,7 @@ function unanswered(result: AlgorithmResult): number {
 function whyNot(result: AlgorithmResult): string | null {
   if (result.outcome.name !== 'Completed') return result.outcome.message
   if (result.unranked) return result.unranked.message
+  if (onlyElsewhere(result)) return 'It gave wrong answers in another unit of length, and none in the unit of the files.'
   if (result.wrong > 0) return 'It gave wrong answers: a time for a wrong answer is no result.'
   if (!result.time) return 'Nothing was measured.'
   const silent = unanswered(result)
