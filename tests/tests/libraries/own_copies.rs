@@ -1,6 +1,7 @@
 //! Wrappers of libraries that may not be shipped, built against stand-ins that have their published interface.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use nalgebra::{Matrix3, Point3, Vector3};
 use ocb_core::configuration::Configuration;
@@ -18,13 +19,36 @@ const OWN: [(&str, &str); 4] =
     [("pqp", "PQP_DIR"), ("rapid", "RAPID_DIR"), ("v-collide", "V_COLLIDE_DIR"), ("solid", "SOLID_DIR")];
 
 fn build(name: &str, variable: &str, folder: &Path) -> PathBuf {
-    let copy = root().join("tests/standins").join(name);
+    output(&mut make(name, variable, &root().join("tests/standins").join(name), folder));
+    folder.join(format!("libocb_{name}.so"))
+}
+
+/// Builds the wrapper against this copy, into this folder.
+fn make(name: &str, variable: &str, copy: &Path, folder: &Path) -> Command {
     let mut make = command("make");
     make.arg("-C").arg(root().join("plugins/cpp")).arg(name);
     make.arg(format!("{variable}={}", copy.display())).arg(format!("OUT={}", folder.display()));
-    output(make.arg("CXXFLAGS=-O1"));
-    folder.join(format!("libocb_{name}.so"))
+    make.arg("CXXFLAGS=-O1");
+    make
 }
+
+/// A copy of SOLID: these files of the stand-in, others with this text.
+fn solid(folder: &Path, standin: &[(&str, &str)], text: &[(&str, &str)]) {
+    let from = root().join("tests/standins");
+    let place = |to: &str| {
+        let path = folder.join(to);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        path
+    };
+    for (file, to) in standin {
+        std::fs::copy(from.join(file), place(to)).expect("a copy");
+    }
+    for (to, text) in text {
+        std::fs::write(place(to), text).expect("a file");
+    }
+}
+
+const HEADER: (&str, &str) = ("solid/SOLID.h", "include/SOLID/SOLID.h");
 
 /// A triangle far away and one around the origin; upright ones.
 fn objects() -> [Mesh; 2] {
@@ -81,6 +105,78 @@ fn each_builds_against_a_copy_and_places_objects_as_told() {
             assert!((b - Point3::new(7.8, 5.3, 10.0)).norm() < 1e-12, "{name}: {b}");
         }
     }
+}
+
+/// As SOLID 3's own folder: headers apart, sources in folders, some of them in C, one for old compilers and one a program.
+#[test]
+fn sources_may_lie_in_folders_and_be_in_c() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let copy = folder.path().join("solid3");
+    let standin = [
+        ("solid/SOLID.h", "include/SOLID.h"),
+        ("solid/SOLID.cpp", "src/complex/DT_Complex.cpp"),
+        ("standin.hpp", "src/standin.hpp"),
+    ];
+    let text = [
+        (
+            "src/DT_Object.cpp",
+            "#include <DT_Convex.h>\nextern \"C\" int qh_new(int);\nint any() { return qh_new(CONVEX); }\n",
+        ),
+        ("src/convex/DT_Convex.h", "#ifndef USE_DOUBLES\n#error\n#endif\n#define CONVEX 1\n"),
+        // Not C++: a variable of that name, and two C sources, since the compiler may take only the first as C.
+        ("src/qhull/geom.c", "int qh_other(int new);\nint qh_new(int new) { return qh_other(new); }\n"),
+        ("src/qhull/other.c", "int qh_other(int new) { return new; }\n"),
+        ("src/qhull/unix.c", "int main(void) { return absent(); }\n"),
+        ("src/qhull/qhull_interface.cpp", "#include <iostream.h>\n"),
+    ];
+    solid(&copy, &standin, &text);
+    output(&mut make("solid", "SOLID_DIR", &copy, folder.path()));
+    let mut session = start(&folder.path().join("libocb_solid.so"), "solid", &objects());
+    assert!(hit(&mut session, &Configuration { pose_a: Pose::identity(), pose_b: Pose::identity() }));
+}
+
+#[test]
+fn an_installed_library_is_linked_and_listed_under_either_name() {
+    for name in ["libsolid3.so", "libsolid.so"] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let prefix = folder.path().join("prefix");
+        solid(
+            &prefix,
+            &[
+                HEADER,
+                ("solid/SOLID.h", "src/SOLID.h"),
+                ("solid/SOLID.cpp", "src/SOLID.cpp"),
+                ("standin.hpp", "standin.hpp"),
+            ],
+            &[],
+        );
+        let library = prefix.join("lib").join(name);
+        std::fs::create_dir_all(prefix.join("lib")).expect("a folder");
+        let mut compiler = command("g++");
+        compiler.args(["-std=c++17", "-shared", "-fPIC", "-o"]).arg(&library).arg(prefix.join("src/SOLID.cpp"));
+        output(compiler.arg(format!("-Wl,-soname,{name}")));
+        // What is installed is linked; sources beside it are not compiled once more.
+        std::fs::write(prefix.join("src/SOLID.cpp"), "#error").expect("a file");
+        output(&mut make("solid", "SOLID_DIR", &prefix, folder.path()));
+        let listed = std::fs::read_to_string(folder.path().join("libocb_solid.libraries")).expect("a list");
+        assert_eq!(listed.trim(), library.display().to_string());
+    }
+}
+
+#[test]
+fn a_header_without_a_library_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let copy = folder.path().join("solid3");
+    solid(&copy, &[HEADER], &[]);
+    let done = make("solid", "SOLID_DIR", &copy, folder.path()).output().expect("make runs");
+    let said = String::from_utf8_lossy(&done.stderr);
+    assert!(!done.status.success() && said.contains("neither sources beside it nor a library"), "{said}");
+    // A source that defines nothing of what the wrapper needs.
+    solid(&copy, &[], &[("src/empty.cpp", "")]);
+    let done = make("solid", "SOLID_DIR", &copy, folder.path()).output().expect("make runs");
+    let said = String::from_utf8_lossy(&done.stderr);
+    assert!(!done.status.success() && said.contains("undefined reference"), "{said}");
+    assert!(!folder.path().join("libocb_solid.so").exists());
 }
 
 #[test]
