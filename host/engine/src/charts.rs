@@ -2,6 +2,9 @@
 //!
 //! Times are compared inside one hardware class, so that charts over several runs take those of this run's class alone,
 //! and only runs that the asker may see.
+//!
+//! A finished run never changes, so its charts are kept in memory ([`KEPT_POINTS`]): the intervals of a large one take more
+//! than a second.
 
 mod resolution;
 mod times;
@@ -14,31 +17,54 @@ use ocb_core::statistics::bootstrap_interval;
 
 use crate::board::{Measured, of_run};
 use crate::engine::Inner;
-use crate::model::{AlgorithmResult, ChartKind, ChartRequest};
+use crate::model::{AlgorithmResult, ChartKind, ChartRequest, State};
 use crate::store::RunRow;
 use crate::{EngineError, Result};
 
+/// Points of the charts in memory, in all: about 40 MB.
+pub const KEPT_POINTS: usize = 200_000;
+
 impl Inner {
-    /// One chart of a finished run.
+    /// One chart of a run, from memory when it was drawn lately.
     pub async fn chart(&self, run: &str, request: ChartRequest, viewer: Option<&str>) -> Result<Chart> {
         let row = self.run_row(run).await?;
-        let results = self.measured_results(&row).await?;
+        let runs = self.charted_runs(&row, request.kind, viewer).await?;
+        let Some(key) = key(&request, &row, &runs) else { return self.draw(&row, &runs, request).await };
+        if let Some(chart) = self.charts.get(&key) {
+            return Ok((*chart).clone());
+        }
+        let chart = self.draw(&row, &runs, request).await?;
+        Ok((*self.charts.put(&key, chart)).clone())
+    }
+
+    /// The runs that a chart is made of: this one alone, or with others that the asker may see.
+    async fn charted_runs(&self, row: &RunRow, kind: ChartKind, viewer: Option<&str>) -> Result<Vec<RunRow>> {
+        match kind {
+            ChartKind::Distance => self.at_other_distances(row, viewer).await,
+            ChartKind::Triangles => self.of_other_sizes(row, viewer).await,
+            _ => Ok(vec![row.clone()]),
+        }
+    }
+
+    async fn draw(&self, row: &RunRow, runs: &[RunRow], request: ChartRequest) -> Result<Chart> {
+        let run = &row.id;
+        let results = self.measured_results(row).await?;
         if results.is_empty() {
             return Err(EngineError::NotFound(format!(
                 "The run {run:?} has nothing to chart: no algorithm has a time."
             )));
         }
-        let chosen = self.chosen_for(&row, &results, &request).await?;
+        let chosen = self.chosen_for(row, &results, &request).await?;
         let mut chart = match request.kind {
             ChartKind::Accuracy => {
-                let measured: Vec<Measured> = self.measured_of(&row).await?;
+                let measured: Vec<Measured> = self.measured_of(row).await?;
                 of_run(&measured, request.accuracy)
             }
-            ChartKind::Distance => self.time_by_distance(&row, &results, viewer).await?,
-            ChartKind::Triangles => self.time_by_triangles(&row, &results, viewer).await?,
-            ChartKind::Ecdf => self.times_spread(&row, &results, chosen.as_deref()).await?,
+            ChartKind::Distance => self.time_by_distance(&results, runs).await?,
+            ChartKind::Triangles => self.time_by_triangles(&results, runs).await?,
+            ChartKind::Ecdf => self.times_spread(row, &results, chosen.as_deref()).await?,
             ChartKind::BvTests | ChartKind::PrimitiveTests => {
-                self.time_by_tests(&row, &results, request.kind, chosen.clone()).await?
+                self.time_by_tests(row, &results, request.kind, chosen.clone()).await?
             }
             ChartKind::Resolution => resolution::chart(&results),
         };
@@ -78,6 +104,21 @@ impl Inner {
         let all = self.store.results(&row.id).await?.into_iter().map(|stored| stored.result);
         Ok(all.filter(|result| result.n > 0).collect())
     }
+}
+
+/// What a chart is kept under; nothing while one of its runs may still change. A run that was refined has another end.
+fn key(request: &ChartRequest, row: &RunRow, runs: &[RunRow]) -> Option<String> {
+    let mut key = format!("{request:?}");
+    for run in std::iter::once(row).chain(runs) {
+        let finished_us = run.finished_us.filter(|_| run.state == State::Done)?;
+        key.push_str(&format!(" {}@{finished_us}", run.id));
+    }
+    Some(key)
+}
+
+/// How much of the memory for charts one takes.
+pub fn points(chart: &Chart) -> usize {
+    1 + chart.series.iter().map(|series| series.points.len()).sum::<usize>()
 }
 
 /// Why there are no points.

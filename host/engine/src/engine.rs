@@ -108,6 +108,7 @@ pub struct Inner {
     pub records: Cache<RecordColumns>,
     pub maps: Cache<VertexMap>,
     pub shapes: Cache<Shape>,
+    pub charts: Cache<ocb_chart::Chart>,
     pub advices: Advices,
     closing: AtomicBool,
     /// Rung when the engine shuts down, for what would sleep on.
@@ -164,6 +165,7 @@ impl Engine {
             records: Cache::new(16),
             maps: Cache::new(8),
             shapes: Cache::new(4),
+            charts: Cache::weighing(crate::charts::KEPT_POINTS, crate::charts::points),
             advices: Advices::default(),
             closing: AtomicBool::new(false),
             closed: Notify::new(),

@@ -19,18 +19,24 @@ use crate::store::RunRow;
 const OTHERS: usize = 24;
 
 impl Inner {
-    /// Over the steps of a ladder, and over all runs of the same pair of objects.
-    pub(super) async fn time_by_distance(
-        &self,
-        row: &RunRow,
-        results: &[AlgorithmResult],
-        viewer: Option<&str>,
-    ) -> Result<Chart> {
-        let runs = self.alike(row, viewer, |m| &m.scene, |m| &m.distance).await?;
+    /// This run and those of the same pair of objects at other distances.
+    pub(super) async fn at_other_distances(&self, row: &RunRow, viewer: Option<&str>) -> Result<Vec<RunRow>> {
+        self.alike(row, viewer, |m| &m.scene, |m| &m.distance).await
+    }
+
+    /// This run and those at the same distance with other resolutions of a stock object, or with any objects that were
+    /// brought.
+    pub(super) async fn of_other_sizes(&self, row: &RunRow, viewer: Option<&str>) -> Result<Vec<RunRow>> {
+        let runs = self.alike(row, viewer, |m| &m.distance, |m| &m.scene).await?;
+        Ok(runs.into_iter().filter(|other| shapes(other) == shapes(row)).collect())
+    }
+
+    /// Over the steps of a ladder, and over runs of the same pair of objects.
+    pub(super) async fn time_by_distance(&self, results: &[AlgorithmResult], runs: &[RunRow]) -> Result<Chart> {
         let mut all = Vec::new();
         for (place, result) in results.iter().enumerate() {
             let mut groups = Vec::new();
-            for run in &runs {
+            for run in runs {
                 let Some((set, records)) = self.set_and_records(run, &result.algorithm).await? else { continue };
                 groups.extend(blocking(move || Ok(by_step(&set, &records))).await?);
             }
@@ -47,19 +53,12 @@ impl Inner {
         Ok(chart("distance", "Time against distance", x, all, runs.len()))
     }
 
-    /// Over runs at the same distance: other resolutions of a stock object, or any objects that were brought.
-    pub(super) async fn time_by_triangles(
-        &self,
-        row: &RunRow,
-        results: &[AlgorithmResult],
-        viewer: Option<&str>,
-    ) -> Result<Chart> {
-        let runs = self.alike(row, viewer, |m| &m.distance, |m| &m.scene).await?;
-        let runs: Vec<RunRow> = runs.into_iter().filter(|other| shapes(other) == shapes(row)).collect();
+    /// Over runs at the same distance.
+    pub(super) async fn time_by_triangles(&self, results: &[AlgorithmResult], runs: &[RunRow]) -> Result<Chart> {
         let mut all = Vec::new();
         for (place, result) in results.iter().enumerate() {
             let mut groups = Vec::new();
-            for run in &runs {
+            for run in runs {
                 let Some((_, records)) = self.set_and_records(run, &result.algorithm).await? else { continue };
                 let b = run.spec.object_b.as_ref().unwrap_or(&run.spec.object_a);
                 let triangles = [self.objects.info(&run.spec.object_a).await?, self.objects.info(b).await?];

@@ -88,3 +88,52 @@ impl Inner {
         Ok(results.map(|stored| Measured::of(&circumstances, &stored.plugin_sha256, stored.result)).collect())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use ocb_core::query::Query;
+    use ocb_core::resolution::{Decade, Resolution, Threshold};
+
+    use super::*;
+    use crate::EngineConfig;
+    use crate::store::StoredResult;
+    use crate::store::tests::{result, run};
+
+    /// Some of five decisions were wrong.
+    fn with_wrong(wrong: u32) -> StoredResult {
+        let decades = vec![Decade { exponent: -3, n: 5, wrong }];
+        let false_hits = Threshold { n: 5, wrong, at: Some(1e-3), decades };
+        let mut stored = result("a", 5);
+        stored.result.resolution = Some(Resolution { false_hits, ..Resolution::default() });
+        stored
+    }
+
+    #[tokio::test]
+    async fn the_charts_of_a_finished_run_are_drawn_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let config =
+            EngineConfig { plugins: Vec::new(), dispatch: false, ..EngineConfig::beside_executable(folder.path()) };
+        let engine = Engine::open(config).await.unwrap();
+        let store = &engine.inner.store;
+        let ask = async || {
+            let request = serde_json::from_str(r#"{ "kind": "resolution" }"#).unwrap();
+            engine.chart("r", request, None).await.unwrap().series[0].points[0].y
+        };
+        let keep = async |wrong| store.keep_result("r", 0, &with_wrong(wrong), 100, Query::Proximity).await.unwrap();
+        assert!(store.add_run(&run("r", None, 1, 1), &[], None).await.unwrap());
+        keep(0).await;
+        assert_eq!(ask().await, 0.0);
+        keep(1).await;
+        assert_eq!(ask().await, 0.2, "a run that goes on changes");
+        assert!(store.end_run("r", State::Queued, State::Done, None).await.unwrap());
+        assert_eq!(ask().await, 0.2);
+        // No finished run is written to; this shows that nothing is read again.
+        keep(2).await;
+        assert_eq!(ask().await, 0.2);
+        let row = store.run("r").await.unwrap().unwrap();
+        assert!(store.queue_again(&row, &[]).await.unwrap());
+        assert!(store.end_run("r", State::Queued, State::Done, None).await.unwrap());
+        assert_eq!(ask().await, 0.4, "a refined run is another one");
+        engine.shutdown().await;
+    }
+}

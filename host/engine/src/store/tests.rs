@@ -13,8 +13,8 @@ mod suites;
 mod things;
 mod visibility;
 
-pub(crate) use fixtures::run;
-use fixtures::{add, advice_info, object, result, set_info, spec};
+use fixtures::{add, advice_info, object, set_info, spec};
+pub(crate) use fixtures::{result, run};
 
 use super::*;
 use crate::blobs::tests::from_harness;
