@@ -30,9 +30,9 @@ pub enum Statistic {
 #[serde(rename_all = "snake_case")]
 pub enum Outliers {
     /// All values count.
-    #[default]
     Keep,
     /// The fence of each vertex, where it has at least 8 values.
+    #[default]
     PerVertex,
     /// One fence over all configurations, as in the 2020 paper.
     Global,

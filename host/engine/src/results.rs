@@ -25,7 +25,7 @@ const ECDF_POINTS: usize = 512;
 
 /// What the explorer shows first.
 pub fn first_look(algorithm: &str) -> HeatmapRequest {
-    HeatmapRequest::new(algorithm, Measure::Time, Statistic::Mean, Outliers::Keep)
+    HeatmapRequest::new(algorithm, Measure::Time, Statistic::Median, Outliers::default())
 }
 
 impl Inner {

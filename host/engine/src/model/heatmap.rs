@@ -90,8 +90,9 @@ pub struct HeatmapRequest {
     pub measure: Measure,
     /// Which statistic.
     pub statistic: ocb_core::statistics::Statistic,
-    /// What to do with outliers. Of failures none is dropped.
+    /// What to do with outliers [default: per_vertex, as on the page]. Of failures none is dropped.
     #[serde(default)]
+    #[param(default = "per_vertex")]
     pub outliers: ocb_core::statistics::Outliers,
     /// Show the difference to this algorithm: the values of `algorithm` minus its values.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -198,4 +199,16 @@ pub struct Ecdf {
     pub time_ns: Vec<f64>,
     /// Share of queries at most that long, 0 to 1.
     pub share: Vec<f64>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_request_without_outliers_gets_what_the_page_shows() {
+        let request = r#"{ "algorithm": "a", "measure": "time", "statistic": "median" }"#;
+        let request: HeatmapRequest = serde_json::from_str(request).unwrap();
+        assert_eq!((request.outliers, request.side), (Outliers::PerVertex, Side::A));
+    }
 }

@@ -2682,7 +2682,7 @@ export interface components {
             algorithm: string;
             /** @description What to show. */
             measure: components["schemas"]["Measure"];
-            /** @description What to do with outliers. Of failures none is dropped. */
+            /** @description What to do with outliers [default: per_vertex, as on the page]. Of failures none is dropped. */
             outliers?: components["schemas"]["Outliers"];
             /** @description Which object. */
             side?: components["schemas"]["Side"];
@@ -9511,7 +9511,7 @@ export interface operations {
                 measure: components["schemas"]["Measure"];
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
-                /** @description What to do with outliers. Of failures none is dropped. */
+                /** @description What to do with outliers [default: per_vertex, as on the page]. Of failures none is dropped. */
                 outliers?: components["schemas"]["Outliers"];
                 /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
                 against?: string;
@@ -9586,7 +9586,7 @@ export interface operations {
                 measure: components["schemas"]["Measure"];
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
-                /** @description What to do with outliers. Of failures none is dropped. */
+                /** @description What to do with outliers [default: per_vertex, as on the page]. Of failures none is dropped. */
                 outliers?: components["schemas"]["Outliers"];
                 /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
                 against?: string;
@@ -9666,7 +9666,7 @@ export interface operations {
                 measure: components["schemas"]["Measure"];
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
-                /** @description What to do with outliers. Of failures none is dropped. */
+                /** @description What to do with outliers [default: per_vertex, as on the page]. Of failures none is dropped. */
                 outliers?: components["schemas"]["Outliers"];
                 /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
                 against?: string;
@@ -10141,7 +10141,7 @@ export interface operations {
                 measure: components["schemas"]["Measure"];
                 /** @description Which statistic. */
                 statistic: components["schemas"]["Statistic"];
-                /** @description What to do with outliers. Of failures none is dropped. */
+                /** @description What to do with outliers [default: per_vertex, as on the page]. Of failures none is dropped. */
                 outliers?: components["schemas"]["Outliers"];
                 /** @description Show the difference to this algorithm: the values of `algorithm` minus its values. */
                 against?: string;
