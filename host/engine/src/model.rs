@@ -18,6 +18,7 @@ mod heatmap;
 mod invitation;
 mod notice;
 mod object;
+mod outcome;
 mod page;
 mod people;
 mod plugin;
@@ -57,6 +58,7 @@ pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
 pub use invitation::{Acceptance, InvitationInfo, InvitationRequest, InvitationState, NewInvitation};
 pub use notice::NoticeInfo;
 pub use object::ObjectInfo;
+pub use outcome::OutcomeInfo;
 pub use page::{Cursor, Page, Part};
 pub use people::{
     AccountInfo, AuditEntry, Credentials, Identity, NewPassword, NewRole, NewToken, Role, Scope, SigningKey, TokenInfo,
@@ -322,17 +324,6 @@ pub struct ClassCount {
     pub count: u32,
 }
 
-/// How a runner ended.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct OutcomeInfo {
-    /// Name of the outcome as in the glossary, e.g. `Completed`, `TimedOut`, `SandboxFault`.
-    pub name: String,
-    /// One sentence.
-    pub message: String,
-    /// Our fault, never the plugin's.
-    pub ours: bool,
-}
-
 /// Numbers of one algorithm on the run's configurations.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct AlgorithmResult {
@@ -407,11 +398,6 @@ impl AlgorithmResult {
     /// A control question was answered wrongly.
     pub fn guessed(&self) -> bool {
         self.controls.is_some_and(|controls| controls.wrong > 0)
-    }
-
-    /// Its time was over before its first answer: nothing is known of it.
-    pub fn had_no_time(&self) -> bool {
-        self.n == 0 && self.budget_limited && self.outcome.name == "Completed"
     }
 }
 

@@ -111,6 +111,8 @@ async fn a_small_budget_measures_the_same_prefix_and_says_so() {
             break run;
         }
         assert_eq!(run.state, State::Failed);
+        assert_eq!((run.results[0].outcome.name.as_str(), run.results[0].rank), ("OutOfBudget", None));
+        assert_eq!(run.stages[2].state, State::Failed, "{:?}", run.stages[2]);
         assert!(run.message.as_deref().is_some_and(|m| m.contains("time budget")), "{:?}", run.message);
         empty += 1;
         spec.budget_seconds = (2.0 * spec.budget_seconds).max(0.05);

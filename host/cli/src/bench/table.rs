@@ -214,12 +214,12 @@ fn count(result: &AlgorithmResult, verdict: Verdict) -> u32 {
 /// What the row cannot say.
 fn note(result: &AlgorithmResult) -> Option<String> {
     let mut parts = Vec::new();
-    if result.outcome.name != "Completed" {
+    if !result.outcome.completed() {
         parts.push(result.outcome.message.clone());
     }
     parts.extend(by_unit::finding(result));
     parts.extend(result.unranked.iter().map(|unranked| format!("no rank: {}", unranked.message.trim_end_matches('.'))));
-    if result.budget_limited {
+    if result.budget_limited && result.n > 0 {
         parts.push(format!("the time budget sufficed for {} of {} configurations", result.n, result.of));
     }
     for (verdict, words) in [
@@ -278,4 +278,22 @@ fn contacts(quality: &ContactQuality) -> String {
         "precision {precision} of {} contacts listed, recall {recall} of {} certain ones",
         quality.listed, quality.robust
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_an_answer_the_row_says_why_and_has_no_rank() {
+        let result: AlgorithmResult = serde_json::from_value(serde_json::json!({
+            "algorithm": "x", "name": "X", "n": 0, "of": 9, "budget_limited": true, "time": null, "verdicts": [], "wrong": 0,
+            "outcome": { "name": "OutOfBudget", "message": "The time budget ended.", "ours": false }, "rank": null,
+            "bv_tests_mean": null, "primitive_tests_mean": null, "build_ms": null, "memory_bytes": null,
+        }))
+        .expect("a result");
+        let row = row(&result);
+        assert_eq!([&row[0], &row[2], &row[7], &row[14]], ["-", "0 of 9", "-", "OutOfBudget"]);
+        assert_eq!(note(&result).as_deref(), Some("x: The time budget ended."));
+    }
 }

@@ -7,7 +7,7 @@ use crate::failure::{NOT_ALL_WELL, OUR_FAULT};
 /// Our faults first: a script must not take them for a bad algorithm.
 pub fn exit_code(run: &RunInfo) -> u8 {
     let right = |result: &AlgorithmResult| result.wrong == 0 && !result.guessed();
-    let well = |result: &AlgorithmResult| result.outcome.name == "Completed" && right(result);
+    let well = |result: &AlgorithmResult| result.outcome.completed() && right(result);
     if run.results.iter().any(|result| result.outcome.ours) {
         OUR_FAULT
     } else if run.state == State::Done && run.results.iter().all(well) {
@@ -47,6 +47,7 @@ mod tests {
         guessing.results[0].controls = Some(Controls { n: 24, of: 24, crossing: 12, wrong: 1, silent: 0, guess: 1e-3 });
         assert_eq!(exit_code(&guessing), NOT_ALL_WELL);
         assert_eq!(exit_code(&run("done", "TimedOut", false, 0)), NOT_ALL_WELL);
+        assert_eq!(exit_code(&run("done", "OutOfBudget", false, 0)), NOT_ALL_WELL);
         assert_eq!(exit_code(&run("failed", "Completed", false, 0)), NOT_ALL_WELL);
         assert_eq!(exit_code(&run("done", "SandboxFault", true, 0)), OUR_FAULT);
     }

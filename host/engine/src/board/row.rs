@@ -114,7 +114,7 @@ fn why_not(best: &[&Measured], of: u32) -> Option<String> {
     if let Some(standing) = best.iter().find_map(|m| m.standing.clone()) {
         return Some(standing);
     }
-    if let Some(failed) = best.iter().find(|m| m.result.outcome.name != "Completed") {
+    if let Some(failed) = best.iter().find(|m| !m.result.outcome.completed()) {
         return Some(failed.result.outcome.message.clone());
     }
     if best.iter().any(|m| m.result.n == 0 || m.result.time.is_none()) {

@@ -51,14 +51,8 @@ pub fn summarise(
     let Asked { pair, placed, query, semantics, coherent, .. } = asked;
     let controls = controls::summary(&measured.controls, &asked);
     let terms = Terms { query, semantics, precision: precision(&measured.contestant.info) };
-    let completed = || OutcomeInfo {
-        name: "Completed".into(),
-        message: match records.is_empty() {
-            true => "The time budget ended before every process had answered one question; give it more.".into(),
-            false => "The plugin answered everything it was asked.".into(),
-        },
-        ours: false,
-    };
+    let without_failure = || OutcomeInfo::without_failure(records.len(), measured.budget_limited);
+    let outcome = measured.outcome.clone().unwrap_or_else(without_failure);
     let counters: Vec<_> = records.iter().filter_map(|r| r.counters).collect();
     let mean = |of: fn(&ocb_core::query::Counters) -> u64| {
         (!counters.is_empty()).then(|| counters.iter().map(|c| of(c) as f64).sum::<f64>() / counters.len() as f64)
@@ -71,7 +65,6 @@ pub fn summarise(
     AlgorithmResult {
         algorithm: measured.contestant.info.id.clone(),
         name: measured.contestant.info.name.clone(),
-        outcome: measured.outcome.clone().unwrap_or_else(completed),
         n: records.len() as u32,
         of: measured.of as u32,
         budget_limited: measured.budget_limited,
@@ -82,7 +75,7 @@ pub fn summarise(
         // Of one that failed the outcome says enough.
         unranked: controls::unranked(&controls)
             .or_else(|| Some(kept_waiting(&measured.passes, &reference?.passes)?.into()))
-            .filter(|_| measured.outcome.is_none()),
+            .filter(|_| outcome.completed()),
         controls: Some(controls),
         timing: Some(timing(&measured.passes)),
         verdicts: verdicts(measured),
@@ -97,6 +90,7 @@ pub fn summarise(
         load_ms: set_up(|s| s.load_ns),
         build_ms: set_up(|s| s.build_ns),
         memory_bytes: measured.memory_bytes,
+        outcome,
     }
 }
 
@@ -176,8 +170,8 @@ fn timing(passes: &[PassFacts]) -> Timing {
 pub fn rank(results: &mut [AlgorithmResult], profile: Profile) {
     let fair = |r: &AlgorithmResult| {
         let silent = r.verdicts.iter().any(|v| v.verdict.is_silent());
-        let completed = r.outcome.name == "Completed" && r.unranked.is_none();
-        profile == Profile::Production && completed && r.n > 0 && r.wrong == 0 && !silent
+        let completed = r.outcome.completed() && r.unranked.is_none();
+        profile == Profile::Production && completed && r.wrong == 0 && !silent
     };
     let ratio =
         |r: &AlgorithmResult| r.ratio.filter(|_| fair(r)).map(|r| Interval { value: r.value, lo: r.lo, hi: r.hi });

@@ -62,7 +62,8 @@ impl Store {
         .await?;
         rows.into_iter()
             .map(|(result, records, plugin_sha256, seconds_per_query)| {
-                Ok(StoredResult { result: from_json(&result)?, records, plugin_sha256, seconds_per_query })
+                let result = from_json::<AlgorithmResult>(&result)?.renamed();
+                Ok(StoredResult { result, records, plugin_sha256, seconds_per_query })
             })
             .collect()
     }

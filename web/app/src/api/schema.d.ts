@@ -3117,7 +3117,7 @@ export interface components {
         OutcomeInfo: {
             /** @description One sentence. */
             message: string;
-            /** @description Name of the outcome as in the glossary, e.g. `Completed`, `TimedOut`, `SandboxFault`. */
+            /** @description Name of the outcome as in the glossary, e.g. `Completed`, `OutOfBudget`, `TimedOut`, `SandboxFault`. */
             name: string;
             /** @description Our fault, never the plugin's. */
             ours: boolean;

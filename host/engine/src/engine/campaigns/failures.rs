@@ -80,7 +80,7 @@ impl Inner {
 /// objects and settings of their own, only what the same run got through before counts.
 fn failing(result: &AlgorithmResult, of_suite: bool, before: Option<&AlgorithmResult>) -> Option<String> {
     let outcome = &result.outcome;
-    let got_through = |before: &AlgorithmResult| before.outcome.name == "Completed";
+    let got_through = |before: &AlgorithmResult| before.outcome.completed();
     let counts = of_suite || before.is_some_and(got_through);
     match outcome.name.as_str() {
         "Completed" if of_suite && result.wrong > 0 => {
@@ -94,6 +94,8 @@ fn failing(result: &AlgorithmResult, of_suite: bool, before: Option<&AlgorithmRe
         // Ours, or such that the machine may have done it: times that do not fit together, a stop, a kill from outside.
         _ if outcome.ours || outcome.message.contains("SIGKILL") => None,
         "SandboxFault" | "FileReplaced" | "Cancelled" | "TimingIntegrity" => None,
+        // A slow machine is not the plugin's fault.
+        "OutOfBudget" | "NotMeasured" => None,
         _ => counts.then(|| outcome.message.clone()),
     }
 }
@@ -140,6 +142,8 @@ mod tests {
             &result("Cancelled", "m", false, 0),
             &result("FileReplaced", "m", false, 0),
             &result("TimingIntegrity", "m", false, 0),
+            &result("OutOfBudget", "m", false, 0),
+            &result("NotMeasured", "m", false, 0),
         ] {
             assert_eq!(failing(innocent, true, Some(&well)), None, "{:?}", innocent.outcome);
         }
