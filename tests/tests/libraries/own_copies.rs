@@ -154,6 +154,7 @@ fn an_installed_library_is_linked_and_listed_under_either_name() {
         std::fs::create_dir_all(prefix.join("lib")).expect("a folder");
         let mut compiler = command("g++");
         compiler.args(["-std=c++17", "-shared", "-fPIC", "-o"]).arg(&library).arg(prefix.join("src/SOLID.cpp"));
+        compiler.arg("-I").arg(root().join("plugins/cpp/common"));
         output(compiler.arg(format!("-Wl,-soname,{name}")));
         // What is installed is linked; sources beside it are not compiled once more.
         std::fs::write(prefix.join("src/SOLID.cpp"), "#error").expect("a file");
