@@ -17,7 +17,14 @@ pub enum Progress {
     /// One bar per lane.
     Bars { all: MultiProgress, lanes: HashMap<String, ProgressBar> },
     /// One line per change, and now and then.
-    Lines { last: HashMap<String, (State, Instant)> },
+    Lines { last: HashMap<String, Printed> },
+}
+
+/// The last line of one lane.
+pub struct Printed {
+    state: State,
+    said: bool,
+    at: Instant,
 }
 
 impl Progress {
@@ -53,14 +60,10 @@ impl Progress {
                 }
             }
             Self::Lines { last } => {
-                let now = Instant::now();
-                let due = match last.get(&name) {
-                    Some((state, at)) => *state != stage.state || now.duration_since(*at) >= LINE_EVERY,
-                    None => stage.state != State::Queued,
-                };
-                if due {
+                let at = Instant::now();
+                if is_due(last.get(&name), stage, at) {
                     eprintln!("{}", line(&name, stage));
-                    last.insert(name, (stage.state, now));
+                    last.insert(name, Printed { state: stage.state, said: stage.message.is_some(), at });
                 }
             }
         }
@@ -80,6 +83,16 @@ fn style() -> ProgressStyle {
         .unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
+/// A lane that waits is worth a line only when there is something to say, such as what it waits for.
+fn is_due(last: Option<&Printed>, stage: &Stage, now: Instant) -> bool {
+    let says = stage.message.is_some();
+    if stage.state == State::Queued && !says {
+        return false;
+    }
+    let Some(last) = last else { return true };
+    last.state != stage.state || (says && !last.said) || now.duration_since(last.at) >= LINE_EVERY
+}
+
 fn lane_name(stage: &Stage) -> String {
     match (stage.kind, &stage.algorithm) {
         (StageKind::Object, _) => "object".to_owned(),
@@ -92,9 +105,9 @@ fn lane_name(stage: &Stage) -> String {
 
 fn note(stage: &Stage) -> String {
     match (stage.state, &stage.message, stage.seconds_left) {
-        (State::Queued, ..) => "waits".to_owned(),
-        (State::Running, _, Some(left)) => format!("{:.0}/s, {} left", stage.rate, units::wait(left)),
-        (State::Running, Some(message), None) => message.clone(),
+        (State::Queued | State::Running, Some(message), _) => message.clone(),
+        (State::Queued, None, _) => "waits".to_owned(),
+        (State::Running, None, Some(left)) => format!("{:.0}/s, {} left", stage.rate, units::wait(left)),
         (State::Running, None, None) => String::new(),
         (state, Some(message), _) => format!("{}: {message}", crate::run::state_name(state)),
         (state, None, _) => crate::run::state_name(state).to_owned(),
@@ -110,4 +123,39 @@ fn line(name: &str, stage: &Stage) -> String {
 
 fn has_ended(state: State) -> bool {
     matches!(state, State::Done | State::Failed | State::Cancelled)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stage(state: State, message: Option<&str>) -> Stage {
+        let (kind, algorithm, message) = (StageKind::Measuring, Some("parry".to_owned()), message.map(str::to_owned));
+        Stage { kind, algorithm, state, done: 300, total: 1000, rate: 100.0, seconds_left: Some(7.0), message }
+    }
+
+    #[test]
+    fn a_lane_says_what_it_waits_for() {
+        let now = Instant::now();
+        let mut printed = Printed { state: State::Queued, said: false, at: now };
+        let due = |printed: Option<&Printed>, stage: &Stage| is_due(printed, stage, now);
+        assert!(!due(None, &stage(State::Queued, None)));
+        let waiting = stage(State::Queued, Some("Waiting: another process is measuring on this machine."));
+        assert!(due(None, &waiting) && due(Some(&printed), &waiting));
+        assert!(line("parry", &waiting).ends_with("Waiting: another process is measuring on this machine."));
+        printed.said = true;
+        assert!(!due(Some(&printed), &waiting), "once");
+        assert!(due(Some(&printed), &stage(State::Running, None)));
+    }
+
+    #[test]
+    fn a_lane_says_whose_turn_it_is() {
+        let now = Instant::now();
+        let printed = Printed { state: State::Running, said: false, at: now };
+        let other = stage(State::Running, Some("Now the reference algorithm, Box tree: 5 questions."));
+        assert!(is_due(Some(&printed), &other, now) && line("parry", &other).contains("Box tree"));
+        assert!(!is_due(Some(&printed), &stage(State::Running, None), now));
+        assert!(is_due(Some(&printed), &stage(State::Running, None), now + LINE_EVERY));
+        assert_eq!(line("parry", &stage(State::Running, None)), "parry: 300/1000 100/s, 7 s left");
+    }
 }

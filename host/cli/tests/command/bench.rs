@@ -1,7 +1,11 @@
 //! `ocb bench` and what can be done with its run.
 
+use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::os::unix::process::CommandExt;
+use std::path::Path;
+use std::sync::mpsc;
+use std::time::Duration;
 
 use nix::errno::Errno;
 use nix::sys::signal::{Signal, kill, killpg};
@@ -141,4 +145,28 @@ fn an_interrupt_ends_everything() {
     assert!(last.contains("cancelled"), "{last}");
     assert_eq!(killpg(group, None), Err(Errno::ESRCH), "a process is left");
     assert_eq!(desk.json(&["run", "show", "latest"])["state"], "cancelled");
+}
+
+#[test]
+fn a_bench_that_waits_for_another_process_says_so() {
+    let desk = Desk::new();
+    let folder = if Path::new("/run/lock").is_dir() { "/run/lock" } else { "/tmp" };
+    let lock = File::options().create(true).append(true).open(Path::new(folder).join("opencollbench-measuring.lock"));
+    let lock = lock.expect("the lock's file");
+    lock.lock().expect("the lock");
+    // Kept until the command has said that it waits, or for so long.
+    let (said, heard) = mpsc::channel::<()>();
+    let keeper = std::thread::spawn(move || {
+        let _ = heard.recv_timeout(Duration::from_secs(20));
+        drop(lock);
+    });
+    let args = ["bench", "stock:torus-knot@600", "--count", "20", "--algorithm", "box-tree", "--passes", "1"];
+    let mut child = desk.command(&args).spawn().expect("it starts");
+    let mut lines = BufReader::new(child.stderr.take().expect("stderr")).lines().map(|line| line.expect("text"));
+    let waits = lines.find(|line| line.contains("another process is measuring on this machine"));
+    drop(said);
+    keeper.join().expect("the lock is given back");
+    let rest: Vec<String> = lines.collect();
+    assert!(waits.is_some_and(|line| line.starts_with("box-tree: ")));
+    assert!(child.wait().expect("it ends").success(), "{rest:?}");
 }
