@@ -234,10 +234,13 @@ impl Bench<'_> {
             reference: reference.as_ref(),
             part,
         };
-        let of = task.part.of;
+        let (of, asked_for) = (task.part.of, contestants.len());
+        let name = reference.as_ref().map_or("", |reference| reference.info.name.as_str());
         let mut preview = None;
         let (sender, news) = mpsc::channel();
         let mut finished: Vec<(usize, Measured)> = Vec::new();
+        // The reference has no lane of its own unless somebody asked for it; the first lane says that it is at work.
+        let mut noted = false;
         thread::scope(|scope| -> Result<()> {
             let (registry, machine, stop) = (&self.inner.registry, &self.inner.machine, self.stop);
             let worker = thread::Builder::new()
@@ -246,8 +249,15 @@ impl Bench<'_> {
                 .map_err(|e| EngineError::fault("Starting the measuring thread failed", e))?;
             loop {
                 match news.recv_timeout(TICK) {
-                    Ok(News::Progress { lane, done, total }) => {
-                        self.log.progress(FIRST_MEASURING + lane, done, total)?;
+                    Ok(News::Progress { lane, done, total, worked }) if lane < asked_for => {
+                        if std::mem::take(&mut noted) {
+                            self.log.note(FIRST_MEASURING, None)?;
+                        }
+                        self.log.progress_after(FIRST_MEASURING + lane, done, total, worked)?;
+                    }
+                    Ok(News::Progress { done, total, .. }) => {
+                        self.log.note(FIRST_MEASURING, Some(&turn_of_reference(name, done, total)))?;
+                        noted = true;
                     }
                     Ok(News::Preview(found)) => preview = Some(found),
                     Ok(News::Finished { lane, measured }) => finished.push((lane, *measured)),
@@ -380,7 +390,7 @@ impl Bench<'_> {
 
     fn end_lane(&mut self, lane: usize, stored: StoredResult) -> Result<()> {
         let result = stored.result;
-        let failed = result.outcome.name != "Completed";
+        let failed = !result.outcome.completed();
         let message = if failed {
             Some(result.outcome.message.clone())
         } else {
@@ -444,4 +454,10 @@ impl Bench<'_> {
 /// One text from the sentences that there are.
 fn sentences(all: [Option<String>; 2]) -> Option<String> {
     all.into_iter().flatten().reduce(|text, next| format!("{text} {next}"))
+}
+
+/// What is said while the reference algorithm, for which nobody asked, has its turn.
+fn turn_of_reference(name: &str, done: u64, total: u64) -> String {
+    let of = if total > 0 { format!(" of {total}") } else { String::new() };
+    format!("Now the reference algorithm, {name}: {done}{of} questions.")
 }

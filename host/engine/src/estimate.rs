@@ -7,7 +7,8 @@ use crate::Result;
 use crate::configurations::set_key;
 use crate::engine::Inner;
 use crate::model::{AlgorithmSeconds, Estimate};
-use crate::spec::Checked;
+use crate::registry::Contestant;
+use crate::spec::{self, Checked};
 use crate::store::now_us;
 
 /// Seconds per configuration before anything was found on this machine.
@@ -37,21 +38,30 @@ pub async fn estimate_alone(inner: &Inner, checked: &Checked) -> Result<Estimate
     };
     let measured = configurations.min(spec.at_most.map_or(u64::MAX, u64::from));
     let asked = measured + controls::count(measured);
-    let mut measuring_seconds = Vec::new();
-    for contestant in &checked.contestants {
-        let algorithm = contestant.info.id.clone();
-        let rates = inner.store.result_rates(&algorithm, spec.query).await?;
-        let timed = asked as f64 * f64::from(spec.passes) * nearest(&rates, triangles, FIRST_QUERY);
+    let cost = |contestant: &Contestant, counted: bool, rates: &[(u64, f64)]| {
+        let timed = asked as f64 * f64::from(spec.passes) * nearest(rates, triangles, FIRST_QUERY);
         let budget_limited = timed > spec.budget_seconds;
         let timed = timed.min(spec.budget_seconds);
         // Two processes share the questions in each other unit.
-        let further = OTHER_UNITS.len() as u32 / 2 + u32::from(contestant.info.counters);
+        let further = OTHER_UNITS.len() as u32 / 2 + u32::from(counted);
         let further_seconds = f64::from(further) * timed / f64::from(spec.passes);
-        let starts = spec.passes + OTHER_UNITS.len() as u32 + u32::from(contestant.info.counters);
+        let starts = spec.passes + OTHER_UNITS.len() as u32 + u32::from(counted);
         let seconds = timed + further_seconds + START * f64::from(starts);
-        measuring_seconds.push(AlgorithmSeconds { algorithm, seconds, budget_limited });
+        AlgorithmSeconds { algorithm: contestant.info.id.clone(), seconds, budget_limited }
+    };
+    let mut measuring_seconds = Vec::new();
+    for contestant in &checked.contestants {
+        let rates = inner.store.result_rates(&contestant.info.id, spec.query).await?;
+        measuring_seconds.push(cost(contestant, contestant.info.counters, &rates));
     }
-    let total_seconds = configuration_seconds + measuring_seconds.iter().map(|m| m.seconds).sum::<f64>();
+    // It takes part in every round, whether it was asked for or not.
+    let reference = spec::reference(spec, &inner.registry).filter(|it| !spec.algorithms.contains(&it.info.id));
+    let reference_seconds = match reference {
+        Some(it) => cost(&it, false, &inner.store.result_rates(&it.info.id, spec.query).await?).seconds,
+        None => 0.0,
+    };
+    let total_seconds =
+        configuration_seconds + measuring_seconds.iter().map(|m| m.seconds).sum::<f64>() + reference_seconds;
     Ok(Estimate {
         configurations,
         configurations_stored,

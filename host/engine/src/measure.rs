@@ -21,6 +21,7 @@ mod contract;
 mod controls;
 mod lane;
 mod order;
+mod pace;
 mod preview;
 mod summary;
 mod surplus;
@@ -168,12 +169,14 @@ impl Part {
 pub enum News {
     /// A lane has done so many of its expected questions.
     Progress {
-        /// Which contestant.
+        /// Which contestant; their number stands for a reference that is none of them.
         lane: usize,
         /// Questions answered.
         done: u64,
-        /// Questions expected in all, as far as is known now.
+        /// Questions expected in all; 0 while that cannot be told.
         total: u64,
+        /// How long it was asked.
+        worked: Duration,
     },
     /// The run has ended before all configurations were measured.
     Preview(Preview),
@@ -253,7 +256,7 @@ pub fn measure(task: &Task, registry: &Registry, machine: &Machine, stop: &Stop,
         if stop.asked() {
             return;
         }
-        let _ = news.send(News::Progress { lane: index, done: lane.done, total: lane.done });
+        let _ = news.send(News::Progress { lane: index, done: lane.done, total: lane.done, worked: lane.spent });
     }
     if (measured as u64) < task.part.of {
         let _ = news.send(News::Preview(preview::preview(task, &lanes, measured, looks)));

@@ -107,13 +107,18 @@ impl RunLog {
         self.tell(lane, None)
     }
 
-    /// A lane has come further. The caller keeps it to about five times a second.
+    /// A lane that has worked since its start has come further. The caller keeps it to about five times a second.
     pub fn progress(&mut self, lane: usize, done: u64, total: u64) -> Result<()> {
-        let rate = self.meters[lane].rate(done);
+        self.progress_after(lane, done, total, self.meters[lane].begun.elapsed())
+    }
+
+    /// A lane that works by turns has come further, after so much work of its own. A total of 0 is not known yet.
+    pub fn progress_after(&mut self, lane: usize, done: u64, total: u64, worked: Duration) -> Result<()> {
+        let rate = self.meters[lane].rate(done, worked);
         let stage = &mut self.stages[lane];
         stage.state = State::Running;
         (stage.done, stage.total, stage.rate) = (done, total, rate);
-        stage.seconds_left = (rate > 0.0).then(|| total.saturating_sub(done) as f64 / rate);
+        stage.seconds_left = (rate > 0.0 && total > 0).then(|| total.saturating_sub(done) as f64 / rate);
         self.tell(lane, None)
     }
 
@@ -174,26 +179,51 @@ impl RunLog {
 
 /// Items per second lately.
 struct Meter {
-    at: Instant,
+    begun: Instant,
     told: Instant,
+    /// Time at work when `done` were done.
+    worked: Duration,
     done: u64,
     rate: f64,
 }
 
 impl Meter {
     fn new() -> Self {
-        Self { at: Instant::now(), told: Instant::now(), done: 0, rate: 0.0 }
+        Self { begun: Instant::now(), told: Instant::now(), worked: Duration::ZERO, done: 0, rate: 0.0 }
     }
 
-    /// Smoothed over about two seconds. A lane that waits for its turn keeps its last rate.
-    fn rate(&mut self, done: u64) -> f64 {
-        let seconds = self.at.elapsed().as_secs_f64();
+    /// Smoothed over about two seconds of work. While others have their turn, it stays.
+    fn rate(&mut self, done: u64, worked: Duration) -> f64 {
+        if done < self.done || worked < self.worked {
+            // A pass that is measured again does not count.
+            (self.worked, self.done) = (worked, done);
+        }
+        let seconds = (worked - self.worked).as_secs_f64();
         if done > self.done && seconds > 0.05 {
             let now = (done - self.done) as f64 / seconds;
             let weight = if self.rate == 0.0 { 1.0 } else { 1.0 - (-seconds / 2.0).exp() };
             self.rate += weight * (now - self.rate);
-            (self.at, self.done) = (Instant::now(), done);
+            (self.worked, self.done) = (worked, done);
         }
         self.rate
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lanes_rate_is_that_of_its_own_work() {
+        let mut meter = Meter::new();
+        let mut rate = |done, milliseconds| meter.rate(done, Duration::from_millis(milliseconds));
+        assert_eq!(rate(0, 0), 0.0);
+        assert_eq!(rate(200, 200), 1000.0);
+        // The others had their turns, however long; its own went on where it was.
+        assert_eq!(rate(400, 400), 1000.0);
+        // The last pass is measured again.
+        assert_eq!(rate(200, 200), 1000.0);
+        let slower = rate(300, 400);
+        assert!(500.0 < slower && slower < 1000.0, "{slower}");
     }
 }

@@ -127,6 +127,32 @@ async fn a_small_budget_measures_the_same_prefix_and_says_so() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn what_is_expected_of_a_run_hardly_changes_and_the_reference_is_no_gap() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(common::config(data.path())).await.unwrap();
+    let spec = RunSpec {
+        algorithms: vec!["brute-force".into()],
+        relative_distance: 0.05,
+        budget_seconds: 4.0,
+        ..common::spec("proximity", 4000, 2)
+    };
+    let estimate = engine.estimate(&spec, Some("guest")).await.unwrap();
+    let asked_for: f64 = estimate.measuring_seconds.iter().map(|one| one.seconds).sum();
+    assert!(estimate.total_seconds > estimate.configuration_seconds + asked_for, "the reference too: {estimate:?}");
+    let run = engine.submit(spec, Some("guest")).await.unwrap();
+    let (run, events) = common::finish(&engine, &run.id).await;
+    assert!(run.results[0].budget_limited, "{:?}", run.results[0]);
+    let stages: Vec<_> = events.iter().filter_map(|event| event.stage.as_ref()).collect();
+    let lane = || stages.iter().filter(|stage| stage.kind == StageKind::Measuring);
+    let done = run.stages[2].done as f64;
+    let known: Vec<u64> = lane().map(|stage| stage.total).filter(|total| *total > 0).collect();
+    assert!(known.iter().all(|total| (0.5 * done..2.0 * done).contains(&(*total as f64))), "{done}: {known:?}");
+    assert!(lane().any(|stage| stage.message.as_deref().is_some_and(|said| said.contains("reference algorithm"))));
+    assert!(run.stages[2].message.as_deref().is_none_or(|said| !said.contains("reference")));
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn only_the_owner_cancels_and_the_next_run_goes_on() {
     let data = tempfile::tempdir().unwrap();
     let engine = Engine::open(common::config(data.path())).await.unwrap();

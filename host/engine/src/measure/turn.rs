@@ -8,6 +8,7 @@ use ocb_core::instance::{Instance, OTHER_UNITS, Presentation};
 use ocb_core::oracle::Pair;
 use ocb_sandbox::{Killer, Observation, Outcome, PassPlan, Policy, Session, Trial};
 
+use super::pace::Pace;
 use super::weave::{self, Piece, Reach};
 use super::{Lane, News, Stop, Task, order, outcome_info};
 use crate::machine::Machine;
@@ -56,6 +57,21 @@ pub struct Turn<'a> {
     pub shown: &'a Presentation,
 }
 
+/// A turn that has begun.
+struct UnderWay {
+    begun: Instant,
+    reported: Instant,
+    /// What the lane had done before.
+    done: u64,
+    allowance: Duration,
+}
+
+impl UnderWay {
+    fn pace(&self, lane: &Lane) -> Pace {
+        Pace { answered: lane.done - self.done, worked: self.begun.elapsed(), allowance: self.allowance }
+    }
+}
+
 impl Turn<'_> {
     /// What of the piece this algorithm is asked; the first round finds out how far it comes.
     pub fn part(&self, lane: &Lane) -> Piece {
@@ -85,7 +101,7 @@ impl Turn<'_> {
     /// The share of the time that was taken from the runner's CPU.
     pub fn play(&self, lane: &mut Lane, part: &Piece) -> f64 {
         let order = self.order(part);
-        self.report(lane);
+        self.report(lane, None);
         // From before the start, so that a long build can be stopped as well.
         let killer = Killer::default();
         self.stop.watch(Some(killer.clone()));
@@ -97,13 +113,14 @@ impl Turn<'_> {
             }
         };
         lane.begin_turn(&session, self.pass);
-        let started = Instant::now();
+        let begun = Instant::now();
+        let mut way = UnderWay { begun, reported: begun, done: lane.done, allowance: self.allowance(lane) };
         let (reached, steal) = if self.pass == Pass::Counting {
-            (self.count(&mut session, lane, &order), 0.0)
+            (self.count(&mut session, lane, &order, &mut way), 0.0)
         } else {
-            self.time(&mut session, lane, &order)
+            self.time(&mut session, lane, &order, &mut way)
         };
-        lane.spent += started.elapsed();
+        lane.spent += begun.elapsed();
         self.stop.watch(None);
         let ending = session.finish();
         if self.pass == Pass::Official(0) {
@@ -119,27 +136,29 @@ impl Turn<'_> {
         }
         let placed = |number| self.task.placed(number);
         lane.judge(&Pair::new(self.task.a, self.task.b), placed, self.task.query, self.task.semantics);
-        self.report(lane);
+        if self.pass != Pass::Counting {
+            // Counting is an algorithm's last turn, after which its lane is reported as it then is.
+            self.report(lane, None);
+        }
         steal
     }
 
     /// A timed pass: how far it came, and the share of stolen time.
-    fn time(&self, session: &mut Session, lane: &mut Lane, order: &[u32]) -> (usize, f64) {
+    fn time(&self, session: &mut Session, lane: &mut Lane, order: &[u32], way: &mut UnderWay) -> (usize, f64) {
         let plan = PassPlan {
             query: self.task.query,
             order,
             coherent: self.task.coherent(),
             seed: self.task.process_seed(self.process).rotate_left(1),
-            allowance: self.allowance(lane),
+            allowance: way.allowance,
         };
         let present = |configuration: u32, instance: Instance| {
             self.shown.present(&self.task.placed(configuration).configuration, configuration, instance)
         };
-        let mut reported = Instant::now();
         let mut each = |seen: Observation| {
             let answer = self.shown.translate(seen.answer, seen.configuration, seen.instance);
             lane.observe(self.pass, self.process, Observation { answer, ..seen });
-            self.go_on(lane, &mut reported)
+            self.go_on(lane, way)
         };
         // What it died of is in the session's ending.
         let (facts, _) = session.pass(&plan, &present, &mut each);
@@ -151,15 +170,14 @@ impl Turn<'_> {
     }
 
     /// The untimed pass with counters: how far it came.
-    fn count(&self, session: &mut Session, lane: &mut Lane, order: &[u32]) -> usize {
-        let (begun, mut reported, allowed) = (Instant::now(), Instant::now(), self.allowance(lane));
+    fn count(&self, session: &mut Session, lane: &mut Lane, order: &[u32], way: &mut UnderWay) -> usize {
         for (reached, &i) in order.iter().enumerate() {
             let configuration = &self.task.placed(i).configuration;
             match session.count(self.task.query, configuration) {
                 Ok((answer, counters)) => lane.count(i, answer, counters),
                 Err(_) => return reached,
             }
-            if self.go_on(lane, &mut reported).is_break() || begun.elapsed() >= allowed {
+            if self.go_on(lane, way).is_break() || way.begun.elapsed() >= way.allowance {
                 return reached + 1;
             }
         }
@@ -167,10 +185,10 @@ impl Turn<'_> {
     }
 
     /// Reports now and then, and looks whether it shall stop.
-    fn go_on(&self, lane: &Lane, reported: &mut Instant) -> ControlFlow<()> {
-        if reported.elapsed() >= REPORT_EVERY {
-            *reported = Instant::now();
-            self.report(lane);
+    fn go_on(&self, lane: &Lane, way: &mut UnderWay) -> ControlFlow<()> {
+        if way.reported.elapsed() >= REPORT_EVERY {
+            way.reported = Instant::now();
+            self.report(lane, Some(way));
             if self.stop.asked() {
                 return ControlFlow::Break(());
             }
@@ -217,16 +235,36 @@ impl Turn<'_> {
         }
     }
 
-    fn report(&self, lane: &Lane) {
-        // Nobody asked for the reference; it has no lane of its own on any page.
-        if self.index >= self.task.contestants.len() {
-            return;
-        }
+    fn report(&self, lane: &Lane, way: Option<&UnderWay>) {
+        let worked = lane.spent + way.map_or(Duration::ZERO, |way| way.begun.elapsed());
+        let total = self.expected(lane, way.map(|way| way.pace(lane))).max(lane.done);
+        let _ = self.news.send(News::Progress { lane: self.index, done: lane.done, total, worked });
+    }
+
+    /// Questions that the lane will have answered in the end; 0 while that cannot be told.
+    fn expected(&self, lane: &Lane, pace: Option<Pace>) -> u64 {
         let all = self.task.piece(0, self.task.most());
-        let reach = if lane.cut || self.pass == Pass::Counting { all.before(lane.reach) } else { all };
-        let counted = if lane.contestant.info.counters { reach.own.len() as u64 } else { 0 };
+        let (whole, own) = (all.questions() as u64, all.own.len() as u64);
+        // Nobody asked for the reference, so its work is not counted.
+        let counters = lane.contestant.info.counters && self.index < self.task.contestants.len();
+        // Two processes share the questions in each other unit.
         let timed = self.task.passes + if self.elsewhere { OTHER_UNITS.len() as u32 / 2 } else { 0 };
-        let total = (reach.questions() as u64 * u64::from(timed) + counted).max(lane.done);
-        let _ = self.news.send(News::Progress { lane: self.index, done: lane.done, total });
+        let rounds = |round: u64, own: u64| round * u64::from(timed) + if counters { own } else { 0 };
+        if self.pass == Pass::Counting {
+            let part = self.piece.own.len() as u64;
+            let answered = pace.map_or(0, |pace| pace.answered);
+            return lane.done - answered + pace.and_then(|pace| pace.reach(part)).unwrap_or(part);
+        }
+        if self.pass == Pass::Official(0) && !lane.cut {
+            let (before, part) = (self.task.piece(0, self.piece.own.start), &self.piece);
+            let round = pace.and_then(|pace| pace.round(before.questions() as u64, part.questions() as u64, whole));
+            return match round {
+                Some(round) => rounds(round, round * own / whole.max(1)),
+                None if lane.done == 0 => 0,
+                None => rounds(whole, own),
+            };
+        }
+        let reach = if lane.cut { all.before(lane.reach) } else { all };
+        rounds(reach.questions() as u64, reach.own.len() as u64)
     }
 }

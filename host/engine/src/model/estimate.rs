@@ -12,9 +12,9 @@ pub struct Estimate {
     pub configurations_stored: bool,
     /// Expected seconds to find and certify the configurations.
     pub configuration_seconds: f64,
-    /// Expected seconds per algorithm.
+    /// Expected seconds per algorithm that was asked for.
     pub measuring_seconds: Vec<AlgorithmSeconds>,
-    /// All together, without waiting.
+    /// All together, with the reference algorithm where nobody asked for it, without waiting.
     pub total_seconds: f64,
     /// Runs ahead in the queue.
     pub runs_ahead: u32,

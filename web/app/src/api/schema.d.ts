@@ -2515,7 +2515,7 @@ export interface components {
             configurations: number;
             /** @description The set is stored already. */
             configurations_stored: boolean;
-            /** @description Expected seconds per algorithm. */
+            /** @description Expected seconds per algorithm that was asked for. */
             measuring_seconds: components["schemas"]["AlgorithmSeconds"][];
             /**
              * Format: int32
@@ -2524,7 +2524,7 @@ export interface components {
             runs_ahead: number;
             /**
              * Format: double
-             * @description All together, without waiting.
+             * @description All together, with the reference algorithm where nobody asked for it, without waiting.
              */
             total_seconds: number;
             /**

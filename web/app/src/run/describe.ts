@@ -1,4 +1,4 @@
-import type { Method, RunInfo, RunSpec } from '../api/types'
+import type { Method, RunInfo, RunSpec, Stage } from '../api/types'
 import { asksSeparation, PUBLISHED_FRAMES } from '../builder/form'
 import { count, significant } from '../ui/format'
 import { QUERY } from '../ui/words'
@@ -31,4 +31,10 @@ export function describeSeparation({ method, relative_distance: distance = 0, st
   if (ladder) return 'ladder of steps'
   if (step != null) return `step ${step.toExponential()} of the size`
   return `distance ${distance === 0 ? '0' : significant(distance)}`
+}
+
+/** Until the lanes at work are through: they take turns, so that their times add up. Null while none of them can tell. */
+export function secondsLeft(stages: readonly Stage[]): number | null {
+  const known = stages.filter(({ state }) => state === 'running').flatMap(({ seconds_left: s }) => (s == null ? [] : [s]))
+  return known.length > 0 ? known.reduce((sum, s) => sum + s) : null
 }
