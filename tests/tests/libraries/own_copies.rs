@@ -122,6 +122,7 @@ fn sources_may_lie_in_folders_and_be_in_c() {
             "src/DT_Object.cpp",
             "#include <DT_Convex.h>\nextern \"C\" int qh_new(int);\nint any() { return qh_new(CONVEX); }\n",
         ),
+        ("src/convex/DT_Convex.cpp", "#include \"DT_Convex.h\"\n"),
         ("src/convex/DT_Convex.h", "#ifndef USE_DOUBLES\n#error\n#endif\n#define CONVEX 1\n"),
         // Not C++: a variable of that name, and two C sources, since the compiler may take only the first as C.
         ("src/qhull/geom.c", "int qh_other(int new);\nint qh_new(int new) { return qh_other(new); }\n"),
@@ -154,7 +155,9 @@ fn an_installed_library_is_linked_and_listed_under_either_name() {
         std::fs::create_dir_all(prefix.join("lib")).expect("a folder");
         let mut compiler = command("g++");
         compiler.args(["-std=c++17", "-shared", "-fPIC", "-o"]).arg(&library).arg(prefix.join("src/SOLID.cpp"));
-        compiler.arg("-I").arg(root().join("plugins/cpp/common"));
+        for headers in ["plugins/cpp/common", "plugin-api/include"] {
+            compiler.arg("-I").arg(root().join(headers));
+        }
         output(compiler.arg(format!("-Wl,-soname,{name}")));
         // What is installed is linked; sources beside it are not compiled once more.
         std::fs::write(prefix.join("src/SOLID.cpp"), "#error").expect("a file");
