@@ -5,12 +5,30 @@ use std::sync::LazyLock;
 use argon2::Argon2;
 use argon2::password_hash::phc::PasswordHash;
 use argon2::password_hash::{PasswordHasher, PasswordVerifier};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use tokio::sync::oneshot;
 
-use crate::objects::blocking;
 use crate::{EngineError, Result};
 
 /// Characters of a password: fewer are guessed, and more only keep the processor busy.
 const LENGTH: std::ops::RangeInclusive<usize> = 10..=200;
+
+/// Passwords are hashed so many at a time: the allocator keeps the memory of one hash for every thread that ever made one.
+const AT_A_TIME: usize = 2;
+
+/// Does the work on a thread for passwords, when it is its turn.
+async fn in_turn<T: Send + 'static>(work: impl FnOnce() -> Result<T> + Send + 'static) -> Result<T> {
+    static THREADS: LazyLock<Result<ThreadPool>> = LazyLock::new(|| {
+        let threads = ThreadPoolBuilder::new().num_threads(AT_A_TIME).thread_name(|_| "password".into());
+        // A panic has been logged, and whoever waits is told.
+        let threads = threads.panic_handler(drop).build();
+        threads.map_err(|e| EngineError::fault("Starting the threads for passwords failed", e))
+    });
+    let (sender, done) = oneshot::channel();
+    let threads = THREADS.as_ref().map_err(|e| EngineError::Fault(e.to_string()))?;
+    threads.spawn_fifo(move || drop(sender.send(work())));
+    done.await.map_err(|e| EngineError::fault("Hashing a password broke down", e))?
+}
 
 /// Argon2id with the crate's parameters (19 MiB, two passes), as OWASP recommends them.
 pub async fn hashed(password: &str) -> Result<String> {
@@ -18,7 +36,7 @@ pub async fn hashed(password: &str) -> Result<String> {
         return Err(EngineError::Invalid(format!("A password has {} to {} characters.", LENGTH.start(), LENGTH.end())));
     }
     let password = password.to_owned();
-    blocking(move || hash(&password)).await
+    in_turn(move || hash(&password)).await
 }
 
 fn hash(password: &str) -> Result<String> {
@@ -31,7 +49,7 @@ pub async fn fits(password: &str, stored: Option<String>) -> Result<bool> {
     static NOBODYS: LazyLock<Result<String>> = LazyLock::new(|| hash("no password fits this hash"));
     // A password that could never have been set is still compared, but not at any length.
     let password: String = password.chars().take(*LENGTH.end() + 1).collect();
-    blocking(move || {
+    in_turn(move || {
         let nobodys = || NOBODYS.as_ref().map_err(|e| EngineError::Fault(e.to_string())).cloned();
         let known = stored.is_some();
         let text = stored.map_or_else(nobodys, Ok)?;
