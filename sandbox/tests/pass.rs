@@ -162,11 +162,10 @@ fn work_during_the_wake_up_is_not_lost_time() {
 }
 
 #[test]
-fn times_near_the_clocks_resolution_accuse_nobody() {
+fn times_that_the_clock_cannot_tell_accuse_nobody() {
     let _alone = alone();
     let policy = Policy { runner_cpu: Some(0), supervisor_cpu: Some(0), ..common::policy() };
     let mut session = start(&launcher_with(policy), &fixture(&["WORK=300"])).unwrap();
-    let least_ns = 2.0 * session.clock().resolution_ns();
     let order: Vec<u32> = (0..2 * QUESTIONS).collect();
     let present = |configuration: u32, _: Instance| Presented {
         configuration: apart(0.004 * f64::from(configuration)),
@@ -174,11 +173,8 @@ fn times_near_the_clocks_resolution_accuse_nobody() {
     };
     let (facts, ended) = session.pass(&plan(&order), &present, &mut |_| ControlFlow::Continue(()));
     ended.unwrap();
-    assert!(!facts.batches.is_empty(), "{facts:?}");
-    for batch in &facts.batches {
-        let each_ns = batch.alone_ns / f64::from(batch.questions);
-        assert!(each_ns == 0.0 || each_ns >= least_ns, "{each_ns} ns beside {least_ns} ns: {batch:?}");
-    }
+    // The sleeping clock cannot tell so short a time.
+    assert!(!facts.batches.is_empty() && facts.batches.iter().all(|batch| batch.alone_ns == 0.0), "{facts:?}");
     assert_eq!(integrity::violated(std::slice::from_ref(&facts)), None, "{facts:?}");
 }
 
