@@ -32,7 +32,7 @@ test('an account is deleted, and what was public stays without a name', async (t
   owner.expectRefusal('/api/v1/account')
   await owner.at('leave-password').fill('another password')
   await owner.at('leave-now').click()
-  await owner.at('leave-problem').getByText('do not belong together').waitFor()
+  await owner.at('leave-problem').getByText('Wrong user name or password').waitFor()
   await owner.accessible('an account and a wrong password')
   await owner.at('leave-password').fill(PASSWORD)
   await owner.at('leave-now').click()
@@ -44,7 +44,7 @@ test('an account is deleted, and what was public stays without a name', async (t
   await owner.at('account-name').fill('leaving-soon')
   await owner.at('account-password').fill(PASSWORD)
   await owner.at('account-enter').click()
-  await owner.at('account-problem').getByText('do not belong together').waitFor()
+  await owner.at('account-problem').getByText('Wrong user name or password').waitFor()
 
   assert.equal((await other.api(`/runs/${runs[0]}`)).visibility, 'public')
   assert.equal((await other.context.request.get(`${url}/api/v1/runs/${runs[1]}`)).status(), 404)
