@@ -10,8 +10,9 @@ use serde::{Deserialize, Serialize};
 use crate::comparison::{Interval, Times};
 use crate::statistics::Statistic;
 
-/// Times in two units differ when every process in one takes more than this many times as long as any in the other.
-pub const FACTOR: f64 = 1.2;
+/// Times in two units differ when every process in one takes more than this many times as long as any in the other. Other units are
+/// asked once per configuration and last, which alone makes questions of some microseconds up to 1.3 times as long.
+pub const FACTOR: f64 = 1.5;
 /// Wrong answers depend on the unit when chance would distribute them so unevenly less often than this.
 pub const CHANCE: f64 = 0.01;
 /// One process may have met a slow moment.
@@ -161,10 +162,10 @@ mod tests {
             assert_eq!(official.differs(&other), other.differs(&official));
             official.differs(&other)
         };
-        assert!(differs(100, &[(0, 1.5), (2, 1.6)]), "slower");
+        assert!(differs(100, &[(0, 1.7), (2, 1.8)]), "slower");
         assert!(differs(100, &[(0, 0.5), (2, 0.6)]), "faster");
-        assert!(!differs(100, &[(0, 1.5), (2, 1.0)]), "one slow moment");
-        assert!(!differs(100, &[(0, 1.2), (2, 1.25)]), "less than the factor above the slowest process");
+        assert!(!differs(100, &[(0, 2.5), (2, 1.0)]), "one slow moment");
+        assert!(!differs(100, &[(0, 1.5), (2, 1.55)]), "less than the factor above the slowest process");
         assert!(!differs(100, &[(0, 9.0)]), "a single process");
         assert!(!differs(LEAST_QUESTIONS - 1, &[(0, 9.0), (2, 9.0)]), "too few questions");
         assert!(differs(LEAST_QUESTIONS, &[(0, 9.0), (2, 9.0)]));
