@@ -13,6 +13,7 @@ mod doctor;
 mod failure;
 mod generate;
 mod heatmap;
+mod memory;
 mod named;
 mod object;
 mod open;
@@ -45,6 +46,7 @@ use failure::Result;
 
 #[tokio::main]
 async fn main() -> ExitCode {
+    memory::give_back();
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => return failure::usage(&error),

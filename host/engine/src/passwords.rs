@@ -13,7 +13,7 @@ use crate::{EngineError, Result};
 /// Characters of a password: fewer are guessed, and more only keep the processor busy.
 const LENGTH: std::ops::RangeInclusive<usize> = 10..=200;
 
-/// Passwords are hashed so many at a time: the allocator keeps the memory of one hash for every thread that ever made one.
+/// Passwords are hashed so many at a time: each needs 19 MiB and a processor.
 const AT_A_TIME: usize = 2;
 
 /// Does the work on a thread for passwords, when it is its turn.
