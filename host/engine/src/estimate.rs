@@ -6,6 +6,7 @@ use ocb_core::sampling::controls;
 use crate::Result;
 use crate::configurations::set_key;
 use crate::engine::Inner;
+use crate::measure::asked_in_another_unit;
 use crate::model::{AlgorithmSeconds, Estimate};
 use crate::registry::Contestant;
 use crate::spec::{self, Checked};
@@ -42,9 +43,9 @@ pub async fn estimate_alone(inner: &Inner, checked: &Checked) -> Result<Estimate
         let timed = asked as f64 * f64::from(spec.passes) * nearest(rates, triangles, FIRST_QUERY);
         let budget_limited = timed > spec.budget_seconds;
         let timed = timed.min(spec.budget_seconds);
-        // Two processes share the questions in each other unit.
-        let further = OTHER_UNITS.len() as u32 / 2 + u32::from(counted);
-        let further_seconds = f64::from(further) * timed / f64::from(spec.passes);
+        let round = timed / f64::from(spec.passes);
+        let in_other_units = OTHER_UNITS.len() / 2 * asked_in_another_unit(measured as usize);
+        let further_seconds = round * (in_other_units as f64 / measured.max(1) as f64 + f64::from(u8::from(counted)));
         let starts = spec.passes + OTHER_UNITS.len() as u32 + u32::from(counted);
         let seconds = timed + further_seconds + START * f64::from(starts);
         AlgorithmSeconds { algorithm: contestant.info.id.clone(), seconds, budget_limited }

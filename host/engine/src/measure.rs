@@ -7,8 +7,9 @@
 //! configuration is near the one before is what it is for.
 //!
 //! The rounds see the unit of the files, and what is ranked comes from them alone: times, building, waiting, integrity. The
-//! questions they reached are then asked in a smaller and a larger unit ([`OTHER_UNITS`]). An answer that is wrong in any unit
-//! is wrong; how time and answers depend on the unit is told apart ([`by_unit`]).
+//! questions they reached, the first of them where they are many, are then asked in a smaller and a larger unit
+//! ([`OTHER_UNITS`]). An answer that is wrong in any unit is wrong; how time and answers depend on the unit is told apart
+//! ([`by_unit`]).
 //!
 //! Control questions are mixed into every timed pass ([`weave`]). Their numbers follow those of the set's configurations;
 //! they are answered and judged like these, and nothing else is made of them.
@@ -47,6 +48,7 @@ use crate::machine::Machine;
 use crate::model::{OutcomeInfo, Preview, RunSpec};
 use crate::registry::{Contestant, Registry};
 
+pub use by_unit::asked_in_another_unit;
 pub use controls::draw as draw_controls;
 pub use lane::{Lane, Measured, precision};
 pub use summary::{Asked, environment, rank, summarise};
@@ -315,11 +317,18 @@ impl Task<'_> {
         Piece { own: from..to, controls: self.controls_before(from)..self.controls_before(to) }
     }
 
-    /// One half of the first `own` questions of the order: two processes share them in each other unit, so that one slow moment
-    /// of the machine does not look like a slow unit.
+    /// One half of what is asked in each other unit when `own` questions were asked in the unit of the files: two processes share
+    /// it, so that one slow moment of the machine does not look like a slow unit.
     fn half(&self, own: usize, second: bool) -> Piece {
-        let middle = own.div_ceil(2);
-        if second { self.piece(middle, own) } else { self.piece(0, middle) }
+        let asked = asked_in_another_unit(own);
+        let middle = asked.div_ceil(2);
+        if second { self.piece(middle, asked) } else { self.piece(0, middle) }
+    }
+
+    /// Questions in all other units together when `own` were asked in the unit of the files.
+    fn elsewhere(&self, own: usize) -> u64 {
+        let questions = |process: usize| self.half(own, process >= OTHER_UNITS.len() / 2).questions() as u64;
+        (0..OTHER_UNITS.len()).map(questions).sum()
     }
 
     fn controls_before(&self, own: usize) -> usize {

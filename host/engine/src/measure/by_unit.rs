@@ -15,6 +15,16 @@ const EXPONENTS: [i32; UNITS] = [0, -3, 3];
 /// Mean times nearer to each other than this are within the spread of an empty round trip, nanoseconds.
 const LEAST_NS: f64 = 500.0;
 
+/// Of many configurations an eighth is asked in each other unit, so that a run of five rounds becomes a twentieth longer.
+const SHARE: usize = 8;
+/// At least so many, where there are: enough to compare two processes.
+const LEAST_ASKED: usize = 60;
+
+/// Configurations asked in each other unit where the rounds asked so many in the unit of the files.
+pub fn asked_in_another_unit(own: usize) -> usize {
+    own.min((own / SHARE).max(LEAST_ASKED))
+}
+
 /// Number of the unit that this process sees.
 pub fn unit(process: Option<u32>) -> usize {
     EXPONENTS.iter().position(|known| *known == exponent(process)).unwrap_or(0)

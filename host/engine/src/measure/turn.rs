@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
 
-use ocb_core::instance::{Instance, OTHER_UNITS, Presentation};
+use ocb_core::instance::{Instance, Presentation};
 use ocb_core::oracle::Pair;
 use ocb_sandbox::{Killer, Observation, Outcome, PassPlan, Policy, Session, Trial};
 
@@ -222,8 +222,7 @@ impl Turn<'_> {
 
     /// The first pass over a piece decides how far the algorithm gets; later ones may use what it left. Counting makes an
     /// algorithm slower and is not timed, so it gets the share of two passes, and what it does not reach has no counters. In each
-    /// other unit two processes have half of the questions and half of a share each: however slow an algorithm is there, the run
-    /// ends.
+    /// other unit two processes have half of a share each: however slow an algorithm is there, the run ends.
     fn allowance(&self, lane: &Lane) -> Duration {
         let share = self.task.budget / self.task.passes;
         let left = self.task.budget.saturating_sub(lane.spent);
@@ -247,9 +246,9 @@ impl Turn<'_> {
         let (whole, own) = (all.questions() as u64, all.own.len() as u64);
         // Nobody asked for the reference, so its work is not counted.
         let counters = lane.contestant.info.counters && self.index < self.task.contestants.len();
-        // Two processes share the questions in each other unit.
-        let timed = self.task.passes + if self.elsewhere { OTHER_UNITS.len() as u32 / 2 } else { 0 };
-        let rounds = |round: u64, own: u64| round * u64::from(timed) + if counters { own } else { 0 };
+        let further = |own: u64| if self.elsewhere { self.task.elsewhere(own as usize) } else { 0 };
+        let rounds =
+            |round: u64, own: u64| round * u64::from(self.task.passes) + further(own) + if counters { own } else { 0 };
         if self.pass == Pass::Counting {
             let part = self.piece.own.len() as u64;
             let answered = pace.map_or(0, |pace| pace.answered);

@@ -30,7 +30,7 @@ pub struct InUnit {
     pub missed: u32,
 }
 
-/// That time or answers depend on the unit of length. A time does when every process in another unit takes more than 1.2
+/// That time or answers depend on the unit of length. A time does when every process in another unit takes more than 1.5
 /// times as long as every process in the unit of the files, or the other way round, and the means are 500 ns apart or more. Wrong
 /// answers do when, on the configurations asked in both units, chance would distribute them so unevenly with a probability
 /// below 1 %.
