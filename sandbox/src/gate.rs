@@ -4,6 +4,7 @@
 //! What is found here stops accidents and lazy attacks, and tells an author how to mend the build; the boundary is the
 //! jail, which holds for what passes as well.
 
+mod build;
 mod facts;
 mod rules;
 
@@ -13,6 +14,7 @@ use goblin::elf::program_header::{PT_LOAD, ProgramHeader};
 use serde::{Deserialize, Serialize};
 
 use crate::text;
+pub use build::Build;
 pub use facts::Facts;
 pub use rules::{RULES, Rule};
 
@@ -63,17 +65,30 @@ pub struct Offered {
     pub versions: Vec<String>,
 }
 
-/// Looks at a file's bytes.
+/// Why these bytes may not be loaded; empty when they may.
+pub fn rejections(bytes: &[u8], offered: &[Offered]) -> Vec<Rejection> {
+    match readable(bytes) {
+        Ok(elf) => broken(&Subject { bytes, elf: &elf, offered }),
+        Err(what) => Inspection::unreadable(what).rejections,
+    }
+}
+
+/// Looks at a file's bytes, all of its code included.
 pub fn inspect(bytes: &[u8], offered: &[Offered]) -> Inspection {
-    let readable =
-        whole(bytes).and_then(|()| Elf::parse(bytes).map_err(|e| format!("its ELF structure is broken ({e})")));
-    let elf = match readable {
+    let elf = match readable(bytes) {
         Ok(elf) => elf,
         Err(what) => return Inspection::unreadable(what),
     };
     let subject = Subject { bytes, elf: &elf, offered };
-    let broken = |rule: &Rule| (rule.broken)(&subject).map(|what| rule.rejection(what));
-    Inspection { rejections: RULES.iter().filter_map(broken).collect(), facts: Some(Facts::of(&subject)) }
+    Inspection { rejections: broken(&subject), facts: Some(Facts::of(&subject)) }
+}
+
+fn readable(bytes: &[u8]) -> Result<Elf<'_>, String> {
+    whole(bytes).and_then(|()| Elf::parse(bytes).map_err(|e| format!("its ELF structure is broken ({e})")))
+}
+
+fn broken(subject: &Subject<'_>) -> Vec<Rejection> {
+    RULES.iter().filter_map(|rule| (rule.broken)(subject).map(|what| rule.rejection(what))).collect()
 }
 
 /// The symbol versions that one of this machine's own libraries defines.

@@ -6,12 +6,13 @@ use std::time::Instant;
 use ocb_core::mesh::Mesh;
 use ocb_core::query::Semantics;
 
+use crate::brought;
 use crate::clock::{Clock, ClockFacts};
 use crate::cpus::Places;
 use crate::descriptor::Descriptor;
 use crate::evidence::status_field;
 use crate::exchange::{Exchange, Resting};
-use crate::gate::Inspection;
+use crate::gate::{Build, Inspection};
 use crate::launch::{Jail, Killer};
 use crate::layers::Profile;
 use crate::null;
@@ -74,6 +75,22 @@ impl Launcher {
             // No foreign code has run yet: what is wrong here is ours.
             parse_inspection(&exchange.text(Phase::Load)?).map_err(|reason| Outcome::fault("Gate", reason))
         })
+    }
+
+    /// The libraries that the plugin brings beside the system's own.
+    pub fn brought(&self, plugin: &Path) -> Result<Vec<PathBuf>, Ending> {
+        let brought = if self.policy.trusted { brought::beside(plugin)? } else { Vec::new() };
+        Ok(brought.into_iter().map(PathBuf::from).collect())
+    }
+
+    /// How the plugin file and the libraries that it brings were compiled, with their file names; all are read in jails.
+    pub fn builds(&self, plugin: &Path) -> Result<Vec<(String, Build)>, Ending> {
+        let files = std::iter::once(plugin.to_owned()).chain(self.brought(plugin)?);
+        let build = |file: PathBuf| {
+            let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            Ok((name, self.inspect(&file)?.facts.map(|facts| facts.build).unwrap_or_default()))
+        };
+        files.map(build).collect()
     }
 
     /// The layers that a jail around this file has, without loading it.

@@ -48,7 +48,7 @@ mod verify;
 
 pub use clock::{ClockFacts, ClockKind};
 pub use descriptor::{Descriptor, Parameter};
-pub use gate::{Facts, Inspection, Rejection};
+pub use gate::{Build, Facts, Inspection, Rejection};
 pub use launch::Killer;
 pub use launcher::{Launcher, Trial};
 pub use layers::Profile;

@@ -257,8 +257,9 @@ pub fn parse_counters(words: &[u64; SLOT_WORDS]) -> Option<Counters> {
 pub fn parse_inspection(text: &[u8]) -> Result<Inspection, String> {
     let inspection: Inspection =
         serde_json::from_slice(text).map_err(|e| format!("the gate's findings are not readable ({e})"))?;
-    let lists =
-        inspection.facts.iter().flat_map(|f| [&f.libraries, &f.newest_versions, &f.compilers, &f.notable_imports]);
+    let builds = inspection.facts.iter().map(|f| &f.build);
+    let lists = inspection.facts.iter().flat_map(|f| [&f.libraries, &f.newest_versions, &f.notable_imports]);
+    let lists = lists.chain(builds.flat_map(|b| [&b.compilers, &b.flags, &b.instruction_sets]));
     let texts = lists.flatten().chain(inspection.rejections.iter().flat_map(|r| [&r.rule, &r.what, &r.why, &r.mend]));
     let strange = texts.into_iter().any(|said| said.len() > 8192 || !said.chars().all(text::is_plain));
     if strange { Err("the gate's findings hold text that it never writes".into()) } else { Ok(inspection) }

@@ -60,7 +60,10 @@ fn honest_files_pass() {
     let facts = inspect(&fixture(&[])).facts.unwrap();
     assert!(facts.libraries.contains(&"libc.so.6".to_string()), "{facts:?}");
     assert!(facts.newest_versions.iter().any(|v| v.starts_with("GLIBC_2.")), "{facts:?}");
-    assert!(facts.constructors >= 1 && facts.relro && facts.compilers.iter().any(|c| c.contains("GCC")), "{facts:?}");
+    assert!(
+        facts.constructors >= 1 && facts.relro && facts.build.compilers.iter().any(|c| c.contains("GCC")),
+        "{facts:?}"
+    );
     assert!(facts.build_id.is_some_and(|id| id.len() == 40 && id.chars().all(|c| c.is_ascii_hexdigit())));
     for name in ["libocb_brute_force.so", "libocb_box_tree.so", "libocb_fast.so", "libocb_parry.so"] {
         let shipped = runner().with_file_name(name);
@@ -69,6 +72,32 @@ fn honest_files_pass() {
             assert_eq!(inspect(&shipped).rejections, [], "{name}");
         }
     }
+}
+
+#[test]
+fn a_file_tells_how_it_was_compiled() {
+    let folder = folder();
+    let sums = "double sum(const double *x, const double *y, int n) { double s = 0; \
+                for (int i = 0; i < n; i++) s += x[i] * y[i]; return s; }";
+    let built = |flags: &[&str]| {
+        let source = format!("{ENTRY}\n{sums}");
+        inspect(&folder.build(&source, &[flags, &["-ffast-math", "-funroll-loops"]].concat())).facts.unwrap().build
+    };
+    let plain = built(&["-O3"]);
+    assert_eq!(plain.instruction_sets, [""; 0], "x86-64 alone");
+    assert_eq!(plain.flags, [""; 0], "they were not recorded");
+    let wide = built(&["-O3", "-mavx2", "-mfma", "-frecord-gcc-switches"]);
+    assert!(["AVX", "FMA"].iter().all(|set| wide.instruction_sets.iter().any(|s| s == set)), "{wide:?}");
+    assert!(!wide.instruction_sets.iter().any(|set| set == "AVX-512"), "{wide:?}");
+    let widest = built(&["-O3", "-march=x86-64-v4", "-mprefer-vector-width=512", "-frecord-gcc-switches"]);
+    assert!(widest.instruction_sets.iter().any(|set| set == "AVX-512"), "{widest:?}");
+    let [flags] = &widest.flags[..] else { panic!("{widest:?}") };
+    assert!(
+        ["-O3", "-march=x86-64-v4", "-ffast-math"].iter().all(|flag| flags.split(' ').any(|f| f == *flag)),
+        "{flags}"
+    );
+    assert!(!flags.contains("-fPIC") && !flags.contains("-mno-"), "only what decides: {flags}");
+    assert!(plain.compilers.iter().chain(&widest.compilers).all(|compiler| compiler.contains("GCC")), "{plain:?}");
 }
 
 #[test]

@@ -11,7 +11,7 @@ use goblin::elf::reloc::R_X86_64_IRELATIVE;
 use goblin::elf::sym::STT_GNU_IFUNC;
 use serde::{Deserialize, Serialize};
 
-use super::{Subject, one_line};
+use super::{Build, Subject, one_line};
 
 /// Names kept of a long list.
 const NAMES: usize = 32;
@@ -39,8 +39,8 @@ pub struct Facts {
     pub bind_now: bool,
     /// Build id, hex.
     pub build_id: Option<String>,
-    /// What the compilers say of themselves.
-    pub compilers: Vec<String>,
+    /// How it was compiled.
+    pub build: Build,
     /// x86-64 level that it says it needs: 1 to 4.
     pub isa_level: Option<u8>,
     /// Dynamic symbols that it defines beside the entry. RTLD_LOCAL keeps them from anybody else.
@@ -108,7 +108,7 @@ impl Facts {
                 || flag(DT_FLAGS, DF_BIND_NOW)
                 || flag(DT_FLAGS_1, DF_1_NOW),
             build_id: build_id(s),
-            compilers: compilers(s),
+            build: Build::of(s),
             isa_level: isa_level(s),
             other_exports: (defined().count() as u64).saturating_sub(1),
             notable_imports: NOTABLE.iter().filter(|name| imported.contains(*name)).map(|n| (*n).to_string()).collect(),
@@ -142,16 +142,18 @@ impl Facts {
     /// One sentence of what it is.
     pub fn sentence(&self) -> String {
         let or_none = |list: &[String]| if list.is_empty() { "nothing".to_string() } else { list.join(", ") };
+        let compilers = &self.build.compilers;
+        let compilers =
+            if compilers.is_empty() { "a compiler that does not say".into() } else { compilers.join(" and ") };
+        let flags = &self.build.flags;
+        let flags = if flags.is_empty() { String::new() } else { format!(" with {}", flags.join(" and with ")) };
+        let sets = &self.build.instruction_sets;
+        let sets = if sets.is_empty() { "x86-64 alone".into() } else { sets.join(", ") };
         format!(
-            "A shared library of {} bytes, links {}, needs {}, built by {}.",
+            "A shared library of {} bytes, links {}, needs {}, built by {compilers}{flags}, has instructions of {sets}.",
             self.bytes,
             or_none(&self.libraries),
             or_none(&self.newest_versions),
-            if self.compilers.is_empty() {
-                "a compiler that does not say".into()
-            } else {
-                self.compilers.join(" and ")
-            }
         )
     }
 }
@@ -200,15 +202,4 @@ fn notes<'a>(s: &'a Subject<'a>) -> impl Iterator<Item = (&'a str, u32, &'a [u8]
     let notes = s.elf.iter_note_headers(s.bytes).into_iter().flatten();
     // A broken note ends the walk: the iterator would report it again and again.
     notes.map_while(Result::ok).take(256).map(|note| (note.name.trim_end_matches('\0'), note.n_type, note.desc))
-}
-
-fn compilers(s: &Subject<'_>) -> Vec<String> {
-    let named = |name: usize| s.elf.shdr_strtab.get_at(name) == Some(".comment");
-    let Some(section) = s.elf.section_headers.iter().find(|header| named(header.sh_name)) else { return Vec::new() };
-    let range = section.sh_offset as usize..(section.sh_offset as usize).saturating_add(section.sh_size as usize);
-    let bytes = s.bytes.get(range).unwrap_or_default();
-    let texts = bytes.split(|byte| *byte == 0).filter(|text| !text.is_empty()).take(8);
-    let texts: BTreeSet<String> =
-        texts.map(|text| one_line(&String::from_utf8_lossy(&text[..text.len().min(400)]))).collect();
-    texts.into_iter().collect()
 }

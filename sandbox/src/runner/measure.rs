@@ -63,7 +63,8 @@ impl Measured {
             Command::Tighten => seccomp::tighten(&self.tighter)
                 .map_err(|e| Failure::error(format!("the tighter filter is refused: {e}"))),
             Command::Inspect => {
-                let json = serde_json::to_vec(&self.inspect()?).map_err(|e| Failure::not_loaded(e.to_string()))?;
+                let json = serde_json::to_vec(&self.gate(gate::inspect, |inspection| inspection)?)
+                    .map_err(|e| Failure::not_loaded(e.to_string()))?;
                 shared.say(slot, &json);
                 Ok(())
             }
@@ -84,7 +85,8 @@ impl Measured {
         }
     }
 
-    fn inspect(&self) -> Result<Inspection, Failure> {
+    /// What the gate says of the plugin's file.
+    fn gate<T>(&self, look: fn(&[u8], &[gate::Offered]) -> T, unreadable: fn(Inspection) -> T) -> Result<T, Failure> {
         let file = Mapped::open(&self.path).map_err(|e| Failure::not_loaded(format!("it cannot be read ({e})")))?;
         let bytes = file.bytes();
         let offered = self.libraries.iter().map(|path| gate::Offered {
@@ -92,13 +94,14 @@ impl Measured {
             versions: Mapped::open(path).map_or_else(|_| Vec::new(), |library| gate::versions_of(library.bytes())),
         });
         let offered: Vec<_> = offered.collect();
-        let inspected = std::panic::catch_unwind(|| gate::inspect(bytes, &offered));
-        Ok(inspected.unwrap_or_else(|_| Inspection::unreadable("its ELF structure confuses the reader")))
+        let found = std::panic::catch_unwind(|| look(bytes, &offered));
+        let confused = || unreadable(Inspection::unreadable("its ELF structure confuses the reader"));
+        Ok(found.unwrap_or_else(|_| confused()))
     }
 
     fn open(&mut self, shared: &Shared, slot: &mut Slot) -> Result<(), Failure> {
         // No loader touches what the gate refuses.
-        if let Some(rejection) = self.inspect()?.rejections.first() {
+        if let Some(rejection) = self.gate(gate::rejections, |inspection| inspection.rejections)?.first() {
             return Err(Failure::not_loaded(rejection.to_string()));
         }
         let plugin = self.guarded(|| Plugin::open(&self.path))?;
