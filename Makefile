@@ -2,7 +2,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help serve build pages stock plugins-cpp check check-oracle test bench soak clean tools
+.PHONY: help serve build pages stock plugins-cpp plugins-native check check-oracle test bench soak clean tools
 
 PORT ?= 8080
 DATA ?= data
@@ -13,7 +13,7 @@ TARGET := $(or $(CARGO_TARGET_DIR),target)
 PAGES := $(shell find web/app -type f -not -path '*/node_modules/*' -not -path '*/dist/*' 2>/dev/null)
 
 help: ## print this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 serve: build ## build host, runner, plugins and pages, then serve on 127.0.0.1:8080 (PORT=, DATA=)
 	exec $(TARGET)/release/ocb serve --data $(DATA) --listen 127.0.0.1:$(PORT) --stock-dir target/stock
@@ -24,6 +24,9 @@ build: tools pages stock ## the same without serving
 
 plugins-cpp: ## build the wrappers of the C++ libraries that are installed, and say how to get the others
 	@$(MAKE) --no-print-directory --jobs=$(shell nproc) -C plugins/cpp
+
+plugins-native: ## build FCL, ODE and Bullet from Debian's sources for this CPU, beside Debian's own builds
+	@$(MAKE) --no-print-directory -C plugins/cpp native
 
 # Against your own copy: make plugin-pqp PQP_DIR=/path/to/it, likewise rapid, v-collide, solid (see plugins/cpp/README.md).
 plugin-%:

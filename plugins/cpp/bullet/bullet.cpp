@@ -98,8 +98,8 @@ class Bullet : public Algorithm {
 } // namespace
 
 ocb::About ocb::about() {
-    return {"bullet",
-            "Bullet (GImpact)",
+    return {"bullet" OCB_VARIANT,
+            "Bullet (GImpact)" OCB_VARIANT,
             "3.24",
             "Erwin Coumans, Francisco Leon Najera",
             "Zlib",

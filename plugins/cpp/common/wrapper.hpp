@@ -99,6 +99,11 @@ class Algorithm {
     virtual void contacts(Object &, Pose, Object &, Pose, Contacts &) { throw Unsupported("no list of contacts"); }
 };
 
+// The same wrapper around another build of its library is another algorithm, with this behind its id and name.
+#ifndef OCB_VARIANT
+#define OCB_VARIANT ""
+#endif
+
 enum Queries { COLLIDE = 0, DISTANCE = 1, CONTACTS = 2 };
 
 struct About {

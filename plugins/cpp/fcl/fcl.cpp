@@ -103,8 +103,8 @@ class Fcl : public Algorithm {
 } // namespace
 
 ocb::About ocb::about() {
-    return {"fcl",
-            "FCL",
+    return {"fcl" OCB_VARIANT,
+            "FCL" OCB_VARIANT,
             "0.7.0",
             "Jia Pan, Sachin Chitta, Dinesh Manocha",
             "BSD-3-Clause",

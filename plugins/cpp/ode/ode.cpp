@@ -72,8 +72,8 @@ class Ode : public Algorithm {
 } // namespace
 
 ocb::About ocb::about() {
-    return {"ode",
-            "ODE (OPCODE)",
+    return {"ode" OCB_VARIANT,
+            "ODE (OPCODE)" OCB_VARIANT,
             "0.16.2",
             "Russell Smith, Pierre Terdiman",
             "LGPL-2.1-or-later OR BSD-3-Clause",

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# native.sh ode|fcl|bullet FOLDER: builds the library from Debian's source package for this machine's CPU, as a static one in
+# FOLDER/NAME. The options are those of Debian's own build, but for the CPU.
+set -euo pipefail
+name=$1 folder=$2
+say() { printf 'plugins-native: %s\n' "$*" >&2; }
+for tool in apt-get dpkg-source cmake; do
+  command -v "$tool" >/dev/null || { say "$tool is missing; it comes with the Debian packages dpkg-dev and cmake"; exit 1; }
+done
+
+mkdir -p "$folder/apt/lists/partial" "$folder/apt/parts" "$folder/source"
+folder=$(cd "$folder" && pwd)
+# The machine's own list, asked for sources instead of packages.
+. /etc/os-release
+printf 'Types: deb-src\nURIs: http://deb.debian.org/debian\nSuites: %s\nComponents: main\nSigned-By: %s\n' \
+  "$VERSION_CODENAME" /usr/share/keyrings/debian-archive-keyring.gpg > "$folder/apt/parts/debian.sources"
+apt=(-qq -o "Dir::Etc::SourceList=/dev/null" -o "Dir::Etc::SourceParts=$folder/apt/parts" -o "Dir::State::Lists=$folder/apt/lists"
+  -o "Dir::Cache=$folder/apt" -o APT::Sandbox::User=root)
+[ -n "$(find "$folder/apt/lists" -name '*Sources*' -mtime -1)" ] || apt-get "${apt[@]}" update
+rm -rf "${folder:?}/source/$name" "${folder:?}/$name"
+mkdir -p "$folder/source/$name"
+say "fetching the source of $name"
+(cd "$folder/source/$name" && apt-get "${apt[@]}" source "$name" >/dev/null)
+source=$(find "$folder/source/$name" -mindepth 1 -maxdepth 1 -type d)
+
+case $name in
+  ode) options=(-DODE_DOUBLE_PRECISION=ON -DODE_WITH_DEMOS=OFF -DODE_WITH_TESTS=OFF) ;;
+  fcl) options=(-DFCL_STATIC_LIBRARY=ON -DFCL_USE_X64_SSE=OFF -DBUILD_TESTING=OFF -DFCL_WITH_OCTOMAP=OFF) ;;
+  bullet) options=(-DUSE_DOUBLE_PRECISION=ON -DBUILD_BULLET2_DEMOS=OFF -DBUILD_CPU_DEMOS=OFF -DBUILD_OPENGL3_DEMOS=OFF
+    -DBUILD_EXTRAS=OFF -DBUILD_UNIT_TESTS=OFF -DBUILD_PYBULLET=OFF -DBUILD_BULLET3=OFF) ;;
+  *) say "there is no native build of $name"; exit 1 ;;
+esac
+flags="-O3 -march=native -frecord-gcc-switches"
+say "compiling $name $(basename "$source") with $flags"
+cmake -S "$source" -B "$source/native" -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF -DCMAKE_POSITION_INDEPENDENT_CODE=ON \
+  -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_CXX_FLAGS_RELEASE=-DNDEBUG -DCMAKE_C_FLAGS_RELEASE=-DNDEBUG \
+  -DCMAKE_INSTALL_PREFIX="$folder/$name" -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_POLICY_VERSION_MINIMUM=3.5 "${options[@]}" >/dev/null
+cmake --build "$source/native" --parallel "$(nproc)" >/dev/null
+cmake --install "$source/native" >/dev/null
