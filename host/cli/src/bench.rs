@@ -1,5 +1,6 @@
 //! `ocb bench`: from two files to a table.
 
+mod builds;
 mod by_unit;
 mod files;
 mod progress;

@@ -64,7 +64,7 @@ pub use people::{
     AccountInfo, AuditEntry, Credentials, Identity, NewPassword, NewRole, NewToken, Role, Scope, SigningKey, TokenInfo,
     TokenRequest, Wish,
 };
-pub use plugin::{AlgorithmInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport, Repro};
+pub use plugin::{AlgorithmInfo, BuildInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport, Repro};
 pub use preview::{Beside, Preview};
 pub use replay::{Difference, Recipe, RecipeAlgorithm, RecipeFile, RecipeObject, RecipeVersions, Replay, Replayed};
 pub use selecting::{Claim, Meeting, Selected, SelectedOf, WorstBy, WorstCase, WorstRequest};
@@ -331,6 +331,9 @@ pub struct AlgorithmResult {
     pub algorithm: String,
     /// Display name.
     pub name: String,
+    /// How its code was compiled; empty in runs of older versions.
+    #[serde(default)]
+    pub builds: Vec<BuildInfo>,
     /// How its runner ended.
     pub outcome: OutcomeInfo,
     /// Configurations measured.

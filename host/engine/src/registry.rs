@@ -3,17 +3,17 @@
 pub mod brought;
 mod check;
 mod choice;
+mod describe;
 
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
 
-use ocb_sandbox::{Descriptor, Ending, Launcher, Policy, Profile, given};
+use ocb_sandbox::{Launcher, Policy, Profile, given};
 
 use crate::blobs::sha256_hex;
-use crate::model::{AlgorithmInfo, ParameterInfo};
-use crate::objects::blocking;
+use crate::model::AlgorithmInfo;
 use crate::store::Store;
 use crate::{EngineConfig, EngineError, Result};
 
@@ -189,41 +189,6 @@ impl Registry {
         let trusted = contestant.trusted;
         Launcher::new(self.runner.clone(), Policy { trusted, plugin_sha256, profile: self.profile, ..policy })
     }
-
-    async fn describe(&self, file: &Path, store: &Store) -> Result<Vec<Contestant>> {
-        let path = file.to_owned();
-        let sha256 = blocking(move || plugin_hash(&path)).await?;
-        let trusted = built_here(&self.runner, file);
-        // A row that an older version wrote may lack a field; then the plugin is described again.
-        let algorithms = match store.described(&sha256).await {
-            Ok(Some(known)) => known,
-            _ => {
-                let described = self.described(file, &sha256, trusted).await?;
-                store.keep_description(&sha256, &described).await?;
-                described
-            }
-        };
-        let contestant = |mut info: AlgorithmInfo| {
-            info.usual = !trusted || USUAL.contains(&info.id.as_str());
-            Contestant::plain(info, file.to_owned(), trusted)
-        };
-        Ok(algorithms.into_iter().map(contestant).collect())
-    }
-
-    /// What the file with this hash says of itself, asked in the jail.
-    async fn described(&self, file: &Path, sha256: &str, trusted: bool) -> Result<Vec<AlgorithmInfo>> {
-        let policy = Policy { trusted, profile: self.profile, ..Policy::default() };
-        let alone = Launcher::new(self.runner.clone(), policy.clone());
-        // What is made for several threads may need a library that is for their track only.
-        let threaded = Launcher::new(self.runner.clone(), Policy { threads: 2, ..policy });
-        let (path, hash) = (file.to_owned(), sha256.to_owned());
-        blocking(move || {
-            let refused = |first: Ending| threaded.describe(&path).map_err(|_| EngineError::Invalid(first.to_string()));
-            let descriptors = alone.describe(&path).or_else(refused)?;
-            Ok(descriptors.into_iter().map(|d| info(d, &hash)).collect())
-        })
-        .await
-    }
 }
 
 /// A plugin that lies beside the runner was built and installed with it. Links are followed: a link there is no plugin of ours.
@@ -268,34 +233,4 @@ fn plugin_files(places: &[PathBuf]) -> Vec<PathBuf> {
         }
     }
     files
-}
-
-fn info(d: Descriptor, plugin_sha256: &str) -> AlgorithmInfo {
-    let parameter = |p: ocb_sandbox::Parameter| ParameterInfo {
-        name: p.name,
-        description: p.description,
-        minimum: p.minimum,
-        maximum: p.maximum,
-        default: p.default,
-        integer: p.integer,
-    };
-    AlgorithmInfo {
-        id: d.id,
-        name: d.name,
-        version: d.version,
-        authors: d.authors,
-        license: d.license,
-        url: d.url,
-        paper: d.paper,
-        queries: d.queries,
-        counters: d.counters,
-        witness_points: d.witness_points,
-        single_precision: d.single_precision,
-        solid: d.solid,
-        coherent: d.coherent,
-        threads: d.threads,
-        usual: false,
-        parameters: d.parameters.into_iter().map(parameter).collect(),
-        plugin_sha256: plugin_sha256.to_owned(),
-    }
 }

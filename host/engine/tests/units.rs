@@ -60,9 +60,11 @@ async fn time_and_wrong_answers_are_told_by_unit_and_a_dependence_is_named() {
         let units: Vec<[i64; 3]> =
             result.by_unit.iter().map(|u| [i64::from(u.exponent), i64::from(u.processes), i64::from(u.n)]).collect();
         let n = i64::from(result.n);
-        assert_eq!(units, [[0, 5, n], [-3, 2, n], [3, 2, n]], "{result:?}");
+        let [build] = &result.builds[..] else { panic!("{:?}", result.builds) };
+        assert!(build.file == "units.so" && build.compilers.iter().any(|said| said.starts_with("GCC")), "{build:?}");
+        assert_eq!(units, [[0, 5, n], [-3, 2, 60], [3, 2, 60]], "{result:?}");
         assert_eq!(result.by_unit[0].mean_ns, result.time.map(|time| time.mean_ns), "the file's unit leads");
-        assert!(result.by_unit[0].answers >= 5 * result.n && result.by_unit[1].answers >= result.n);
+        assert!(result.by_unit[0].answers >= 5 * result.n && result.by_unit[1].answers >= 60);
     }
     let all_right = |units: &[InUnit]| units.iter().all(|unit| unit.wrong == 0);
     assert!(steady.depends_on_unit.is_none() && all_right(&steady.by_unit), "{steady:?}");
@@ -80,9 +82,9 @@ async fn time_and_wrong_answers_are_told_by_unit_and_a_dependence_is_named() {
     assert_eq!(finding.answers, [-3], "{finding:?}");
     let [file, small, large] = [0, 1, 2].map(|i| wrong.by_unit[i]);
     assert_eq!((file.wrong, large.wrong), (0, 0), "{wrong:?}");
-    assert!(small.wrong > 50 && small.missed == small.wrong, "{small:?}");
+    assert!(small.wrong > 15 && small.missed == small.wrong, "{small:?}");
     // What is wrong in any unit is wrong, and no rank is given to it.
-    assert!(wrong.wrong > 50 && wrong.rank.is_none(), "{wrong:?}");
+    assert!(wrong.wrong > 15 && wrong.rank.is_none(), "{wrong:?}");
 }
 
 #[tokio::test(flavor = "multi_thread")]

@@ -9,7 +9,7 @@ use ocb_engine::model::{
     Timing,
 };
 
-use super::by_unit;
+use super::{builds, by_unit};
 use crate::{output, plugin, run, units};
 
 const HEADINGS: [&str; 15] = [
@@ -52,6 +52,7 @@ pub fn summary(run: &RunInfo) -> String {
             )
         }));
         text.extend(by_unit::table(&run.results));
+        text.extend(builds::table(&run.results));
         text.extend(classes(&run.results));
         text.extend(controls(&run.results));
         text.push(

@@ -82,6 +82,7 @@ fn combined(best: &[&Measured], of: u32) -> Option<BoardRow> {
         oracle: best.iter().filter_map(|m| m.oracle).min(),
         hardware_class: first.hardware.value.clone(),
         plugin_sha256: first.plugin_sha256.clone(),
+        builds: first.result.builds.clone(),
     })
 }
 

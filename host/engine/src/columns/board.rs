@@ -7,12 +7,15 @@ use arrow_array::{ArrayRef, BooleanArray, Float64Array, StringArray, UInt32Array
 
 use super::{SCHEMA_VERSION, batch, to_parquet};
 use crate::Result;
-use crate::model::{BoardRow, Estimated};
+use crate::model::{BoardRow, BuildInfo, Estimated};
 
 /// One row per algorithm with its settings, in the board's order.
 pub fn board_parquet(rows: &[BoardRow]) -> Result<Vec<u8>> {
     let text =
         |of: fn(&BoardRow) -> Option<&str>| -> ArrayRef { Arc::new(rows.iter().map(of).collect::<StringArray>()) };
+    let owned = |of: &dyn Fn(&BoardRow) -> String| -> ArrayRef {
+        Arc::new(rows.iter().map(|row| Some(of(row))).collect::<StringArray>())
+    };
     let number =
         |of: &dyn Fn(&BoardRow) -> Option<f64>| -> ArrayRef { Arc::new(rows.iter().map(of).collect::<Float64Array>()) };
     let count =
@@ -59,7 +62,16 @@ pub fn board_parquet(rows: &[BoardRow]) -> Result<Vec<u8>> {
     put("oracle", small(|r| r.oracle));
     put("hardware_class", text(|r| Some(&r.hardware_class)));
     put("plugin_sha256", text(|r| Some(&r.plugin_sha256)));
+    put("compilers", owned(&|r| said_of(r, |build| &build.compilers)));
+    put("flags", owned(&|r| said_of(r, |build| &build.flags)));
+    put("instruction_sets", owned(&|r| said_of(r, |build| &build.instruction_sets)));
     put("reason", text(|r| r.reason.as_deref()));
     let metadata = HashMap::from([("opencollbench.schema".to_owned(), SCHEMA_VERSION.to_owned())]);
     to_parquet(&batch(metadata, columns.iter().map(|(name, column)| (name.as_str(), column.clone())).collect())?)
+}
+
+/// The same of each file that the algorithm is made of.
+fn said_of(row: &BoardRow, of: fn(&BuildInfo) -> &[String]) -> String {
+    let files = row.builds.iter().map(|build| format!("{}: {}", build.file, of(build).join(", ")));
+    files.collect::<Vec<_>>().join("; ")
 }

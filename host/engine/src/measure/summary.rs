@@ -65,6 +65,7 @@ pub fn summarise(
     AlgorithmResult {
         algorithm: measured.contestant.info.id.clone(),
         name: measured.contestant.info.name.clone(),
+        builds: measured.contestant.info.builds.clone(),
         n: records.len() as u32,
         of: measured.of as u32,
         budget_limited: measured.budget_limited,

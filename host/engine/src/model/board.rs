@@ -4,7 +4,7 @@ use ocb_chart::Chart;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
-use super::{BoardSuite, Estimated};
+use super::{BoardSuite, BuildInfo, Estimated};
 
 /// What to compare; the query string of the board. What is left out is chosen: the value with the most algorithms.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, ToSchema, IntoParams)]
@@ -151,6 +151,8 @@ pub struct BoardRow {
     pub hardware_class: String,
     /// SHA-256 of the plugin file.
     pub plugin_sha256: String,
+    /// How its code was compiled; empty when it was measured by an older version.
+    pub builds: Vec<BuildInfo>,
 }
 
 /// Stress families that a method got through.

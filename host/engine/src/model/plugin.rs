@@ -42,6 +42,23 @@ pub struct AlgorithmInfo {
     pub parameters: Vec<ParameterInfo>,
     /// SHA-256 (hex) of the plugin file.
     pub plugin_sha256: String,
+    /// How its code was compiled: the plugin file, then the libraries that it brings. Empty when an older version looked.
+    #[serde(default)]
+    pub builds: Vec<BuildInfo>,
+}
+
+/// How one file of an algorithm was compiled. A part of the result: the same source compiled for another processor may take half
+/// the time.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct BuildInfo {
+    /// Name of the file, without its folder.
+    pub file: String,
+    /// What the compilers wrote into it of themselves.
+    pub compilers: Vec<String>,
+    /// The options that they recorded (`-frecord-gcc-switches`), those that decide what code is made; empty when they did not.
+    pub flags: Vec<String>,
+    /// Extensions of x86-64 whose instructions were found in its code, e.g. `AVX2`. It may choose among them when it runs.
+    pub instruction_sets: Vec<String>,
 }
 
 /// A knob of an algorithm.

@@ -17,7 +17,8 @@ pub use manifest::{check_manifest, is_free};
 use term::share;
 pub use term::{CHECK_LIMIT, Term};
 
-use super::{built_here, info, read_plugin};
+use super::describe::{builds, info};
+use super::{built_here, read_plugin};
 use crate::blobs::sha256_hex;
 use crate::model::{AlgorithmInfo, CheckLine, CheckVerdict, Manifest, PluginReport, Repro};
 use crate::{EngineError, Result};
@@ -126,7 +127,8 @@ impl Checking<'_> {
         match launcher.describe_with(file, &self.term.killer(self.term.ends())) {
             Ok(descriptors) => {
                 let hash = self.report.sha256.clone().unwrap_or_default();
-                self.report.algorithms = descriptors.into_iter().map(|d| info(d, &hash)).collect();
+                let builds = builds(launcher, file)?;
+                self.report.algorithms = descriptors.into_iter().map(|d| info(d, &hash, builds.clone())).collect();
                 let names: Vec<&str> = self.report.algorithms.iter().map(|a| a.id.as_str()).collect();
                 let evidence = format!("Loads in the jail and describes {}.", names.join(", "));
                 self.line("load and describe", CheckVerdict::Pass, evidence, None);

@@ -106,7 +106,7 @@ mod tests {
         let info = serde_json::json!({
             "id": "x", "name": "X", "version": "1", "authors": "", "license": "", "url": "", "paper": "", "queries": [],
             "counters": false, "witness_points": false, "single_precision": false, "solid": false, "coherent": false,
-            "threads": threads, "usual": false, "parameters": [], "plugin_sha256": ""
+            "threads": threads, "usual": false, "parameters": [], "plugin_sha256": "", "builds": []
         });
         let mut info: AlgorithmInfo = serde_json::from_value(info).expect("an algorithm");
         info.parameters = vec![parameter("size", 8.0, true), parameter("slack", 2.0, false)];

@@ -174,6 +174,7 @@ mod contract {
             usual: false,
             parameters: Vec::new(),
             plugin_sha256: "h".into(),
+            builds: Vec::new(),
         };
         store.keep_description("h", std::slice::from_ref(&algorithm)).await.unwrap();
         algorithm.version = "2".into();

@@ -1655,6 +1655,8 @@ export interface components {
         AlgorithmInfo: {
             /** @description Authors. */
             authors: string;
+            /** @description How its code was compiled: the plugin file, then the libraries that it brings. Empty when an older version looked. */
+            builds?: components["schemas"]["BuildInfo"][];
             /** @description It uses earlier answers: the order of the configurations matters to it. */
             coherent: boolean;
             /** @description It reports BV and primitive tests. */
@@ -1700,6 +1702,8 @@ export interface components {
              *     processes. What a process built while it was asked is part of it.
              */
             build_ms?: number | null;
+            /** @description How its code was compiled; empty in runs of older versions. */
+            builds?: components["schemas"]["BuildInfo"][];
             /**
              * Format: double
              * @description Mean BV tests per query.
@@ -1886,6 +1890,8 @@ export interface components {
              * @description Build time of both structures, milliseconds; the longest.
              */
             build_ms?: number | null;
+            /** @description How its code was compiled; empty when it was measured by an older version. */
+            builds: components["schemas"]["BuildInfo"][];
             /** @description Contract class, in words. */
             class: string;
             /**
@@ -1998,6 +2004,20 @@ export interface components {
              * @description Its version.
              */
             version: number;
+        };
+        /**
+         * @description How one file of an algorithm was compiled. A part of the result: the same source compiled for another processor may take half
+         *     the time.
+         */
+        BuildInfo: {
+            /** @description What the compilers wrote into it of themselves. */
+            compilers: string[];
+            /** @description Name of the file, without its folder. */
+            file: string;
+            /** @description The options that they recorded (`-frecord-gcc-switches`), those that decide what code is made; empty when they did not. */
+            flags: string[];
+            /** @description Extensions of x86-64 whose instructions were found in its code, e.g. `AVX2`. It may choose among them when it runs. */
+            instruction_sets: string[];
         };
         /** @description A campaign, and how far it is. */
         CampaignInfo: {
@@ -4293,7 +4313,7 @@ export interface components {
             scopes: components["schemas"]["Scope"][];
         };
         /**
-         * @description That time or answers depend on the unit of length. A time does when every process in another unit takes more than 1.2
+         * @description That time or answers depend on the unit of length. A time does when every process in another unit takes more than 1.5
          *     times as long as every process in the unit of the files, or the other way round, and the means are 500 ns apart or more. Wrong
          *     answers do when, on the configurations asked in both units, chance would distribute them so unevenly with a probability
          *     below 1 %.

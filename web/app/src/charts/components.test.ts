@@ -2,6 +2,7 @@ import { afterEach, describe, expect, it } from 'vitest'
 import { createApp, h, nextTick, ref, type App, type Component, type SetupContext } from 'vue'
 import type { AlgorithmResult, Ecdf } from '../api/types'
 import EcdfChart from './EcdfChart.vue'
+import BuildTable from './BuildTable.vue'
 import ResultTable from './ResultTable.vue'
 
 let app: App | null = null
@@ -53,6 +54,16 @@ it('lists what failed without a place, and with the reason', async () => {
   const row = host.querySelector('tr[data-algorithm=crashy]')
   expect(row?.querySelector('td')?.textContent).toBe('–')
   expect(row?.textContent).toContain('It crashed with SIGSEGV.')
+})
+
+it('tells how each file of an algorithm was compiled, and what is not known', async () => {
+  const build = { file: 'libwide.so', compilers: ['GCC: 12.2.0'], flags: ['-O3 -march=znver3'], instruction_sets: ['AVX', 'AVX2'] }
+  const library = { file: 'libold.so.1', compilers: [], flags: [], instruction_sets: [] }
+  const { host } = await mount(BuildTable, { algorithms: [{ id: 'wide', name: 'Wide', builds: [build, library] }, { id: 'old', name: 'Old' }] })
+  const rows = [...host.querySelectorAll('[data-testid=builds] tr[data-algorithm]')].map((row) => row.textContent)
+  expect(rows).toHaveLength(2)
+  expect(rows[0]).toMatch(/Wide.*libwide.so.*GCC: 12.2.0.*-O3 -march=znver3.*AVX, AVX2/)
+  expect(rows[1]).toMatch(/libold.so.1.*does not say.*not recorded.*x86-64 alone/)
 })
 
 it('shows each unit of length, the file’s first, and names what depends on it', async () => {

@@ -98,6 +98,7 @@ pub(crate) fn result(algorithm: &str, n: u32) -> StoredResult {
         result: AlgorithmResult {
             algorithm: algorithm.into(),
             name: algorithm.to_uppercase(),
+            builds: Vec::new(),
             outcome: OutcomeInfo { name: "Completed".into(), message: "All.".into(), ours: false },
             n,
             of: 5,
