@@ -10,10 +10,11 @@ done
 
 mkdir -p "$folder/apt/lists/partial" "$folder/apt/parts" "$folder/source"
 folder=$(cd "$folder" && pwd)
-# The machine's own list, asked for sources instead of packages.
-. /etc/os-release
-printf 'Types: deb-src\nURIs: http://deb.debian.org/debian\nSuites: %s\nComponents: main\nSigned-By: %s\n' \
-  "$VERSION_CODENAME" /usr/share/keyrings/debian-archive-keyring.gpg > "$folder/apt/parts/debian.sources"
+# The machine's own lists of Debian, asked for sources instead of packages.
+for list in /etc/apt/sources.list /etc/apt/sources.list.d/debian.sources; do
+  [ -e "$list" ] || continue
+  sed -E 's/^(deb|Types: deb)([[:space:]]|$)/\1-src\2/' "$list" > "$folder/apt/parts/debian.${list##*.}"
+done
 apt=(-qq -o "Dir::Etc::SourceList=/dev/null" -o "Dir::Etc::SourceParts=$folder/apt/parts" -o "Dir::State::Lists=$folder/apt/lists"
   -o "Dir::Cache=$folder/apt" -o APT::Sandbox::User=root)
 [ -n "$(find "$folder/apt/lists" -name '*Sources*' -mtime -1)" ] || apt-get "${apt[@]}" update
