@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use ocb_engine::model::{
-    CampaignInfo, CampaignPreview, CampaignRequest, Compared, ComparedResult, Estimated, Page, State,
+    CampaignInfo, CampaignPreview, CampaignRequest, Compared, ComparedResult, Estimated, OutcomeName, Page, State,
 };
 use ocb_engine::{Engine, EngineError, campaign_csv};
 
@@ -63,7 +63,8 @@ async fn create(engine: &Engine, args: &CampaignArgs, json: bool) -> Result<Exit
     } else {
         output::print(&text(&made))?
     }
-    let well = |row: &Compared| row.new.as_ref().is_some_and(|new| new.outcome == "Completed" && new.wrong == 0);
+    let well =
+        |row: &Compared| row.new.as_ref().is_some_and(|new| new.outcome == OutcomeName::Completed && new.wrong == 0);
     let all_well = !args.measure || made.results.iter().all(well);
     Ok(if all_well { ExitCode::SUCCESS } else { ExitCode::from(NOT_ALL_WELL) })
 }
@@ -222,7 +223,7 @@ fn median(side: Option<&ComparedResult>, otherwise: &str) -> String {
     let time = |Estimated { value, lo, hi }: Estimated| {
         format!("{} [{}, {}]", units::time(value), units::time(lo), units::time(hi))
     };
-    side.median_ns.map_or_else(|| side.outcome.clone(), time)
+    side.median_ns.map_or_else(|| side.outcome.to_string(), time)
 }
 
 /// Hardware class and oracle.

@@ -44,6 +44,12 @@ impl EngineError {
     }
 }
 
+impl From<ocb_model::BadPage> for EngineError {
+    fn from(ocb_model::BadPage(sentence): ocb_model::BadPage) -> Self {
+        Self::Invalid(sentence)
+    }
+}
+
 impl From<sqlx::Error> for EngineError {
     fn from(e: sqlx::Error) -> Self {
         Self::fault("The database refused", e)

@@ -1,6 +1,6 @@
 //! Runs, queue, store and registry: everything between a request and its heatmap.
 //!
-//! One handle, [`Engine`], serves the web server and the command line alike; its values ([`model`]) are the JSON of both.
+//! One handle, [`Engine`], serves the web server and the command line alike; its values ([`ocb_model`]) are the JSON of both.
 #![forbid(unsafe_code)]
 
 mod advice;
@@ -21,7 +21,6 @@ mod estimate;
 mod machine;
 mod mail;
 mod measure;
-pub mod model;
 mod objects;
 mod passwords;
 mod registry;
@@ -48,6 +47,7 @@ pub use error::{EngineError, Result};
 pub use mail::{MailServer, Pace};
 pub use measure::Stop;
 pub use ocb_chart as chart;
+pub use ocb_model as model;
 pub use ocb_sandbox::{doctor, given};
 pub use registry::Extent;
 pub use replay::Unpacked;

@@ -45,7 +45,7 @@ use ocb_core::{sampling, sequential};
 use ocb_sandbox::{Killer, Outcome};
 
 use crate::machine::Machine;
-use crate::model::{OutcomeInfo, Preview, RunSpec};
+use crate::model::{OutcomeInfo, OutcomeName, Preview, RunSpec};
 use crate::registry::{Contestant, Registry};
 
 pub use by_unit::asked_in_another_unit;
@@ -404,5 +404,24 @@ pub fn is_coherent(method: &Method) -> bool {
 
 /// An outcome for the pages.
 pub fn outcome_info(outcome: &Outcome) -> OutcomeInfo {
-    OutcomeInfo { name: outcome.name().into(), message: outcome.to_string(), ours: outcome.ours() }
+    let (mut signal, message) = (None, outcome.to_string());
+    let name = match outcome {
+        Outcome::Completed => OutcomeName::Completed,
+        Outcome::Failed { .. } => OutcomeName::Failed,
+        Outcome::LoadError { .. } => OutcomeName::LoadError,
+        Outcome::FileReplaced { .. } => OutcomeName::FileReplaced,
+        Outcome::Signaled { signal: number, .. } => {
+            signal = Some(*number);
+            OutcomeName::Signaled
+        }
+        Outcome::TimedOut { .. } => OutcomeName::TimedOut,
+        Outcome::OutOfMemory { .. } => OutcomeName::OutOfMemory,
+        Outcome::OutputLimit { .. } => OutcomeName::OutputLimit,
+        Outcome::SyscallDenied { .. } => OutcomeName::SyscallDenied,
+        Outcome::ProtocolViolation { .. } => OutcomeName::ProtocolViolation,
+        Outcome::TimingIntegrity { .. } => OutcomeName::TimingIntegrity,
+        Outcome::Cancelled => OutcomeName::Cancelled,
+        Outcome::SandboxFault { .. } => OutcomeName::SandboxFault,
+    };
+    OutcomeInfo { name, signal, message, ours: outcome.ours() }
 }

@@ -60,7 +60,7 @@ impl Inner {
                     "The runs {run} and {other_run} have different objects there; a difference needs the same one."
                 )));
             }
-            heatmap.subtract(&subtracted);
+            subtract(&mut heatmap, &subtracted);
         }
         Ok((heatmap, mesh))
     }
@@ -287,19 +287,17 @@ fn colour_range(heatmap: &Heatmap) -> [f64; 2] {
     }
 }
 
-impl Heatmap {
-    /// These values minus those of another map of the same object.
-    fn subtract(&mut self, other: &Self) {
-        let of = |map: &Self| VertexValues {
-            values: map.values.clone(),
-            counts: map.counts.clone(),
-            dropped: map.dropped.clone(),
-        };
-        if let Some(difference) = of(self).minus(&of(other)) {
-            self.range = difference.range();
-            self.n = self.n.min(other.n);
-            (self.values, self.counts, self.dropped) = (difference.values, difference.counts, difference.dropped);
-        }
+/// Its values minus those of another map of the same object.
+fn subtract(map: &mut Heatmap, other: &Heatmap) {
+    let of = |map: &Heatmap| VertexValues {
+        values: map.values.clone(),
+        counts: map.counts.clone(),
+        dropped: map.dropped.clone(),
+    };
+    if let Some(difference) = of(map).minus(&of(other)) {
+        map.range = difference.range();
+        map.n = map.n.min(other.n);
+        (map.values, map.counts, map.dropped) = (difference.values, difference.counts, difference.dropped);
     }
 }
 

@@ -9,8 +9,8 @@ use std::time::Duration;
 
 use ocb_core::query::Query;
 use ocb_engine::model::{
-    AccountInfo, Action, BoardRequest, CampaignInfo, CampaignRequest, Decision, Manifest, NewChoices, Page, PluginInfo,
-    PluginState, Role, RunInfo, State, Visibility,
+    AccountInfo, Action, BoardRequest, CampaignInfo, CampaignRequest, Decision, Manifest, NewChoices, OutcomeName,
+    Page, PluginInfo, PluginState, Role, RunInfo, State, Visibility,
 };
 use ocb_engine::{Engine, EngineConfig, EngineError, Profile};
 use tempfile::TempDir;
@@ -312,7 +312,7 @@ async fn who_crashes_on_the_new_class_is_taken_out_there_and_nobody_for_our_faul
     assert!(campaign.runs.failed >= 2 && campaign.runs.done == 0, "{:?}", campaign.runs);
     let failed = campaign.results.iter().filter_map(|row| row.new.as_ref());
     assert!(
-        failed.clone().count() > 0 && failed.clone().all(|new| new.outcome == "SandboxFault"),
+        failed.clone().count() > 0 && failed.clone().all(|new| new.outcome == OutcomeName::SandboxFault),
         "{:?}",
         failed.collect::<Vec<_>>()
     );
@@ -342,8 +342,11 @@ async fn who_crashes_on_the_new_class_is_taken_out_there_and_nobody_for_our_faul
     }
     assert_eq!((now.state, now.excluded_on.as_deref()), (PluginState::Excluded, Some(class)), "{told}");
     assert_eq!(now.hardware_class.as_deref(), Some(old_class.as_str()), "its check was elsewhere");
-    let crash =
-        campaign.results.iter().find(|row| row.new.as_ref().is_some_and(|new| new.outcome == "Signaled")).unwrap();
+    let crash = campaign
+        .results
+        .iter()
+        .find(|row| row.new.as_ref().is_some_and(|new| new.outcome == OutcomeName::Signaled))
+        .unwrap();
     for part in [class, "sphere-tree", "torus-knot@600", "The plugin crashed", &format!("/r/{}", crash.run)] {
         assert!(now.reason.contains(part), "{part}: {}", now.reason);
     }

@@ -7,7 +7,7 @@ mod common;
 use std::time::{Duration, Instant};
 
 use ocb_engine::Engine;
-use ocb_engine::model::State;
+use ocb_engine::model::{OutcomeName, State};
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_killed_runner_gets_its_outcome_and_the_next_algorithm_is_measured() {
@@ -26,9 +26,9 @@ async fn a_killed_runner_gets_its_outcome_and_the_next_algorithm_is_measured() {
     kill_the_runner_of_this_process();
     let (run, _) = common::finish(&engine, &run.id).await;
     let (killed, next) = (&run.results[0], &run.results[1]);
-    assert_eq!(killed.outcome.name, "Signaled", "{}", killed.outcome.message);
+    assert_eq!(killed.outcome.name, OutcomeName::Signaled, "{}", killed.outcome.message);
     assert!(killed.n < killed.of, "what was measured before is kept: {} of {}", killed.n, killed.of);
-    assert_eq!((next.outcome.name.as_str(), next.n), ("Completed", next.of));
+    assert_eq!((next.outcome.name, next.n), (OutcomeName::Completed, next.of));
     assert_eq!((run.state, run.stages[2].state, run.stages[3].state), (State::Done, State::Failed, State::Done));
     engine.shutdown().await;
 }

@@ -8,7 +8,9 @@ use std::time::{Duration, Instant};
 
 use ocb_core::configuration::{Class, Method};
 use ocb_core::statistics::{Outliers, Statistic};
-use ocb_engine::model::{ChartKind, ChartRequest, Ecdf, HeatmapRequest, Measure, Page, RunSpec, StageKind, State};
+use ocb_engine::model::{
+    ChartKind, ChartRequest, Ecdf, HeatmapRequest, Measure, OutcomeName, Page, RunSpec, StageKind, State,
+};
 use ocb_engine::{Ceilings, Engine, EngineConfig, EngineError};
 
 fn request(algorithm: &str, measure: Measure, statistic: Statistic) -> HeatmapRequest {
@@ -45,7 +47,7 @@ async fn a_run_goes_from_object_to_heatmap() {
     assert!(environment.null_ns.value > 0.0 && !environment.jail.is_empty());
     assert_eq!(environment.hardware_class, engine.status().await.unwrap().hardware_class);
     for result in &run.results {
-        assert_eq!(result.outcome.name, "Completed", "{}: {}", result.algorithm, result.outcome.message);
+        assert_eq!(result.outcome.name, OutcomeName::Completed, "{}: {}", result.algorithm, result.outcome.message);
         assert_eq!((result.n, result.of, result.wrong), (set.configurations, set.configurations, 0));
         let time = result.time.unwrap();
         assert!(0.0 < time.median_ns.value && time.median_ns.value <= time.max_ns.value);
@@ -111,7 +113,7 @@ async fn a_small_budget_measures_the_same_prefix_and_says_so() {
             break run;
         }
         assert_eq!(run.state, State::Failed);
-        assert_eq!((run.results[0].outcome.name.as_str(), run.results[0].rank), ("OutOfBudget", None));
+        assert_eq!((run.results[0].outcome.name, run.results[0].rank), (OutcomeName::OutOfBudget, None));
         assert_eq!(run.stages[2].state, State::Failed, "{:?}", run.stages[2]);
         assert!(run.message.as_deref().is_some_and(|m| m.contains("time budget")), "{:?}", run.message);
         empty += 1;
@@ -249,8 +251,8 @@ async fn a_replaced_plugin_file_is_reported_as_such() {
     let (run, _) = common::finish(&engine, &run.id).await;
     assert_eq!(run.state, State::Done, "{:?}", run.message);
     let [ours, replaced] = &run.results[..] else { panic!("{:?}", run.results) };
-    assert_eq!((ours.outcome.name.as_str(), ours.rank), ("Completed", Some(1)), "{:?}", ours.unranked);
-    assert_eq!((replaced.outcome.name.as_str(), replaced.rank, replaced.n), ("FileReplaced", None, 0));
+    assert_eq!((ours.outcome.name, ours.rank), (OutcomeName::Completed, Some(1)), "{:?}", ours.unranked);
+    assert_eq!((replaced.outcome.name, replaced.rank, replaced.n), (OutcomeName::FileReplaced, None, 0));
     assert!(replaced.outcome.message.contains("SHA-256"), "{}", replaced.outcome.message);
     engine.shutdown().await;
 }

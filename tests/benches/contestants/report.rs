@@ -46,7 +46,7 @@ impl Row {
             ratio: result.ratio.map(|r| [r.value, r.lo, r.hi]),
             build_ms: result.build_ms,
             memory_bytes: result.memory_bytes,
-            outcome: result.outcome.name.clone(),
+            outcome: result.outcome.name.to_string(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What the board makes of given results.
 
 use ocb_engine::board::{self, Measured, Named, add_stability, board};
-use ocb_engine::model::{Accuracy, Board, BoardRequest, BoardRow, Controls, Tally, UnrankedCause};
+use ocb_engine::model::{Accuracy, Board, BoardRequest, BoardRow, Controls, OutcomeName, Tally, UnrankedCause};
 use ocb_engine::suite::Suite;
 use serde_json::{Value, json};
 
@@ -45,7 +45,7 @@ fn measured(algorithm: &str, mean_ns: f64, n: u32, verdicts: &[(&str, u32)]) -> 
 fn failed(algorithm: &str) -> Measured {
     let mut measured = measured(algorithm, 1.0, 0, &[]);
     measured.result.time = None;
-    measured.result.outcome.name = "Signaled".into();
+    measured.result.outcome.name = OutcomeName::Signaled;
     measured.result.outcome.message = "It crashed with SIGSEGV.".into();
     measured
 }

@@ -99,7 +99,11 @@ fn a_floor_knows_only_the_floors_below() {
         ("ocb-advisor", &["ocb-core", METHODS, PLUGIN_API]),
         ("ocb-sandbox", &["ocb-core", PLUGIN_API]),
         ("ocb-stability", &["ocb-core"]),
-        ("ocb-engine", &["ocb-advisor", "ocb-chart", "ocb-citation", "ocb-core", "ocb-sandbox", "ocb-stability"]),
+        ("ocb-model", &["ocb-advisor", "ocb-chart", "ocb-core", "ocb-stability"]),
+        (
+            "ocb-engine",
+            &["ocb-advisor", "ocb-chart", "ocb-citation", "ocb-core", "ocb-model", "ocb-sandbox", "ocb-stability"],
+        ),
         ("ocb-server", &["ocb-core", "ocb-engine"]),
         ("ocb-cli", &["ocb-core", "ocb-advisor", "ocb-engine", "ocb-server"]),
         ("ocb-tests", &["ocb-chart", "ocb-core", "ocb-sandbox", "ocb-engine", "ocb-server", "ocb-cli", PLUGIN_API]),

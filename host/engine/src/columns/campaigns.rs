@@ -37,7 +37,7 @@ pub fn campaign_parquet(rows: &[Compared]) -> Result<Vec<u8>> {
         put(&format!("{name}_median_ns_hi"), median(|e| e.hi));
         put(&format!("{name}_n"), count(&|r| side(r).map(|s| s.n)));
         put(&format!("{name}_wrong"), count(&|r| side(r).map(|s| s.wrong)));
-        put(&format!("{name}_outcome"), text(&|r| side(r).map(|s| s.outcome.clone())));
+        put(&format!("{name}_outcome"), text(&|r| side(r).map(|s| s.outcome.to_string())));
         put(&format!("{name}_run"), text(&|r| side(r).map(|s| s.run.clone())));
         put(&format!("{name}_cpu"), text(&|r| side(r).map(|s| s.cpu.clone())));
         put(&format!("{name}_hardware_class"), text(&|r| side(r).map(|s| s.hardware_class.clone())));

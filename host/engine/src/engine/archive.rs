@@ -9,7 +9,7 @@ use tokio::runtime::Handle;
 
 use super::Engine;
 use crate::boxed;
-use crate::model::AccountInfo;
+use crate::model::{AccountInfo, Owner};
 use crate::objects::blocking;
 use crate::store::StoredPaper;
 use crate::{EngineError, Result};
@@ -95,7 +95,7 @@ impl Engine {
 
     /// Guests have none.
     async fn account_of(&self, owner: &str) -> Result<Option<AccountInfo>> {
-        match owner.strip_prefix("account:") {
+        match Owner::of(owner).account() {
             Some(account) => self.inner.store.account(account).await,
             None => Ok(None),
         }

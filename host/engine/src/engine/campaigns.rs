@@ -16,7 +16,8 @@ use super::runs::Asking;
 use super::{BACKGROUND, Engine, Inner, Made};
 use crate::boxed;
 use crate::model::{
-    AccountInfo, CampaignInfo, CampaignPreview, CampaignRequest, CampaignRuns, Compared, Cursor, Page, Part, State,
+    AccountInfo, CampaignInfo, CampaignPreview, CampaignRequest, CampaignRuns, Compared, Cursor, Owner, Page, Part,
+    State,
 };
 use crate::runlog::plain_event;
 use crate::store::{CampaignRow, Note, THE_SERVICE, now_us};
@@ -268,7 +269,7 @@ impl Inner {
         }
         let mut accounts: BTreeMap<String, u32> = BTreeMap::new();
         for run in self.store.campaign_runs(id).await?.iter().filter(|run| run.state == State::Done) {
-            if let Some(account) = run.owner.as_deref().and_then(|owner| owner.strip_prefix("account:")) {
+            if let Some(account) = run.owner.as_deref().and_then(|owner| Owner::of(owner).account()) {
                 *accounts.entry(account.to_owned()).or_default() += 1;
             }
         }

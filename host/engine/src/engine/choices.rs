@@ -4,7 +4,7 @@ use super::Engine;
 use crate::blobs::sha256_hex;
 use crate::boxed;
 use crate::mail::address;
-use crate::model::{AccountInfo, Choices, NewChoices};
+use crate::model::{AccountInfo, Choices, NewChoices, Owner};
 use crate::store::{Note, now_us};
 use crate::{EngineError, Result};
 
@@ -67,7 +67,7 @@ impl Engine {
                     .into(),
             ));
         };
-        let subject = format!("account:{id}");
+        let subject = Owner::Account(&id).to_string();
         let note = Note { actor: &name, action: "mails turned off by a link", subject: &subject, detail: "" };
         self.inner.store.turn_mails_off(&id, wanted.then_some(note)).await
     }

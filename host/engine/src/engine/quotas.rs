@@ -5,7 +5,7 @@
 use std::time::Duration;
 
 use super::{Engine, Inner};
-use crate::model::RunSpec;
+use crate::model::{Owner, RunSpec};
 use crate::store::{Granted, RunRow};
 use crate::{EngineError, Result};
 
@@ -38,12 +38,12 @@ enum Kind {
 const GUEST_OBJECTS: u64 = 512 << 20;
 const ACCOUNT_OBJECTS: u64 = 4 << 30;
 
-/// Guests are random ids.
 fn kind(owner: &str) -> Option<Kind> {
-    if owner.starts_with("account:") {
-        return Some(Kind::Account);
+    match Owner::of(owner) {
+        Owner::Account(_) => Some(Kind::Account),
+        Owner::Guest(_) => Some(Kind::Guest),
+        Owner::Operator(_) => None,
     }
-    uuid::Uuid::try_parse(owner).is_ok().then_some(Kind::Guest)
 }
 
 impl Kind {

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::{Engine, Inner};
 use crate::boxed;
-use crate::model::{State, Things};
+use crate::model::{Owner, State, Things};
 use crate::store::{Belongings, now_us};
 use crate::{EngineError, Result};
 
@@ -105,9 +105,11 @@ impl Engine {
     pub async fn sweep_once(&self, now_us: i64) -> Result<u32> {
         let mut swept = 0;
         for owner in self.inner.store.owners().await? {
-            let over = match owner.strip_prefix("account:") {
-                Some(account) => self.inner.store.is_former(account).await?,
-                None => self.inner.kept_until(&owner).await?.is_some_and(|until| until < now_us),
+            let over = match Owner::of(&owner) {
+                Owner::Account(account) => self.inner.store.is_former(account).await?,
+                Owner::Guest(_) | Owner::Operator(_) => {
+                    self.inner.kept_until(&owner).await?.is_some_and(|until| until < now_us)
+                }
             };
             if over {
                 self.remove_things(&owner).await?;
@@ -142,9 +144,9 @@ impl Inner {
         Ok(Things { runs: what.runs, objects: what.objects, advice: what.advice.len() as u32, bytes, kept_until_us })
     }
 
-    /// When the things of this owner go by themselves: only guests', who are random ids, and only if they have any.
+    /// When the things of this owner go by themselves: only guests', and only if they have any.
     async fn kept_until(&self, owner: &str) -> Result<Option<i64>> {
-        if uuid::Uuid::try_parse(owner).is_err() {
+        if !matches!(Owner::of(owner), Owner::Guest(_)) {
             return Ok(None);
         }
         let last = self.store.last_wanted(owner).await?;

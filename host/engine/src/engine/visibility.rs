@@ -5,7 +5,7 @@
 
 use super::{Engine, Inner};
 use crate::boxed;
-use crate::model::{ObjectInfo, RunInfo, Visibility};
+use crate::model::{ObjectInfo, Owner, RunInfo, Visibility};
 use crate::objects::unknown;
 use crate::results::no_run;
 use crate::store::RunRow;
@@ -106,7 +106,7 @@ impl Inner {
 
 /// Guests do everything except publishing.
 fn may_publish(to: Visibility, owner: &str) -> Result<()> {
-    if to == Visibility::Public && !owner.starts_with("account:") {
+    if to == Visibility::Public && Owner::of(owner).account().is_none() {
         return Err(EngineError::Forbidden(
             "Publishing needs an account; make one on the account page and keep your things in it.".to_owned(),
         ));

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::Contestant;
 use crate::blobs::Blobs;
-use crate::model::{AlgorithmInfo, PluginState};
+use crate::model::{AlgorithmInfo, Owner, PluginState};
 use crate::store::{Store, SubmissionRow};
 use crate::{EngineError, Result};
 
@@ -70,7 +70,7 @@ fn one(row: &SubmissionRow, info: &AlgorithmInfo, file: &Path, public: bool, new
     }
     // One's own is measured without being named; everybody's would make every run longer.
     contestant.info.usual = !public;
-    Brought { contestant: Arc::new(contestant), owner: format!("account:{}", row.account), public }
+    Brought { contestant: Arc::new(contestant), owner: Owner::Account(&row.account).to_string(), public }
 }
 
 /// The file of a plugin on this disk, under its hash; the jail needs a path.

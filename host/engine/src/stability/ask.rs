@@ -24,12 +24,15 @@ pub enum Got {
     Declined(String),
     /// The process ended, or had to be ended.
     Broken(String),
+    /// It took longer than allowed.
+    Hung(String),
 }
 
 /// What the end of a process is for its question.
 fn came(outcome: &Outcome) -> Got {
     match outcome {
         Outcome::Failed { reason, .. } => Got::Declined(reason.clone()),
+        Outcome::TimedOut { .. } => Got::Hung(outcome.to_string()),
         outcome => Got::Broken(outcome.to_string()),
     }
 }

@@ -56,7 +56,7 @@ impl Known {
     ) -> Tally {
         let none = Tally::default();
         let answer = match got {
-            Got::Broken(_) => return Tally { broken: 1, ..none },
+            Got::Broken(_) | Got::Hung(_) => return Tally { broken: 1, ..none },
             Got::Declined(_) => return Tally { unsupported: 1, ..none },
             Got::Answer(answer, _) => answer,
         };
@@ -125,7 +125,7 @@ fn same(one: &Answer, other: &Answer) -> bool {
 /// An answer as a sentence.
 pub fn told(query: Query, got: &Got) -> String {
     match got {
-        Got::Broken(why) => why.clone(),
+        Got::Broken(why) | Got::Hung(why) => why.clone(),
         Got::Declined(why) => format!("declined: {why}"),
         Got::Answer(answer, _) => match answer {
             Answer::Collision { hit, .. } => if *hit { "collision" } else { "no collision" }.into(),

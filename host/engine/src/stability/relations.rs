@@ -45,7 +45,7 @@ fn said(asker: &mut Asker, posed: &Posed, others: &[Configuration]) -> Result<Op
             }
             Got::Answer(Answer::GaveUp | Answer::Unsupported, _) => {}
             // What breaks is counted by its family.
-            Got::Declined(_) | Got::Broken(_) => return Ok(None),
+            Got::Declined(_) | Got::Broken(_) | Got::Hung(_) => return Ok(None),
         }
     }
     Ok(Some(said))

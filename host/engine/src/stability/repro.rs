@@ -34,7 +34,7 @@ pub fn repro(
     place: &Place,
 ) -> Result<FailingCase> {
     let semantics = if question.solid { Semantics::Solid } else { Semantics::Surface };
-    let hangs = matches!(got, Got::Broken(why) if why.contains("longer than"));
+    let hangs = matches!(got, Got::Hung(_));
     let mut fault = None;
     let mut last = got.clone();
     let mut fails = |posed: &Posed| -> bool {

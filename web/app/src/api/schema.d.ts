@@ -2298,8 +2298,8 @@ export interface components {
              * @description Version of the oracle; absent in runs of older versions.
              */
             oracle?: number | null;
-            /** @description Name of the outcome. */
-            outcome: string;
+            /** @description How it ended. */
+            outcome: components["schemas"]["OutcomeName"];
             /** @description SHA-256 (hex) of the plugin file. */
             plugin_sha256: string;
             /** @description The run. */
@@ -3135,13 +3135,23 @@ export interface components {
         Order: "shuffled" | "trajectory";
         /** @description How a runner ended. */
         OutcomeInfo: {
-            /** @description One sentence. */
+            /** @description One sentence, for people: nothing is decided by it. */
             message: string;
-            /** @description Name of the outcome as in the glossary, e.g. `Completed`, `OutOfBudget`, `TimedOut`, `SandboxFault`. */
-            name: string;
+            /** @description Which outcome. */
+            name: components["schemas"]["OutcomeName"];
             /** @description Our fault, never the plugin's. */
             ours: boolean;
+            /**
+             * Format: int32
+             * @description Number of the signal that ended it; absent otherwise, and in runs of older versions.
+             */
+            signal?: number | null;
         };
+        /**
+         * @description The outcomes of the glossary.
+         * @enum {string}
+         */
+        OutcomeName: "Completed" | "OutOfBudget" | "NotMeasured" | "Failed" | "LoadError" | "FileReplaced" | "Signaled" | "TimedOut" | "OutOfMemory" | "OutputLimit" | "SyscallDenied" | "ProtocolViolation" | "TimingIntegrity" | "Cancelled" | "SandboxFault";
         /**
          * @description What happens to outliers: values outside Q1 - 1.5 IQR .. Q3 + 1.5 IQR.
          * @enum {string}
@@ -4235,11 +4245,14 @@ export interface components {
              * @description How many lie below the clock's resolution.
              */
             below_resolution: number;
-            /** @description Maximum. */
+            /** @description Maximum; its interval is over the configurations. */
             max_ns: components["schemas"]["Estimated"];
-            /** @description Arithmetic mean; its interval is over the processes. */
+            /**
+             * @description Arithmetic mean. Its interval and the following two are over the processes; over the configurations, too, where there is
+             *     one process only or not every configuration was measured.
+             */
             mean_ns: components["schemas"]["Estimated"];
-            /** @description Median; its interval and the following ones are over the configurations. */
+            /** @description Median. */
             median_ns: components["schemas"]["Estimated"];
             /** @description 95th percentile. */
             p95_ns: components["schemas"]["Estimated"];
@@ -4255,7 +4268,7 @@ export interface components {
             checks: components["schemas"]["TimingCheck"][];
             /**
              * Format: int32
-             * @description Blocks of questions that were disturbed and asked again, of all.
+             * @description Blocks of questions that were disturbed, of all; a time from one counts only where its configuration has no other.
              */
             disturbed_blocks: number;
             /**

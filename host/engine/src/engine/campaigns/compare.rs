@@ -78,7 +78,7 @@ fn side(row: &RunRow, stored: &StoredResult) -> ComparedResult {
         version: machine.map_or_else(String::new, |machine| machine.version.clone()),
         oracle: row.set.as_ref().and_then(|set| set.oracle),
         plugin_sha256: stored.plugin_sha256.clone(),
-        outcome: result.outcome.name.clone(),
+        outcome: result.outcome.name,
         n: result.n,
         wrong: result.wrong,
         median_ns: median(result),

@@ -1,10 +1,12 @@
 //! A plugin that fails in a campaign is taken out on that hardware class, with its report, and its developer is told.
 
+use nix::sys::signal::Signal;
+
 use crate::Result;
 use crate::board;
 use crate::engine::Inner;
 use crate::engine::plugin_notices::to_author;
-use crate::model::{AlgorithmResult, PluginState, RunSpec, State};
+use crate::model::{AlgorithmResult, OutcomeName, PluginState, RunSpec, State};
 use crate::runlog::{fresh_stages, plain_event};
 use crate::store::{CampaignRow, Note, RunRow, SubmissionRow, THE_SERVICE};
 
@@ -82,20 +84,23 @@ fn failing(result: &AlgorithmResult, of_suite: bool, before: Option<&AlgorithmRe
     let outcome = &result.outcome;
     let got_through = |before: &AlgorithmResult| before.outcome.completed();
     let counts = of_suite || before.is_some_and(got_through);
-    match outcome.name.as_str() {
-        "Completed" if of_suite && result.wrong > 0 => {
+    match outcome.name {
+        OutcomeName::Completed if of_suite && result.wrong > 0 => {
             let (wrong, n) = (result.wrong, result.n);
             Some(format!("{wrong} of its {n} answers {} wrong.", if wrong == 1 { "is" } else { "are" }))
         }
-        "Completed" if of_suite && result.guessed() => {
+        OutcomeName::Completed if of_suite && result.guessed() => {
             result.unranked.as_ref().map(|unranked| unranked.message.clone())
         }
-        "Completed" => None,
+        OutcomeName::Completed => None,
         // Ours, or such that the machine may have done it: times that do not fit together, a stop, a kill from outside.
-        _ if outcome.ours || outcome.message.contains("SIGKILL") => None,
-        "SandboxFault" | "FileReplaced" | "Cancelled" | "TimingIntegrity" => None,
+        _ if outcome.ours || outcome.signal == Some(Signal::SIGKILL as i32) => None,
+        OutcomeName::SandboxFault
+        | OutcomeName::FileReplaced
+        | OutcomeName::Cancelled
+        | OutcomeName::TimingIntegrity => None,
         // A slow machine is not the plugin's fault.
-        "OutOfBudget" | "NotMeasured" => None,
+        OutcomeName::OutOfBudget | OutcomeName::NotMeasured => None,
         _ => counts.then(|| outcome.message.clone()),
     }
 }
@@ -134,7 +139,13 @@ mod tests {
             assert!(failing(&result(name, "m", false, 0), true, Some(&well)).is_some(), "{name}");
         }
         let ours = result("SandboxFault", "The sandbox failed at step 'Watch'.", true, 0);
-        let killed = result("Signaled", "The plugin crashed (SIGKILL, signal 9).", false, 0);
+        let mut killed = result("Signaled", "The plugin crashed (SIGKILL, signal 9).", false, 0);
+        killed.outcome.signal = Some(9);
+        // What it says itself spares nobody.
+        for name in ["Failed", "Signaled"] {
+            let liar = result(name, "The plugin gave up while it answered a query: SIGKILL, signal 9.", false, 0);
+            assert!(failing(&liar, true, Some(&well)).is_some(), "{name}");
+        }
         for innocent in [
             &well,
             &ours,

@@ -4,8 +4,8 @@ use ocb_core::configuration::Class;
 
 use super::super::*;
 use crate::model::{
-    AdviceInfo, Agreement, AlgorithmResult, ClassCount, Estimated, ObjectInfo, OutcomeInfo, RunSpec, SetInfo, State,
-    Visibility,
+    AdviceInfo, Agreement, AlgorithmResult, ClassCount, Estimated, ObjectInfo, OutcomeInfo, OutcomeName, RunSpec,
+    SetInfo, State, Visibility,
 };
 use crate::runlog::fresh_stages;
 
@@ -99,7 +99,7 @@ pub(crate) fn result(algorithm: &str, n: u32) -> StoredResult {
             algorithm: algorithm.into(),
             name: algorithm.to_uppercase(),
             builds: Vec::new(),
-            outcome: OutcomeInfo { name: "Completed".into(), message: "All.".into(), ours: false },
+            outcome: OutcomeInfo { name: OutcomeName::Completed, signal: None, message: "All.".into(), ours: false },
             n,
             of: 5,
             budget_limited: n < 5,

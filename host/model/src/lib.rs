@@ -1,6 +1,7 @@
-//! The values that the engine takes and gives. They are the JSON of the API and of `--json`: there is no second set.
+//! The values of API and store: the JSON of the API and of `--json`; there is no second set. No I/O.
 //!
 //! Ids are UUIDv7 text, times are microseconds since the Unix epoch (UTC), durations say their unit in their name.
+#![forbid(unsafe_code)]
 
 mod advice;
 mod agreement;
@@ -19,6 +20,7 @@ mod invitation;
 mod notice;
 mod object;
 mod outcome;
+mod owner;
 mod page;
 mod people;
 mod plugin;
@@ -58,8 +60,9 @@ pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
 pub use invitation::{Acceptance, InvitationInfo, InvitationRequest, InvitationState, NewInvitation};
 pub use notice::NoticeInfo;
 pub use object::ObjectInfo;
-pub use outcome::OutcomeInfo;
-pub use page::{Cursor, Page, Part};
+pub use outcome::{OutcomeInfo, OutcomeName};
+pub use owner::Owner;
+pub use page::{BadPage, Cursor, Page, Part};
 pub use people::{
     AccountInfo, AuditEntry, Credentials, Identity, NewPassword, NewRole, NewToken, Role, Scope, SigningKey, TokenInfo,
     TokenRequest, Wish,
@@ -433,13 +436,14 @@ impl From<Interval> for Estimated {
 /// Distribution of the time per query over configurations, nanoseconds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct TimeSummary {
-    /// Arithmetic mean; its interval is over the processes.
+    /// Arithmetic mean. Its interval and the following two are over the processes; over the configurations, too, where there is
+    /// one process only or not every configuration was measured.
     pub mean_ns: Estimated,
-    /// Median; its interval and the following ones are over the configurations.
+    /// Median.
     pub median_ns: Estimated,
     /// 95th percentile.
     pub p95_ns: Estimated,
-    /// Maximum.
+    /// Maximum; its interval is over the configurations.
     pub max_ns: Estimated,
     /// How many lie below the clock's resolution.
     pub below_resolution: u32,

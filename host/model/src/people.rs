@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use super::Owner;
+
 /// What an account may do; each role may do what those before it may.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
@@ -57,7 +59,7 @@ pub struct AccountInfo {
 impl AccountInfo {
     /// What owns this account's runs, objects and plugins.
     pub fn owner(&self) -> String {
-        format!("account:{}", self.id)
+        Owner::Account(&self.id).to_string()
     }
 }
 

@@ -31,7 +31,7 @@ pub struct Draw {
 pub struct Timing {
     /// Fresh processes.
     pub processes: u32,
-    /// Blocks of questions that were disturbed and asked again, of all.
+    /// Blocks of questions that were disturbed, of all; a time from one counts only where its configuration has no other.
     pub disturbed_blocks: u32,
     /// All blocks.
     pub blocks: u32,

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::{Estimated, State};
+use super::{Estimated, OutcomeName, State};
 
 /// A campaign that is asked for.
 #[derive(Clone, Debug, Serialize, Deserialize, ToSchema)]
@@ -141,8 +141,8 @@ pub struct ComparedResult {
     pub oracle: Option<u32>,
     /// SHA-256 (hex) of the plugin file.
     pub plugin_sha256: String,
-    /// Name of the outcome.
-    pub outcome: String,
+    /// How it ended.
+    pub outcome: OutcomeName,
     /// Configurations measured.
     pub n: u32,
     /// Wrong answers.

@@ -5,10 +5,12 @@ use std::fmt;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
-use crate::{EngineError, Result};
-
 /// Entries of one part at most.
 const MOST: u32 = 200;
+
+/// Why there is no such part, as a sentence.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadPage(pub String);
 
 /// Which part of a list. Lists go from the newest to the oldest entry, so that what is added meanwhile shifts nothing.
 #[derive(Clone, Debug, Deserialize, IntoParams)]
@@ -34,12 +36,9 @@ impl Default for Page {
 
 impl Page {
     /// Behind which entry the part begins, and how many it holds at most.
-    pub fn start(&self) -> Result<(Cursor, usize)> {
+    pub fn start(&self) -> Result<(Cursor, usize), BadPage> {
         if !(1..=MOST).contains(&self.limit) {
-            return Err(EngineError::Invalid(format!(
-                "A part of a list holds from 1 to {MOST} entries, not {}.",
-                self.limit
-            )));
+            return Err(BadPage(format!("A part of a list holds from 1 to {MOST} entries, not {}.", self.limit)));
         }
         let start = self.cursor.as_deref().map_or(Ok(Cursor::start()), Cursor::parse)?;
         Ok((start, self.limit as usize))
@@ -71,10 +70,10 @@ impl Cursor {
         Self { created_us, id: id.to_owned() }
     }
 
-    fn parse(text: &str) -> Result<Self> {
+    fn parse(text: &str) -> Result<Self, BadPage> {
         let bad = || {
             let mend = "take it from the Link header of the part before";
-            EngineError::Invalid(format!("The cursor {text:?} is no place in a list; {mend}."))
+            BadPage(format!("The cursor {text:?} is no place in a list; {mend}."))
         };
         let (created_us, id) = text.split_once('~').ok_or_else(bad)?;
         Ok(Self { created_us: created_us.parse().map_err(|_| bad())?, id: id.to_owned() })
