@@ -15,17 +15,19 @@ PAGES := $(shell find web/app -type f -not -path '*/node_modules/*' -not -path '
 help: ## print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
-serve: build ## build host, runner, plugins and pages, then serve on 127.0.0.1:8080 (PORT=, DATA=)
+serve: tools pages stock ## build what serves one machine, then serve on 127.0.0.1:8080 (PORT=, DATA=)
+	cargo build --release --no-default-features
+	@$(MAKE) --silent --keep-going plugins-cpp || echo "make: going on without the wrappers that were not built"
 	exec $(TARGET)/release/ocb serve --data $(DATA) --listen 127.0.0.1:$(PORT) --stock-dir target/stock
 
-build: tools pages stock ## the same without serving
+build: tools pages stock ## build all of it: also PostgreSQL, S3, mail, pictures as PNG, the client for services elsewhere
 	cargo build --release
 	@$(MAKE) --silent --keep-going plugins-cpp || echo "make: going on without the wrappers that were not built"
 
 plugins-cpp: ## build the wrappers of the C++ libraries that are installed, and say how to get the others
 	@$(MAKE) --no-print-directory --jobs=$(shell nproc) -C plugins/cpp
 
-plugins-native: ## build FCL, ODE and Bullet from Debian's sources for this CPU, beside Debian's own builds
+plugins-native: ## build parry, and FCL, ODE and Bullet from Debian's sources, for this CPU, beside the usual builds
 	@$(MAKE) --no-print-directory -C plugins/cpp native
 
 # Against your own copy: make plugin-pqp PQP_DIR=/path/to/it, likewise rapid, v-collide, solid (see plugins/cpp/README.md).
@@ -48,6 +50,7 @@ target/stock/dragon.obj: web/stock/package.json web/stock/package-lock.json web/
 check: pages ## rustfmt, clippy, rustdoc, dependencies, tidy tests, TypeScript and its linter: warnings are errors
 	cargo fmt --all --check
 	cargo clippy $(CARGO_FLAGS) --all-targets -- -D warnings
+	cargo clippy --release --no-default-features -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc $(CARGO_FLAGS) --no-deps --document-private-items
 	tests/setup/deny.sh
 	cargo test $(CARGO_FLAGS) --test tidy

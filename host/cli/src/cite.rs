@@ -3,12 +3,10 @@
 use std::process::ExitCode;
 
 use ocb_engine::model::Citation;
-use reqwest::Client;
 
 use crate::args::{CiteArgs, CiteAs, Cited};
 use crate::failure::Result;
 use crate::output;
-use crate::service::answer;
 
 /// Asks the service and prints the text.
 pub async fn cite(args: &CiteArgs, json: bool) -> Result<ExitCode> {
@@ -16,12 +14,7 @@ pub async fn cite(args: &CiteArgs, json: bool) -> Result<ExitCode> {
         Cited::Run => "runs",
         Cited::Plugin => "plugins",
     };
-    let address = args.service.address(&format!("/api/v1/{resource}/{}/citation", args.id));
-    let mut request = Client::new().get(&address);
-    if let Some(token) = &args.service.token {
-        request = request.bearer_auth(token);
-    }
-    let citation: Citation = answer(&address, request.send().await).await?;
+    let citation: Citation = args.service.service().get(&format!("/api/v1/{resource}/{}/citation", args.id)).await?;
     if json {
         output::print_json(&citation)?;
     } else {

@@ -5,12 +5,10 @@ use std::time::Duration;
 
 use ocb_engine::MAX_PLUGIN_BYTES;
 use ocb_engine::model::{Manifest, PluginInfo};
-use reqwest::Client;
-use reqwest::multipart::{Form, Part};
 
 use crate::args::SubmitArgs;
 use crate::failure::{BAD_INPUT, Result};
-use crate::service::answer;
+use crate::service::Upload;
 use crate::{open, output, plugin};
 
 /// The most that a file with a signature has.
@@ -24,27 +22,23 @@ pub async fn submit(args: &SubmitArgs, json: bool) -> Result<ExitCode> {
     let bytes = open::read_bounded(&args.file, MAX_PLUGIN_BYTES)?;
     // Read here first: a slip in it is told before anything is sent.
     let manifest: Manifest = plugin::json_file(&args.manifest)?;
-    let plugins = args.service.address("/api/v1/plugins");
-    let token = &args.service.token;
-    let client = Client::new();
+    let service = args.service.service();
     let name = args.file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let mut form = Form::new().text("manifest", output::to_json(&manifest)?);
+    let mut fields = vec![("manifest", output::to_json(&manifest)?)];
     if let Some(file) = &args.signature {
         let signature = open::read_bounded(file, MAX_SIGNATURE_BYTES)?;
-        form = form.text("signature", String::from_utf8_lossy(&signature).into_owned());
+        fields.push(("signature", String::from_utf8_lossy(&signature).into_owned()));
     }
-    let form = form.part("file", Part::bytes(bytes).file_name(name));
-    let sent = client.post(&plugins).bearer_auth(token).multipart(form).send().await;
-    let mut info: PluginInfo = answer(&plugins, sent).await?;
+    let upload = Upload { fields, file: (name, bytes) };
+    let mut info: PluginInfo = service.upload("/api/v1/plugins", upload).await?;
     let mut told = 0;
     while info.state.is_checking() && !args.no_wait {
         told = tell(&info, told, json)?;
         tokio::time::sleep(LOOK).await;
-        let address = format!("{plugins}/{}", info.id);
-        info = answer(&address, client.get(&address).bearer_auth(token).send().await).await?;
+        info = service.get(&format!("/api/v1/plugins/{}", info.id)).await?;
     }
     tell(&info, told, json)?;
-    let page = args.service.address(&format!("/p/{}", info.id));
+    let page = service.address(&format!("/p/{}", info.id));
     if json {
         output::print_json(&info)?;
     } else {

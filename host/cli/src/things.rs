@@ -6,12 +6,10 @@ use std::process::ExitCode;
 
 use ocb_engine::Engine;
 use ocb_engine::model::Things;
-use reqwest::{Client, Method, RequestBuilder};
 
 use crate::args::{Deleted, PlaceArgs, ServiceArgs, Store, ThingsCommand};
 use crate::failure::{Failure, Result};
 use crate::open::{self, OWNER, Purpose};
-use crate::service::{answer, save};
 use crate::{output, run, units};
 
 /// Where the things are.
@@ -65,10 +63,7 @@ async fn take_along(place: &Place, path: &Path, json: bool) -> Result<()> {
             let mut file = std::fs::File::create(path).map_err(unwritten)?;
             std::io::copy(&mut packed, &mut file).map_err(unwritten)?
         }
-        Place::There(service) => {
-            let (address, request) = request(service, Method::GET, "/api/v1/things.tar");
-            save(&address, request.send().await, path).await?
-        }
+        Place::There(service) => service.service().save("/api/v1/things.tar", path).await?,
     };
     if json {
         return output::print_json(&serde_json::json!({ "file": path, "bytes": bytes }));
@@ -104,8 +99,7 @@ impl Place {
                     Deleted::All => "/api/v1/things".to_owned(),
                     one => format!("{}/things", path_of(one, id)),
                 };
-                let (address, request) = request(service, Method::GET, &path);
-                answer(&address, request.send().await).await
+                service.service().get(&path).await
             }
         }
     }
@@ -117,10 +111,7 @@ impl Place {
                 Deleted::Object => engine.remove_object(id, OWNER).await?,
                 Deleted::All => engine.remove_things(OWNER).await?,
             }),
-            Self::There(service) => {
-                let (address, request) = request(service, Method::DELETE, &path_of(what, id));
-                answer(&address, request.send().await).await
-            }
+            Self::There(service) => service.service().delete(&path_of(what, id)).await,
         }
     }
 }
@@ -131,12 +122,6 @@ fn path_of(what: Deleted, id: &str) -> String {
         Deleted::Object => format!("/api/v1/objects/{id}"),
         Deleted::All => "/api/v1/things".to_owned(),
     }
-}
-
-fn request(service: &ServiceArgs, method: Method, path: &str) -> (String, RequestBuilder) {
-    let address = service.address(path);
-    let request = Client::new().request(method, &address).bearer_auth(&service.token);
-    (address, request)
 }
 
 /// Asks on the terminal; without one nobody can say yes.

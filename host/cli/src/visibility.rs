@@ -3,13 +3,11 @@
 use std::process::ExitCode;
 
 use ocb_engine::model::{ObjectInfo, RunInfo, Visibility};
-use reqwest::Client;
 use serde_json::json;
 
 use crate::args::{Shown, VisibilityArgs};
 use crate::failure::Result;
 use crate::output;
-use crate::service::answer;
 
 /// Tells the service, and says how it is then.
 pub async fn visibility(args: &VisibilityArgs, json: bool) -> Result<ExitCode> {
@@ -17,17 +15,17 @@ pub async fn visibility(args: &VisibilityArgs, json: bool) -> Result<ExitCode> {
         Shown::Run => "runs",
         Shown::Object => "objects",
     };
-    let address = args.service.address(&format!("/api/v1/{resource}/{}/visibility", args.id));
+    let path = format!("/api/v1/{resource}/{}/visibility", args.id);
     let asked = json!({ "visibility": Visibility::from(args.to) });
-    let sent = Client::new().put(&address).bearer_auth(&args.service.token).json(&asked).send().await;
+    let service = args.service.service();
     match args.what {
         Shown::Run => {
-            let run: RunInfo = answer(&address, sent).await?;
+            let run: RunInfo = service.put(&path, &asked).await?;
             let name = format!("{} x {}", run.object_a_name, run.object_b_name);
             tell(&run, &name, run.visibility, json)
         }
         Shown::Object => {
-            let object: ObjectInfo = answer(&address, sent).await?;
+            let object: ObjectInfo = service.put(&path, &asked).await?;
             tell(&object, &object.name, object.visibility, json)
         }
     }

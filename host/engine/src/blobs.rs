@@ -3,10 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use object_store::aws::AmazonS3Builder;
 use object_store::local::LocalFileSystem;
 use object_store::path::Path as Key;
-use object_store::prefix::PrefixStore;
 use object_store::{ObjectStore, ObjectStoreExt, PutMode, PutOptions, PutPayload};
 use sha2::{Digest, Sha256};
 use tokio::sync::{OwnedRwLockReadGuard, OwnedRwLockWriteGuard, RwLock};
@@ -90,7 +88,15 @@ fn key(sha256: &str) -> Result<Key> {
     Ok(Key::from(format!("blobs/{}/{sha256}", &sha256[..2])))
 }
 
+#[cfg(not(feature = "s3"))]
+fn s3(_: &str) -> Result<Arc<dyn ObjectStore>> {
+    Err(EngineError::left_out("S3"))
+}
+
+#[cfg(feature = "s3")]
 fn s3(url: &str) -> Result<Arc<dyn ObjectStore>> {
+    use object_store::aws::AmazonS3Builder;
+    use object_store::prefix::PrefixStore;
     let bad = || {
         EngineError::Invalid(format!(
             "The blob storage {url:?} is not understood; write s3://bucket/prefix?endpoint=http://host:port."

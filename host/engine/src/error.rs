@@ -38,6 +38,13 @@ impl EngineError {
         Self::Fault(format!("This is our fault, not yours; the service's log has the cause under {number}."))
     }
 
+    /// What this program was compiled without.
+    pub fn left_out(what: &str) -> Self {
+        Self::Invalid(format!(
+            "This ocb was built without {what}, as `make serve` does; `make build` builds all of it."
+        ))
+    }
+
     /// A fault with the step at which it happened.
     pub(crate) fn fault(step: &str, cause: impl std::fmt::Display) -> Self {
         Self::Fault(format!("{step}: {cause}."))

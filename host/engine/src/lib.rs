@@ -19,6 +19,7 @@ mod engine;
 mod error;
 mod estimate;
 mod machine;
+#[cfg_attr(not(feature = "mail"), allow(dead_code))]
 mod mail;
 mod measure;
 mod objects;

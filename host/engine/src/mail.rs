@@ -1,5 +1,9 @@
 //! Mails: the server that takes them, what stands in them, and bringing one there.
 
+#[cfg(feature = "mail")]
+mod delivery;
+#[cfg(not(feature = "mail"))]
+#[path = "mail/no_delivery.rs"]
 mod delivery;
 mod letter;
 
@@ -7,7 +11,6 @@ use std::fmt;
 use std::time::Duration;
 
 use lettre::Address;
-use lettre::transport::smtp::client::Certificate;
 use percent_encoding::percent_decode_str;
 use url::{Host, Url};
 
@@ -23,8 +26,8 @@ pub struct MailServer {
     port: u16,
     security: Security,
     credentials: Option<(String, String)>,
-    /// Whom its certificate may be from, beside those that the machine trusts.
-    authorities: Option<Certificate>,
+    /// Whom its certificate may be from, beside those that the machine trusts: certificates as PEM.
+    authorities: Option<Vec<u8>>,
     from: Address,
     /// Where the pages of this service are, without a slash at its end.
     origin: String,
@@ -89,6 +92,9 @@ impl MailServer {
     /// # Errors
     /// `Invalid`, with a sentence that holds nothing of the URL: it has a password in it.
     pub fn new(url: &str, from: &str, origin: &str) -> Result<Self> {
+        if cfg!(not(feature = "mail")) {
+            return Err(EngineError::left_out("mail"));
+        }
         let wrong = |what: &str| {
             let shape = "smtps://user:password@host:port, with %XX for odd characters of the password";
             EngineError::Invalid(format!("The URL of the mail server {what}; it looks like {shape}."))
@@ -147,7 +153,7 @@ impl MailServer {
         if !String::from_utf8_lossy(pem).contains("-----BEGIN CERTIFICATE-----") {
             return Err(wrong("holds no certificate"));
         }
-        self.authorities = Some(Certificate::from_pem(pem).map_err(|_| wrong("cannot be read"))?);
+        self.authorities = Some(pem.to_vec());
         self.tls().map_err(|_| wrong("holds a certificate that cannot be read"))?;
         if self.security == Security::Plain {
             self.security = Security::StartTls;

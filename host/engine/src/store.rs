@@ -74,6 +74,9 @@ impl Store {
             None => sqlite_url(data)?,
         };
         let sqlite = options.database_url.scheme() == "sqlite";
+        if !sqlite && cfg!(not(feature = "postgres")) {
+            return Err(EngineError::left_out("PostgreSQL"));
+        }
         let pool = AnyPoolOptions::new()
             // One process owns the file and SQLite has one writer anyway; more connections only wait for each other.
             .max_connections(if sqlite { 4 } else { 8 })

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use lettre::Message;
 use lettre::transport::smtp::authentication::{Credentials, DEFAULT_MECHANISMS};
-use lettre::transport::smtp::client::{AsyncSmtpConnection, TlsParameters, TlsParametersBuilder};
+use lettre::transport::smtp::client::{AsyncSmtpConnection, Certificate, TlsParameters, TlsParametersBuilder};
 use lettre::transport::smtp::extension::ClientId;
 use lettre::transport::smtp::response::Code;
 
@@ -57,8 +57,11 @@ impl MailServer {
     /// How its certificate is looked at: it must be for this host, by somebody whom the machine trusts or who was named.
     pub(super) fn tls(&self) -> Result<TlsParameters, lettre::transport::smtp::Error> {
         let how = TlsParametersBuilder::new(self.host.clone());
-        let named = self.authorities.clone();
-        named.into_iter().fold(how, TlsParametersBuilder::add_root_certificate).build()
+        let how = match &self.authorities {
+            Some(pem) => how.add_root_certificate(Certificate::from_pem(pem)?),
+            None => how,
+        };
+        how.build()
     }
 }
 
