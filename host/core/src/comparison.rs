@@ -7,7 +7,7 @@
 use rayon::prelude::*;
 
 use crate::numbers::Numbers;
-use crate::statistics::{Statistic, quantile};
+use crate::statistics::{Statistic, quantile, select_quantile};
 
 /// Official times of one algorithm: for every configuration, round and nanoseconds; nothing where it was not measured.
 pub type Times = [Vec<(u32, f64)>];
@@ -31,6 +31,10 @@ const RESAMPLES: u64 = 400;
 pub struct Comparison {
     /// Mean over the configurations of the median over the processes, nanoseconds.
     pub mean_ns: Interval,
+    /// Median over the configurations of the same.
+    pub median_ns: Interval,
+    /// 95th percentile over the configurations of the same.
+    pub p95_ns: Interval,
     /// Geometric mean of the time divided by the reference's on the same configuration in the same round; absent where
     /// both have nothing in common.
     pub ratio: Option<Interval>,
@@ -45,31 +49,36 @@ pub fn compare(times: &Times, reference: Option<&Times>, rounds: u32, of: u64) -
         None => Vec::new(),
     };
     let whole = rounds > 1 && mine.len() as u64 >= of;
-    let sample = |seed: Option<u64>| -> (f64, Option<f64>) {
+    // Mean, median, 95th percentile, ratio; each where there is something to go by.
+    let sample = |seed: Option<u64>| -> [Option<f64>; 4] {
         let mut draw = Draw::new(seed, rounds, whole);
-        let mean = draw.mean(&mine, |weights, i| weights.median(&times[i]));
+        let mut all = draw.values(&mine, |weights, i| weights.median(&times[i]));
+        let [mean, median, p95] = match all.is_empty() {
+            true => [None; 3],
+            false => [mean(&all), select_quantile(&mut all, 0.5), select_quantile(&mut all, 0.95)].map(Some),
+        };
         let ratio = reference.and_then(|reference| {
             let ratio =
                 |weights: &Weights, i: usize| Some((weights.median(&times[i])? / weights.median(&reference[i])?).ln());
-            draw.mean(&both, ratio).map(f64::exp)
+            let all = draw.values(&both, ratio);
+            (!all.is_empty()).then(|| self::mean(&all).exp())
         });
-        (mean.unwrap_or(f64::NAN), ratio)
+        [mean, median, p95, ratio]
     };
-    if mine.is_empty() {
-        return None;
-    }
-    let (mean, ratio) = sample(None);
-    let resampled: Vec<(f64, Option<f64>)> = (1..=RESAMPLES).into_par_iter().map(|seed| sample(Some(seed))).collect();
-    let interval = |value: f64, mut all: Vec<f64>| {
-        all.retain(|x| x.is_finite());
+    let values = sample(None);
+    let resampled: Vec<[Option<f64>; 4]> = (1..=RESAMPLES).into_par_iter().map(|seed| sample(Some(seed))).collect();
+    let interval = |which: usize| {
+        let value = values[which]?;
+        let mut all: Vec<f64> = resampled.iter().filter_map(|sample| sample[which]).collect();
         all.sort_by(f64::total_cmp);
         let at = |q| if all.is_empty() { value } else { quantile(&all, q) };
-        Interval { value, lo: at(0.025), hi: at(0.975) }
+        Some(Interval { value, lo: at(0.025), hi: at(0.975) })
     };
-    Some(Comparison {
-        mean_ns: interval(mean, resampled.iter().map(|(mean, _)| *mean).collect()),
-        ratio: ratio.map(|value| interval(value, resampled.iter().filter_map(|(_, ratio)| *ratio).collect())),
-    })
+    Some(Comparison { mean_ns: interval(0)?, median_ns: interval(1)?, p95_ns: interval(2)?, ratio: interval(3) })
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
 }
 
 /// How often each round was drawn.
@@ -103,17 +112,10 @@ impl Draw {
         Draw { weights: Weights(weights), numbers, configurations: seed.is_some() && !whole }
     }
 
-    /// Mean over the configurations for which there is a value.
-    fn mean(&mut self, configurations: &[usize], value: impl Fn(&Weights, usize) -> Option<f64>) -> Option<f64> {
-        let (mut sum, mut n) = (0.0, 0u32);
-        for place in 0..configurations.len() {
-            let place = if self.configurations { self.numbers.below(configurations.len()) } else { place };
-            if let Some(x) = value(&self.weights, configurations[place]) {
-                sum += x;
-                n += 1;
-            }
-        }
-        (n > 0).then(|| sum / f64::from(n))
+    /// Of the drawn configurations, where there is a value.
+    fn values(&mut self, configurations: &[usize], value: impl Fn(&Weights, usize) -> Option<f64>) -> Vec<f64> {
+        let draw = |place: usize| if self.configurations { self.numbers.below(configurations.len()) } else { place };
+        (0..configurations.len()).map(draw).filter_map(|place| value(&self.weights, configurations[place])).collect()
     }
 }
 
@@ -136,6 +138,23 @@ mod tests {
     fn overlapping_intervals_are_tied_and_nothing_has_no_rank() {
         let all = [interval(1.0, 2.0), interval(1.5, 2.5), None, interval(2.2, 3.0), interval(9.0, 9.5)];
         assert_eq!(ranks(&all), [Some(1), Some(1), None, Some(2), Some(4)]);
+    }
+
+    /// A process that is 20 % slower than another, on whatever it is asked, moves the median as well as the mean: the ends of
+    /// all intervals are as far apart as the processes are.
+    #[test]
+    fn every_interval_covers_the_processes() {
+        let pace = [1.0, 1.2, 1.1, 1.05, 1.15];
+        let time = |i: usize| 1000.0 + i as f64;
+        let times: Vec<Vec<(u32, f64)>> =
+            (0..500).map(|i| (0..5).map(|round| (round, pace[round as usize] * time(i))).collect()).collect();
+        let found = compare(&times, None, 5, 500).unwrap();
+        for (interval, usual) in [(found.mean_ns, 1249.5), (found.median_ns, 1249.5), (found.p95_ns, 1474.05)] {
+            assert!((interval.value - 1.1 * usual).abs() < 1e-9 * usual, "{interval:?}");
+            assert!(interval.lo < 1.051 * usual && interval.hi > 1.149 * usual, "{interval:?}");
+        }
+        assert_eq!(found.ratio, None);
+        assert_eq!(compare(&[vec![], vec![]], None, 5, 2), None);
     }
 
     #[test]

@@ -67,15 +67,20 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// As `quantile(sorted, 0.5)`, by selection instead of sorting.
 fn median(values: &mut [f64]) -> f64 {
-    let middle = values.len() / 2;
-    let (_, &mut upper, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
-    if values.len() % 2 == 1 {
-        return upper;
+    select_quantile(values, 0.5)
+}
+
+/// As [`quantile`] of the sorted values, by selection instead of sorting; reorders them.
+pub fn select_quantile(values: &mut [f64], q: f64) -> f64 {
+    assert!(!values.is_empty() && (0.0..=1.0).contains(&q), "a quantile needs values and 0 <= q <= 1");
+    let position = q * (values.len() - 1) as f64;
+    let below = position.floor() as usize;
+    let (_, &mut lower, above) = values.select_nth_unstable_by(below, f64::total_cmp);
+    match above.iter().copied().min_by(f64::total_cmp) {
+        Some(upper) => lower + (position - below as f64) * (upper - lower),
+        None => lower,
     }
-    let lower = values[..middle].iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    lower + 0.5 * (upper - lower)
 }
 
 /// Quantile of ascending values, `q` from 0 to 1: linear between order statistics at position q (n-1), which is type 7
@@ -122,8 +127,8 @@ const RESAMPLES: usize = 1_000;
 /// 95 % percentile bootstrap interval of a statistic (Efron 1979): its 2.5 % and 97.5 % quantiles over 1,000 resamples
 /// with replacement. The same values, statistic and seed give the same interval on every machine.
 ///
-/// Meant for smooth statistics such as the mean. For quantiles, [`quantile_interval`] is exact and a thousand times
-/// faster; for the maximum the bootstrap is wrong, see [`maximum_interval`]. Panics when there are no values.
+/// Meant for smooth statistics such as the mean; for the maximum the bootstrap is wrong, see [`maximum_interval`]. Panics when
+/// there are no values.
 pub fn bootstrap_interval(values: &[f64], stat: impl Fn(&mut [f64]) -> f64, seed: u64) -> (f64, f64) {
     assert!(!values.is_empty(), "an interval needs values");
     let mut numbers = Numbers::new(seed);
@@ -136,34 +141,6 @@ pub fn bootstrap_interval(values: &[f64], stat: impl Fn(&mut [f64]) -> f64, seed
         .collect();
     stats.sort_unstable_by(f64::total_cmp);
     (quantile(&stats, (1.0 - LEVEL) / 2.0), quantile(&stats, (1.0 + LEVEL) / 2.0))
-}
-
-/// Interval of a quantile between order statistics of ascending values: assumes nothing about the distribution, and
-/// covers the true quantile in at least 95 % of samples (David and Nagaraja 2003, 7.1).
-///
-/// The number of values below the true q-quantile is binomial (n, q); the ends are the order statistics at its 2.5 % and
-/// 97.5 % points. Where the sample is too small for an end to be that sure (a p95 of 20 values), the end is the smallest
-/// or largest value and the interval covers less. Panics without values or unless 0 < q < 1.
-pub fn quantile_interval(sorted: &[f64], q: f64) -> (f64, f64) {
-    let n = sorted.len();
-    assert!(n > 0 && 0.0 < q && q < 1.0, "an interval needs values and 0 < q < 1");
-    let tail = (1.0 - LEVEL) / 2.0;
-    let (mut lo, mut hi) = (0, n - 1);
-    // By logarithms: (1-q)^n underflows for large n.
-    let (mut ln_pmf, mut at_most_k) = (n as f64 * (1.0 - q).ln(), 0.0);
-    for k in 0..n {
-        at_most_k += ln_pmf.exp();
-        // The quantile lies below order statistic number k+1 (index k) only if at most k values lie below it.
-        if at_most_k <= tail {
-            lo = k;
-        }
-        if at_most_k >= 1.0 - tail {
-            hi = k;
-            break;
-        }
-        ln_pmf += ((n - k) as f64 / (k + 1) as f64 * q / (1.0 - q)).ln();
-    }
-    (sorted[lo], sorted[hi])
 }
 
 /// 95 % interval of a share of which `count` of `n` were seen: Wilson's (1927); when none was seen, from 0 to `3 / n`, the

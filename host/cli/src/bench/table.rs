@@ -38,11 +38,11 @@ pub fn summary(run: &RunInfo) -> String {
     let rows: Vec<Vec<String>> = run.results.iter().map(row).collect();
     if !rows.is_empty() {
         text.push(output::table(&HEADINGS, rows, &[0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13]));
-        text.push(
-            "Times per query in the unit of the files with 95 % interval, tests are means per query, load is of the plugin's file, build of both \
-             structures."
-                .to_owned(),
-        );
+        text.push(format!(
+            "Times per query in the unit of the files with 95 % interval over the processes{}, that of the maximum over the \
+             configurations; tests are means per query, load is of the plugin's file, build of both structures.",
+            processes(&run.results)
+        ));
         text.extend(run.environment.as_ref().and_then(|machine| machine.reference.as_ref()).map(|reference| {
             format!(
                 "Ranks go by the mean ratio to {} on the same configurations in the same rounds, within one class; overlapping \
@@ -178,6 +178,18 @@ fn row(result: &AlgorithmResult) -> Vec<String> {
         result.memory_bytes.map_or_else(dash, units::bytes),
         format!("{}{}", result.outcome.name, by_unit::mark(result)),
     ]
+}
+
+/// In how many processes the algorithms were timed.
+fn processes(results: &[AlgorithmResult]) -> String {
+    let mut all: Vec<u32> =
+        results.iter().filter_map(|r| Some(r.timing.as_ref()?.processes)).filter(|n| *n > 0).collect();
+    all.sort_unstable();
+    match (all.first(), all.last()) {
+        (Some(least), Some(most)) if least == most => format!(" ({least} of each algorithm)"),
+        (Some(least), Some(most)) => format!(" ({least} to {most} of each algorithm)"),
+        _ => String::new(),
+    }
 }
 
 /// Nothing was measured: not the same as zero.

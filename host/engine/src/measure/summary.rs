@@ -7,7 +7,7 @@ use ocb_core::query::{Answer, Query, Semantics};
 use ocb_core::record::{ContactScore, Record, Verdict};
 use ocb_core::resolution::Resolution;
 use ocb_core::sampling::controls::Control;
-use ocb_core::statistics::{Statistic, maximum_interval, quantile, quantile_interval};
+use ocb_core::statistics::{Statistic, maximum_interval};
 use ocb_core::validation::Terms;
 
 use ocb_sandbox::clock::Clock;
@@ -60,7 +60,7 @@ pub fn summarise(
     let set_up = |of: fn(&SetUp) -> f64| {
         Statistic::Median.of(&mut measured.set_ups.iter().map(of).collect::<Vec<_>>()).map(|ns| ns / 1e6)
     };
-    let time = compared.map(|compared| time_summary(measured, compared.mean_ns.into()));
+    let time = compared.map(|compared| time_summary(measured, compared));
     let units = by_unit::of(measured, reference, time.as_ref());
     AlgorithmResult {
         algorithm: measured.contestant.info.id.clone(),
@@ -132,16 +132,15 @@ fn contact_quality(records: &[Record]) -> Option<ContactQuality> {
     })
 }
 
-fn time_summary(measured: &Measured, mean_ns: Estimated) -> TimeSummary {
+fn time_summary(measured: &Measured, compared: Comparison) -> TimeSummary {
     let mut times: Vec<f64> = measured.records.iter().map(|r| r.time_ns).collect();
     times.sort_unstable_by(f64::total_cmp);
-    let of = |value: f64, (lo, hi): (f64, f64)| Estimated { value, lo, hi };
-    let at = |q: f64| of(quantile(&times, q), quantile_interval(&times, q));
+    let (lo, hi) = maximum_interval(&times);
     TimeSummary {
-        mean_ns,
-        median_ns: at(0.5),
-        p95_ns: at(0.95),
-        max_ns: of(times[times.len() - 1], maximum_interval(&times)),
+        mean_ns: compared.mean_ns.into(),
+        median_ns: compared.median_ns.into(),
+        p95_ns: compared.p95_ns.into(),
+        max_ns: Estimated { value: times[times.len() - 1], lo, hi },
         below_resolution: measured.records.iter().filter(|r| r.below_resolution).count() as u32,
     }
 }
