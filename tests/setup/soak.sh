@@ -6,7 +6,8 @@
 # (OCB_KILLS), two hundred visitors come for a minute (OCB_LOAD_SECONDS), and must not change sixty runs (OCB_LOAD_ROUNDS),
 # every route is asked a hundred times and more (OCB_API_EXAMPLES), and an honest visitor goes on beside hostile ones and ten
 # thousand waiting runs for an hour (OCB_HOSTILE_MINUTES); two hundred runs of forged plugins, in an hour and a half (OCB_FORGERS),
-# which want a machine with nothing else on it. Then the restart tests (the service is killed at every
+# which want a machine with nothing else on it; the libraries built for this CPU (`make plugins-native`) answer as they should.
+# Then the restart tests (the service is killed at every
 # stage of a run) over and over. The first failure ends it; the last line says how often they passed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -24,6 +25,18 @@ OCB_KILLS=${OCB_KILLS:-200} OCB_LOAD_SECONDS=${OCB_LOAD_SECONDS:-60} OCB_LOAD_RO
 OCB_FORGERS=${OCB_FORGERS:-200} cargo test --release --workspace --test forgers -- --nocapture
 meshes=${OCB_SHARED:-../shared}/meshes
 target/release/ocb --data "$(mktemp -d)" advise "$meshes/bunny65k.obj" "$meshes/rocker-arm.obj" --held-out "${OCB_HELD_OUT:-100000}"
+make -s plugins-native
+native=fcl-native,bullet-native,parry-native,parry-f32-native
+target/release/ocb --json --data "$(mktemp -d)" bench torus-knot@5000 --count 1000 --distance 0.01 --query cd --algorithm "$native" > target/native.json
+python3 - target/native.json "$native" <<'CHECK'
+import json, sys
+rows = {row["algorithm"]: row for row in json.load(open(sys.argv[1]))["results"]}
+for name in sys.argv[2].split(","):
+    row = rows[name]
+    assert row["rank"] and row["wrong"] == 0, (name, row["rank"], row["wrong"])
+    sets = {each for build in row["builds"] for each in build["instruction_sets"]}
+    assert "AVX" in sets or "AVX2" in sets, (name, sets)
+CHECK
 rounds=0
 started=$SECONDS
 while [ $((SECONDS - started)) -lt $((minutes * 60)) ]; do

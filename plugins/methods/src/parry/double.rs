@@ -10,8 +10,9 @@ use parry3d_f64 as library;
 pub use wrapper::Parry;
 
 const ABOUT: About = About {
-    id: c"parry",
-    name: c"parry",
+    // `make plugins-native` compiles it once more, for this CPU.
+    id: if option_env!("OCB_VARIANT").is_some() { c"parry-native" } else { c"parry" },
+    name: if option_env!("OCB_VARIANT").is_some() { c"parry-native" } else { c"parry" },
     version: c"0.31.1",
     authors: c"S\xc3\xa9bastien Crozet and the parry contributors; wrapped by the OpenCollBench contributors",
     license: c"Apache-2.0",

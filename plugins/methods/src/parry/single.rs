@@ -10,8 +10,13 @@ use parry3d as library;
 pub use wrapper::Parry;
 
 const ABOUT: About = About {
-    id: c"parry-f32",
-    name: c"parry, single precision",
+    // `make plugins-native` compiles it once more, for this CPU.
+    id: if option_env!("OCB_VARIANT").is_some() { c"parry-f32-native" } else { c"parry-f32" },
+    name: if option_env!("OCB_VARIANT").is_some() {
+        c"parry, single precision-native"
+    } else {
+        c"parry, single precision"
+    },
     version: c"0.31.1",
     authors: c"S\xc3\xa9bastien Crozet and the parry contributors; wrapped by the OpenCollBench contributors",
     license: c"Apache-2.0",
