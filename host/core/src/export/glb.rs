@@ -1,11 +1,6 @@
 //! glTF 2.0 binary.
 
-use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
-use gltf_json::buffer::{Stride, Target, View};
-use gltf_json::mesh::{Mode, Primitive, Semantic};
-use gltf_json::validation::{Checked, USize64};
-use gltf_json::{Accessor, Index, Root};
-use serde_json::{json, value::RawValue};
+use serde_json::{Value, json};
 
 use super::Legend;
 use crate::colormap;
@@ -38,12 +33,12 @@ pub fn heatmap(mesh: &Mesh, values: &VertexValues, legend: &Legend) -> Vec<u8> {
         })
         .flat_map(u16::to_le_bytes)
         .collect();
-    file.attribute(Semantic::Colors(0), Type::Vec4, ComponentType::U16, true, &colors);
+    file.attribute("COLOR_0", VEC4, U16, &colors);
     let raw: Vec<u8> =
         values.values.iter().flat_map(|v| (v.unwrap_or(no_value(legend)) as f32).to_le_bytes()).collect();
-    file.attribute(Semantic::Extras("VALUE".into()), Type::Scalar, ComponentType::F32, false, &raw);
+    file.attribute("_VALUE", SCALAR, F32, &raw);
     let counts: Vec<u8> = values.counts.iter().flat_map(|&c| (c as f32).to_le_bytes()).collect();
-    file.attribute(Semantic::Extras("COUNT".into()), Type::Scalar, ComponentType::F32, false, &counts);
+    file.attribute("_COUNT", SCALAR, F32, &counts);
     file.finish("OpenCollBench heatmap", Some(json!({ "ocb": legend_json(legend) })))
 }
 
@@ -53,7 +48,7 @@ fn no_value(legend: &Legend) -> f64 {
     if legend.against.is_none() { -1.0 } else { f64::from(f32::MIN) }
 }
 
-fn legend_json(legend: &Legend) -> serde_json::Value {
+fn legend_json(legend: &Legend) -> Value {
     let mut known = json!({
         "run": legend.run, "algorithm": legend.algorithm, "measure": legend.measure, "statistic": legend.statistic,
         "outliers": legend.outliers, "unit": legend.unit, "range": legend.range, "scale": legend.scale,
@@ -74,37 +69,38 @@ fn linear_u16(component: u8) -> u16 {
     (linear * 65535.0).round() as u16
 }
 
-/// One mesh of one primitive, growing attribute by attribute.
+// The names and numbers of the glTF 2.0 specification, 3.6 and 3.7.
+const SCALAR: &str = "SCALAR";
+const VEC3: &str = "VEC3";
+const VEC4: &str = "VEC4";
+const U16: u32 = 5123;
+const U32: u32 = 5125;
+const F32: u32 = 5126;
+const ARRAY_BUFFER: u32 = 34962;
+const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+const TRIANGLES: u32 = 4;
+
+/// One mesh of one primitive, growing attribute by attribute. The tests read it with a library of its own.
 struct File {
-    root: Root,
-    primitive: Primitive,
+    accessors: Vec<Value>,
+    views: Vec<Value>,
+    attributes: serde_json::Map<String, Value>,
+    indices: usize,
     /// The one buffer; every view in it starts at a multiple of 4.
     bytes: Vec<u8>,
-    buffer: Index<gltf_json::Buffer>,
     vertices: usize,
 }
 
 impl File {
     fn new(mesh: &Mesh) -> Self {
-        let mut root = Root::default();
-        root.asset.generator = Some(concat!("OpenCollBench ", env!("CARGO_PKG_VERSION")).into());
-        let buffer = root.push(gltf_json::Buffer {
-            byte_length: USize64(0),
-            name: None,
-            uri: None,
-            extensions: None,
-            extras: None,
-        });
-        let primitive = Primitive {
-            attributes: Default::default(),
-            extensions: None,
-            extras: None,
-            indices: None,
-            material: None,
-            mode: Checked::Valid(Mode::Triangles),
-            targets: None,
-        };
-        Self { root, primitive, bytes: Vec::new(), buffer, vertices: mesh.positions().len() }
+        Self {
+            accessors: Vec::new(),
+            views: Vec::new(),
+            attributes: serde_json::Map::new(),
+            indices: 0,
+            bytes: Vec::new(),
+            vertices: mesh.positions().len(),
+        }
     }
 
     fn positions(&mut self, mesh: &Mesh) {
@@ -113,89 +109,58 @@ impl File {
         let lo = single.iter().fold([f32::INFINITY; 3], |a, p| [0, 1, 2].map(|k| a[k].min(p[k])));
         let hi = single.iter().fold([f32::NEG_INFINITY; 3], |a, p| [0, 1, 2].map(|k| a[k].max(p[k])));
         let bytes: Vec<u8> = single.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
-        let accessor = self.attribute(Semantic::Positions, Type::Vec3, ComponentType::F32, false, &bytes);
-        let accessor = &mut self.root.accessors[accessor.value()];
-        accessor.min = Some(json!(lo));
-        accessor.max = Some(json!(hi));
+        let accessor = self.attribute("POSITION", VEC3, F32, &bytes);
+        self.accessors[accessor]["min"] = json!(lo);
+        self.accessors[accessor]["max"] = json!(hi);
     }
 
     fn indices(&mut self, mesh: &Mesh) {
         let bytes: Vec<u8> = mesh.triangles().iter().flatten().flat_map(|i| i.to_le_bytes()).collect();
-        let view = self.view(&bytes, None, Target::ElementArrayBuffer);
-        let count = 3 * mesh.triangles().len();
-        self.primitive.indices = Some(self.accessor(view, count, Type::Scalar, ComponentType::U32, false));
+        let view = self.view(&bytes, None, ELEMENT_ARRAY_BUFFER);
+        self.indices = self.accessor(view, 3 * mesh.triangles().len(), SCALAR, U32);
     }
 
-    fn attribute(
-        &mut self,
-        name: Semantic,
-        kind: Type,
-        component: ComponentType,
-        normalized: bool,
-        bytes: &[u8],
-    ) -> Index<Accessor> {
-        let view = self.view(bytes, Some(bytes.len() / self.vertices), Target::ArrayBuffer);
-        let accessor = self.accessor(view, self.vertices, kind, component, normalized);
-        self.primitive.attributes.insert(Checked::Valid(name), accessor);
+    /// Whole numbers stand for shares of their largest value.
+    fn attribute(&mut self, name: &str, kind: &str, component: u32, bytes: &[u8]) -> usize {
+        let view = self.view(bytes, Some(bytes.len() / self.vertices), ARRAY_BUFFER);
+        let accessor = self.accessor(view, self.vertices, kind, component);
+        if component == U16 {
+            self.accessors[accessor]["normalized"] = json!(true);
+        }
+        self.attributes.insert(name.into(), json!(accessor));
         accessor
     }
 
-    fn view(&mut self, bytes: &[u8], stride: Option<usize>, target: Target) -> Index<View> {
+    fn view(&mut self, bytes: &[u8], stride: Option<usize>, target: u32) -> usize {
         let offset = self.bytes.len();
         self.bytes.extend_from_slice(bytes);
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
-        self.root.push(View {
-            buffer: self.buffer,
-            byte_length: bytes.len().into(),
-            byte_offset: Some(offset.into()),
-            byte_stride: stride.map(Stride),
-            name: None,
-            target: Some(Checked::Valid(target)),
-            extensions: None,
-            extras: None,
-        })
+        let mut view = json!({ "buffer": 0, "byteLength": bytes.len(), "byteOffset": offset, "target": target });
+        if let Some(stride) = stride {
+            view["byteStride"] = json!(stride);
+        }
+        self.views.push(view);
+        self.views.len() - 1
     }
 
-    fn accessor(
-        &mut self,
-        view: Index<View>,
-        count: usize,
-        kind: Type,
-        component: ComponentType,
-        normalized: bool,
-    ) -> Index<Accessor> {
-        self.root.push(Accessor {
-            buffer_view: Some(view),
-            byte_offset: None,
-            count: count.into(),
-            component_type: Checked::Valid(GenericComponentType(component)),
-            type_: Checked::Valid(kind),
-            min: None,
-            max: None,
-            name: None,
-            normalized,
-            sparse: None,
-            extensions: None,
-            extras: None,
-        })
+    fn accessor(&mut self, view: usize, count: usize, kind: &str, component: u32) -> usize {
+        self.accessors.push(json!({ "bufferView": view, "count": count, "componentType": component, "type": kind }));
+        self.accessors.len() - 1
     }
 
     /// Header, JSON chunk and binary chunk.
-    fn finish(mut self, name: &str, extras: Option<serde_json::Value>) -> Vec<u8> {
-        self.root.buffers[self.buffer.value()].byte_length = self.bytes.len().into();
-        let extras = extras.map(|e| RawValue::from_string(e.to_string()).expect("just serialised"));
-        let mesh = self.root.push(gltf_json::Mesh {
-            extensions: None,
-            extras,
-            name: Some(name.into()),
-            primitives: vec![self.primitive],
-            weights: None,
+    fn finish(self, name: &str, extras: Option<Value>) -> Vec<u8> {
+        let primitive = json!({ "attributes": self.attributes, "indices": self.indices, "mode": TRIANGLES });
+        let mut mesh = json!({ "name": name, "primitives": [primitive] });
+        if let Some(extras) = extras {
+            mesh["extras"] = extras;
+        }
+        let document = json!({
+            "asset": { "version": "2.0", "generator": concat!("OpenCollBench ", env!("CARGO_PKG_VERSION")) },
+            "accessors": self.accessors, "bufferViews": self.views, "buffers": [{ "byteLength": self.bytes.len() }],
+            "meshes": [mesh], "nodes": [{ "mesh": 0 }], "scenes": [{ "nodes": [0] }], "scene": 0,
         });
-        let node = self.root.push(gltf_json::Node { mesh: Some(mesh), ..Default::default() });
-        let scene = self.root.push(gltf_json::Scene { extensions: None, extras: None, name: None, nodes: vec![node] });
-        self.root.scene = Some(scene);
-
-        let mut json = self.root.to_vec().expect("the document holds only strings and finite numbers");
+        let mut json = document.to_string().into_bytes();
         json.resize(json.len().next_multiple_of(4), b' ');
         let mut glb = Vec::with_capacity(28 + json.len() + self.bytes.len());
         let word = |n: usize| u32::try_from(n).expect("a mesh within the caps stays below 4 GiB").to_le_bytes();
