@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use ocb_engine::EngineError;
+use ocb_engine::{EngineError, LabError};
 
 /// Exit code: ours or the machine's fault.
 pub const OUR_FAULT: u8 = 1;
@@ -50,6 +50,12 @@ impl Failure {
 fn reason(error: &std::io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or(&text).to_lowercase()
+}
+
+impl From<LabError> for Failure {
+    fn from(error: LabError) -> Self {
+        EngineError::from(error).into()
+    }
 }
 
 impl From<EngineError> for Failure {

@@ -13,6 +13,7 @@ use ocb_core::configuration::{Configuration, ConfigurationSet, Method};
 use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::sampling::controls::{self, Control};
+use ocb_lab::contestant::Contestant;
 use tokio::runtime::Handle;
 
 use crate::columns::{RecordsOf, records_parquet};
@@ -22,7 +23,6 @@ use crate::engine::Inner;
 use crate::machine::{MakingWay, MeasuringRight};
 use crate::measure::{self, Asked, Measured, News, Part, Stop, Task};
 use crate::model::{AlgorithmResult, Environment, Preview, RunSpec, SetInfo, State};
-use crate::registry::Contestant;
 use crate::runlog::RunLog;
 use crate::store::{RunRow, StoredResult};
 use crate::suite::{Suite, drawn_anew};
@@ -164,7 +164,7 @@ impl Bench<'_> {
     /// The run's configuration file, if it has one.
     fn configuration_file(&self) -> Result<Option<ConfigurationFile>> {
         let Method::File { sha256 } = &self.row.spec.method else { return Ok(None) };
-        configurations::read_file(&self.log.wait(self.inner.blobs.get(sha256))?).map(Some)
+        Ok(Some(configurations::read_file(&self.log.wait(self.inner.blobs.get(sha256))?)?))
     }
 
     /// Finds the set on all CPUs while this thread reports.
@@ -179,7 +179,7 @@ impl Bench<'_> {
         let gauge = Gauge::default();
         let longest_side = pairing.mesh_a.longest_side();
         let gauge = &gauge;
-        let set = thread::scope(|scope| {
+        let set = thread::scope(|scope| -> Result<_> {
             let mut way = MakingWay::begin(&self.inner.machine);
             let worker = scope.spawn(|| configurations::make(&pairing.a, &pairing.b, longest_side, spec, poses, gauge));
             while !worker.is_finished() {
@@ -191,7 +191,8 @@ impl Bench<'_> {
                 // A grid looks for some more than wanted.
                 self.log.progress_slowly(CONFIGURATIONS, gauge.done.load(Ordering::Relaxed).min(total), total)?;
             }
-            worker.join().unwrap_or_else(|_| Err(EngineError::Fault("Finding the configurations broke down.".into())))
+            let found = worker.join();
+            Ok(found.map_err(|_| EngineError::Fault("Finding the configurations broke down.".into()))??)
         })?;
         if set.is_some() {
             self.log.progress(CONFIGURATIONS, total, total)?;
@@ -242,10 +243,10 @@ impl Bench<'_> {
         // The reference has no lane of its own unless somebody asked for it; the first lane says that it is at work.
         let mut noted = false;
         thread::scope(|scope| -> Result<()> {
-            let (registry, machine, stop) = (&self.inner.registry, &self.inner.machine, self.stop);
+            let (runner, machine, stop) = (self.inner.registry.runner(), &self.inner.machine, self.stop);
             let worker = thread::Builder::new()
                 .name("measuring".into())
-                .spawn_scoped(scope, move || measure::measure(&task, registry, machine, stop, &sender))
+                .spawn_scoped(scope, move || measure::measure(&task, runner, machine, stop, &sender))
                 .map_err(|e| EngineError::fault("Starting the measuring thread failed", e))?;
             loop {
                 match news.recv_timeout(TICK) {

@@ -4,13 +4,14 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
+use ocb_lab::check::{Extent, Term, check_plugin};
 use tokio::runtime::Handle;
 
 use crate::engine::{Inner, conflict, of_check};
 use crate::machine::MeasuringRight;
 use crate::measure::Stop;
 use crate::model::{CheckLine, CheckVerdict, PluginReport, PluginState};
-use crate::registry::{Extent, Term, brought, check_plugin};
+use crate::registry::brought;
 use crate::store::{Note, SubmissionRow, THE_SERVICE};
 use crate::{EngineError, Result};
 
@@ -76,7 +77,7 @@ fn check(
     };
     let extent = Extent { manifest: Some(row.manifest.clone()), ..Extent::default() };
     let term = Term::new(stop, inner.config.check_limit);
-    let report = check_plugin(&inner.config.runner, file, inner.config.profile, &extent, &term, &mut tell)?;
+    let report = check_plugin(inner.registry.runner(), file, &extent, &term, &mut tell)?;
     fault.map_or(Ok(Some(report)), Err)
 }
 

@@ -6,7 +6,7 @@ use std::time::Duration;
 pub use ocb_sandbox::Profile;
 
 use crate::mail::MailServer;
-use crate::registry::CHECK_LIMIT;
+use ocb_lab::check::CHECK_LIMIT;
 
 /// Limits of the measuring time that visitors may have queued and running: budget times algorithms.
 #[derive(Clone, Copy, Debug, PartialEq)]

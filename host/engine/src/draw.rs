@@ -6,9 +6,10 @@
 
 use std::sync::Arc;
 
-use crate::blobs::sha256_hex;
+use ocb_lab::contestant::Contestant;
+
 use crate::model::Draw;
-use crate::registry::Contestant;
+use crate::sha256_hex;
 use crate::store::RunRow;
 
 /// Seeds are below this: a JavaScript reader keeps them exactly.

@@ -47,6 +47,7 @@ use ocb_core::configuration::{ConfigurationSet, Method};
 use ocb_core::heatmap::VertexMap;
 use ocb_core::mesh::Mesh;
 use ocb_core::oracle::Shape;
+use ocb_lab::check::{Extent, Term, check_plugin};
 use tokio::sync::Notify;
 use tokio::task::JoinHandle;
 
@@ -61,7 +62,7 @@ use crate::model::{
     AlgorithmInfo, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, Page, Part, PluginReport, RunSpec, Status,
 };
 use crate::objects::{Objects, blocking};
-use crate::registry::{Extent, Registry, Term, check_plugin};
+use crate::registry::Registry;
 use crate::results::Format;
 use crate::runlog::Bell;
 use crate::store::Store;
@@ -260,7 +261,11 @@ impl Engine {
     /// names it in a [`RunSpec`].
     #[boxed]
     pub async fn add_configurations(&self, bytes: Vec<u8>) -> Result<Method> {
-        let bytes = blocking(move || configurations::read_file(&bytes).map(|_| bytes)).await?;
+        let bytes = blocking(move || {
+            configurations::read_file(&bytes)?;
+            Ok(bytes)
+        })
+        .await?;
         let length = bytes.len();
         let _keeping = self.inner.blobs.keeping().await;
         let sha256 = self.inner.blobs.put(bytes).await?;
@@ -278,16 +283,17 @@ impl Engine {
     /// What is wrong with the plugin is in the report; an error means that the check itself could not be made.
     #[boxed]
     pub async fn check_plugin(&self, file: &Path, extent: Extent) -> Result<PluginReport> {
-        let (runner, file, profile) = (self.inner.config.runner.clone(), file.to_owned(), self.inner.config.profile);
+        let (runner, file) = (self.inner.registry.runner().clone(), file.to_owned());
         // A thread of its own: a jail ends with the thread that started it.
         let (sender, report) = tokio::sync::oneshot::channel();
         let limit = self.inner.config.check_limit;
         std::thread::spawn(move || {
             let stop = Stop::default();
             let term = Term::new(&stop, limit);
-            sender.send(check_plugin(&runner, &file, profile, &extent, &term, &mut |_| true))
+            sender.send(check_plugin(&runner, &file, &extent, &term, &mut |_| true))
         });
-        report.await.unwrap_or_else(|_| Err(EngineError::Fault("The plugin check broke down.".into())))
+        let report = report.await.map_err(|_| EngineError::Fault("The plugin check broke down.".into()))?;
+        Ok(report?)
     }
 
     /// Number of configurations, expected time and wait of a run that is not asked for yet; checks the spec as `submit`.

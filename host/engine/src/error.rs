@@ -51,6 +51,16 @@ impl EngineError {
     }
 }
 
+impl From<ocb_lab::LabError> for EngineError {
+    fn from(e: ocb_lab::LabError) -> Self {
+        match e {
+            ocb_lab::LabError::Invalid(sentence) => Self::Invalid(sentence),
+            ocb_lab::LabError::Busy(sentence) => Self::Busy(sentence),
+            ocb_lab::LabError::Fault(sentence) => Self::Fault(sentence),
+        }
+    }
+}
+
 impl From<ocb_model::BadPage> for EngineError {
     fn from(ocb_model::BadPage(sentence): ocb_model::BadPage) -> Self {
         Self::Invalid(sentence)

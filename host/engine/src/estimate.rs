@@ -2,13 +2,13 @@
 
 use ocb_core::instance::OTHER_UNITS;
 use ocb_core::sampling::controls;
+use ocb_lab::contestant::Contestant;
 
 use crate::Result;
 use crate::configurations::set_key;
 use crate::engine::Inner;
 use crate::measure::asked_in_another_unit;
 use crate::model::{AlgorithmSeconds, Estimate};
-use crate::registry::Contestant;
 use crate::spec::{self, Checked};
 use crate::store::now_us;
 

@@ -12,43 +12,40 @@ mod charts;
 mod checks;
 mod columns;
 mod config;
-mod configurations;
 mod dispatcher;
 mod draw;
 mod engine;
 mod error;
 mod estimate;
-mod machine;
 #[cfg_attr(not(feature = "mail"), allow(dead_code))]
 mod mail;
-mod measure;
 mod objects;
 mod passwords;
 mod registry;
-mod replay;
 mod results;
 mod runlog;
 mod signature;
 mod spec;
-pub mod stability;
 mod store;
 pub mod suite;
-pub mod truth;
 
 /// An asynchronous function whose future comes in a box. All that others call are such: the machine behind a future is
 /// compiled where it is polled, and so the whole engine once more for every program around it.
 pub(crate) use async_recursion::async_recursion as boxed;
-pub use blobs::sha256_hex;
 pub use config::{Ceilings, EngineConfig, Profile};
+pub use ocb_lab::{LabError, sha256_hex};
+use ocb_lab::{configurations, machine, measure, replay};
+
 pub use engine::{
     Contents, Engine, MAX_PLUGIN_BYTES, Made, SESSION, SetJob, Visitor, board_csv, campaign_csv, chart_csv,
     chart_parquet,
 };
 pub use error::{EngineError, Result};
 pub use mail::{MailServer, Pace};
-pub use measure::Stop;
 pub use ocb_chart as chart;
+pub use ocb_lab::check::Extent;
+pub use ocb_lab::measure::Stop;
+pub use ocb_lab::replay::Unpacked;
+pub use ocb_lab::{stability, truth};
 pub use ocb_model as model;
 pub use ocb_sandbox::{doctor, given};
-pub use registry::Extent;
-pub use replay::Unpacked;

@@ -1,59 +1,27 @@
 //! Which algorithms there are. A plugin is only ever loaded by the jailed runner, also to read its name.
 
 pub mod brought;
-mod check;
-mod choice;
-mod describe;
 
 use std::fs;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
 
-use ocb_sandbox::{Launcher, Policy, Profile, given};
+use ocb_lab::contestant::{Contestant, Runner, plugin_hash};
+use ocb_sandbox::Profile;
 
-use crate::blobs::sha256_hex;
 use crate::model::AlgorithmInfo;
+use crate::objects::blocking;
 use crate::store::Store;
-use crate::{EngineConfig, EngineError, Result};
+use crate::{EngineConfig, Result};
 
 use brought::AllBrought;
-pub use check::{CHECK_LIMIT, Extent, Term, check_manifest, check_plugin, is_free};
-
-/// Largest plugin file that is looked at, bytes.
-const MAX_PLUGIN_BYTES: u64 = 64 << 20;
-
-/// One algorithm and the file that holds it.
-#[derive(Clone, Debug)]
-pub struct Contestant {
-    /// What it says of itself; the id with the settings that were chosen.
-    pub info: AlgorithmInfo,
-    /// The id that the plugin knows.
-    pub algorithm: String,
-    /// Values of parameters that are not the default ones.
-    pub settings: Vec<(String, f64)>,
-    /// CPUs that it may use; 1 is the single-threaded track.
-    pub threads: usize,
-    /// The plugin file.
-    pub file: PathBuf,
-    /// Built from our own sources, beside the runner.
-    pub trusted: bool,
-}
-
-impl Contestant {
-    /// As it is when nothing is set.
-    fn plain(info: AlgorithmInfo, file: PathBuf, trusted: bool) -> Self {
-        Self { algorithm: info.id.clone(), info, settings: Vec::new(), threads: 1, file, trusted }
-    }
-}
 
 /// Ours that are measured when nobody names any: each kind of method once. A foreign plugin was brought to be measured.
 const USUAL: [&str; 4] = ["box-tree", "brute-force", "ocb-fast", "parry"];
 
 /// The known plugins.
 pub struct Registry {
-    runner: PathBuf,
-    profile: Profile,
+    runner: Runner,
     contestants: Vec<Arc<Contestant>>,
     brought: RwLock<AllBrought>,
     problems: Vec<String>,
@@ -64,8 +32,7 @@ impl Registry {
     /// cannot be described is a problem of its own and keeps no other from being offered.
     pub async fn open(config: &EngineConfig, store: &Store) -> Result<Self> {
         let mut registry = Self {
-            runner: config.runner.clone(),
-            profile: config.profile,
+            runner: Runner { program: config.runner.clone(), profile: config.profile },
             contestants: Vec::new(),
             brought: RwLock::default(),
             problems: Vec::new(),
@@ -134,9 +101,14 @@ impl Registry {
         self.problems.iter().chain(&self.brought().problems).cloned().collect()
     }
 
+    /// What loads plugins here.
+    pub fn runner(&self) -> &Runner {
+        &self.runner
+    }
+
     /// How much a foreign plugin needs of this machine.
     pub fn profile(&self) -> Profile {
-        self.profile
+        self.runner.profile
     }
 
     /// The installed algorithm with this id.
@@ -153,7 +125,7 @@ impl Registry {
             all.plugins.iter().find(|b| b.contestant.info.id == id && b.is_for(viewer)).map(|b| b.contestant.clone())
         };
         match (self.contestant(id).or_else(brought), settings) {
-            (Some(plain), Some(settings)) => Ok(Some(Arc::new(choice::with_settings(&plain, settings)?))),
+            (Some(plain), Some(settings)) => Ok(Some(Arc::new(plain.with_settings(settings)?))),
             (found, _) => Ok(found),
         }
     }
@@ -177,45 +149,38 @@ impl Registry {
         let id = id.split('@').next().unwrap_or(id);
         let plain = known.iter().find(|c| c.algorithm == id);
         match (plain, settings) {
-            (Some(plain), Some(settings)) => choice::with_settings(plain, settings).map(Some),
+            (Some(plain), Some(settings)) => Ok(Some(plain.with_settings(settings)?)),
             (plain, _) => Ok(plain.map(|plain| Contestant::clone(plain))),
         }
     }
 
-    /// A launcher for this plugin under the given policy; only our own plugins may run under a weaker jail.
-    pub fn launcher(&self, contestant: &Contestant, policy: Policy) -> Launcher {
-        // What is measured is what was described, and nothing that came to lie there since.
-        let plugin_sha256 = Some(contestant.info.plugin_sha256.clone());
-        let trusted = contestant.trusted;
-        Launcher::new(self.runner.clone(), Policy { trusted, plugin_sha256, profile: self.profile, ..policy })
+    /// The algorithms of an installed file. One that was described before is not loaded again.
+    async fn describe(&self, file: &Path, store: &Store) -> Result<Vec<Contestant>> {
+        let path = file.to_owned();
+        let sha256 = blocking(move || Ok(plugin_hash(&path)?)).await?;
+        let trusted = self.runner.trusts(file);
+        let known_as = self.runner.known_as(file, &sha256)?;
+        // A row that an older version wrote may lack a field; then the plugin is described again.
+        let algorithms = match store.described(&known_as).await {
+            Ok(Some(known)) if known.iter().all(|algorithm| !algorithm.builds.is_empty()) => known,
+            _ => {
+                let described = self.described(file, &sha256, trusted).await?;
+                store.keep_description(&known_as, &described).await?;
+                described
+            }
+        };
+        let contestant = |mut info: AlgorithmInfo| {
+            info.usual = !trusted || USUAL.contains(&info.id.as_str());
+            Contestant::plain(info, file.to_owned(), trusted)
+        };
+        Ok(algorithms.into_iter().map(contestant).collect())
     }
-}
 
-/// A plugin that lies beside the runner was built and installed with it. Links are followed: a link there is no plugin of ours.
-fn built_here(runner: &Path, file: &Path) -> bool {
-    let folder = |path: &Path| path.canonicalize().ok()?.parent().map(Path::to_owned);
-    matches!((folder(runner), folder(file)), (Some(ours), Some(its)) if ours == its)
-}
-
-/// SHA-256 of a plugin file as it is now.
-pub fn plugin_hash(file: &Path) -> Result<String> {
-    Ok(sha256_hex(&read_plugin(file)?))
-}
-
-/// The bytes of a plugin file that is at least an ELF file.
-pub fn read_plugin(file: &Path) -> Result<Vec<u8>> {
-    // Its folder is nobody's business who reads a report.
-    let shown = file.file_name().unwrap_or_default().display();
-    let bad = |why: String| EngineError::Invalid(format!("{shown} is no plugin: {why}."));
-    let bytes = given::read(file, MAX_PLUGIN_BYTES).map_err(|e| match e.kind() {
-        // Their words are sentences of their own.
-        ErrorKind::FileTooLarge | ErrorKind::InvalidInput | ErrorKind::IsADirectory => bad(e.to_string()),
-        _ => bad(format!("it cannot be read ({e})")),
-    })?;
-    if !bytes.starts_with(b"\x7fELF") {
-        return Err(bad("it is no ELF file; build a shared library (.so) for Linux".into()));
+    /// What the file with this hash says of itself, asked in the jail.
+    async fn described(&self, file: &Path, sha256: &str, trusted: bool) -> Result<Vec<AlgorithmInfo>> {
+        let (runner, path, hash) = (self.runner.clone(), file.to_owned(), sha256.to_owned());
+        blocking(move || Ok(runner.describe(&path, &hash, trusted)?)).await
     }
-    Ok(bytes)
 }
 
 /// The named files, and the `*.so` of the named folders, by name.

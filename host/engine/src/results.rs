@@ -35,7 +35,7 @@ impl Inner {
             return Ok(set);
         }
         let bytes = self.blobs.get(blob).await?;
-        let set = blocking(move || columns::read_set(&bytes)).await?;
+        let set = blocking(move || Ok(columns::read_set(&bytes)?)).await?;
         Ok(self.sets.put(blob, set))
     }
 
@@ -127,7 +127,7 @@ impl Inner {
             return Ok((stored, records));
         }
         let bytes = self.blobs.get(&blob).await?;
-        let records = blocking(move || columns::read_records(&bytes)).await?;
+        let records = blocking(move || Ok(columns::read_records(&bytes)?)).await?;
         Ok((stored, self.records.put(&blob, records)))
     }
 
@@ -178,7 +178,7 @@ impl Inner {
     /// The same rows as CSV.
     pub async fn records_csv(&self, run: &str, algorithm: &str) -> Result<Vec<u8>> {
         let parquet = self.records_parquet(run, algorithm).await?;
-        blocking(move || columns::csv(&parquet)).await
+        blocking(move || Ok(columns::csv(&parquet)?)).await
     }
 
     /// The run's set as it is stored.

@@ -5,12 +5,13 @@ use std::sync::Arc;
 use ocb_core::configuration::{Method, Separation};
 use ocb_core::query::{Query, Semantics};
 use ocb_core::sampling;
+use ocb_lab::contestant::Contestant;
 
 use crate::blobs::Blobs;
 use crate::configurations;
 use crate::model::{AlgorithmInfo, ObjectInfo, RunSpec};
 use crate::objects::Objects;
-use crate::registry::{Contestant, Registry};
+use crate::registry::Registry;
 use crate::store::Store;
 use crate::{EngineError, Result};
 

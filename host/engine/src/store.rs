@@ -33,7 +33,6 @@ mod unused;
 mod visibility;
 
 use std::path::Path;
-use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -157,10 +156,7 @@ fn sqlite_url(data: &Path) -> Result<AnyConnectOptions> {
     url.parse().map_err(|e| EngineError::fault("Naming the database failed", e))
 }
 
-/// Microseconds since the Unix epoch, UTC.
-pub fn now_us() -> i64 {
-    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |d| d.as_micros() as i64)
-}
+pub use ocb_lab::now_us;
 
 /// To a JSON column.
 fn to_json(value: &impl Serialize) -> Result<String> {

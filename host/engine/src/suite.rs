@@ -6,8 +6,8 @@ use ocb_core::configuration::{Method, Sampling, Separation};
 use ocb_core::query::{Query, Semantics};
 use serde::Deserialize;
 
-use crate::blobs::sha256_hex;
 use crate::model::RunSpec;
+use crate::sha256_hex;
 use crate::{EngineError, Result};
 
 /// The one that ships. It is never changed once results lie under its hash: a change is another version.

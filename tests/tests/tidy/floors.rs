@@ -100,9 +100,10 @@ fn a_floor_knows_only_the_floors_below() {
         ("ocb-sandbox", &["ocb-core", PLUGIN_API]),
         ("ocb-stability", &["ocb-core"]),
         ("ocb-model", &["ocb-advisor", "ocb-chart", "ocb-core", "ocb-stability"]),
+        ("ocb-lab", &["ocb-core", "ocb-model", "ocb-sandbox", "ocb-stability"]),
         (
             "ocb-engine",
-            &["ocb-advisor", "ocb-chart", "ocb-citation", "ocb-core", "ocb-model", "ocb-sandbox", "ocb-stability"],
+            &["ocb-advisor", "ocb-chart", "ocb-citation", "ocb-core", "ocb-lab", "ocb-model", "ocb-sandbox"],
         ),
         ("ocb-server", &["ocb-core", "ocb-engine"]),
         ("ocb-cli", &["ocb-core", "ocb-advisor", "ocb-engine", "ocb-server"]),
@@ -118,6 +119,16 @@ fn a_floor_knows_only_the_floors_below() {
         let wrong: Vec<_> = ours.filter(|n| !allowed.contains(&n.as_str())).collect();
         assert!(wrong.is_empty(), "{name} must not depend on {wrong:?} (floors in ARCHITECTURE.md)");
     }
+}
+
+/// A machine that only measures is built from the lab alone.
+#[test]
+fn the_lab_knows_no_store_no_account_and_nothing_of_http() {
+    let lab = closure(&metadata(), "ocb-lab");
+    assert!(lab.contains("ocb-sandbox"), "the test sees no dependencies at all");
+    let service = ["ocb-engine", "ocb-server", "sqlx", "object_store", "argon2", "lettre", "axum", "hyper", "tokio"];
+    let known: Vec<_> = service.into_iter().filter(|name| lab.contains(*name)).collect();
+    assert!(known.is_empty(), "{known:?}");
 }
 
 #[test]

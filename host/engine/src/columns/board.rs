@@ -6,7 +6,8 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, BooleanArray, Float64Array, StringArray, UInt32Array, UInt64Array};
 
 use super::{SCHEMA_VERSION, batch, to_parquet};
-use crate::Result;
+use ocb_lab::Result;
+
 use crate::model::{BoardRow, BuildInfo, Estimated};
 
 /// One row per algorithm with its settings, in the board's order.

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, BooleanArray, Float64Array, StringArray, UInt32Array};
 
 use super::{SCHEMA_VERSION, batch, to_parquet};
-use crate::Result;
+use ocb_lab::Result;
+
 use crate::model::{Compared, ComparedResult, Estimated};
 
 /// One row per algorithm in each run, with `old_` and `new_` in front of what both have.

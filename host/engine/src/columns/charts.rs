@@ -7,7 +7,7 @@ use arrow_array::{ArrayRef, Float64Array, StringArray, UInt64Array};
 use ocb_chart::{Chart, Form, Point};
 
 use super::{SCHEMA_VERSION, batch, to_parquet};
-use crate::Result;
+use ocb_lab::Result;
 
 /// One row per point; lines that only guide the eye are left out.
 pub fn chart_parquet(chart: &Chart) -> Result<Vec<u8>> {

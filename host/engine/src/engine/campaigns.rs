@@ -292,7 +292,7 @@ impl Inner {
 
 /// Old and new results as CSV with a header line.
 pub fn campaign_csv(results: &[Compared]) -> Result<Vec<u8>> {
-    columns::csv(&columns::campaign_parquet(results)?)
+    Ok(columns::csv(&columns::campaign_parquet(results)?)?)
 }
 
 /// With a full stop, so that another sentence may follow.

@@ -41,17 +41,17 @@ impl Engine {
 
 /// The rows of the board as CSV with a header line.
 pub fn board_csv(board: &Board) -> Result<Vec<u8>> {
-    columns::csv(&columns::board_parquet(&board.rows)?)
+    Ok(columns::csv(&columns::board_parquet(&board.rows)?)?)
 }
 
 /// The numbers of a chart as Parquet, one row per point.
 pub fn chart_parquet(chart: &Chart) -> Result<Vec<u8>> {
-    columns::chart_parquet(chart)
+    Ok(columns::chart_parquet(chart)?)
 }
 
 /// The same rows as CSV with a header line.
 pub fn chart_csv(chart: &Chart) -> Result<Vec<u8>> {
-    columns::csv(&columns::chart_parquet(chart)?)
+    Ok(columns::csv(&columns::chart_parquet(chart)?)?)
 }
 
 impl Inner {

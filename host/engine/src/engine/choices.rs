@@ -1,10 +1,10 @@
 //! What an account chooses, and the address that its mails go to. An address counts once its link was opened.
 
 use super::Engine;
-use crate::blobs::sha256_hex;
 use crate::boxed;
 use crate::mail::address;
 use crate::model::{AccountInfo, Choices, NewChoices, Owner};
+use crate::sha256_hex;
 use crate::store::{Note, now_us};
 use crate::{EngineError, Result};
 

@@ -4,11 +4,11 @@ use std::time::Duration;
 
 use super::people::NAME_OF_OPERATOR;
 use super::{Engine, Made};
-use crate::blobs::sha256_hex;
 use crate::boxed;
 use crate::model::{
     AccountInfo, Cursor, InvitationInfo, InvitationRequest, InvitationState, NewInvitation, Page, Part, Role,
 };
+use crate::sha256_hex;
 use crate::store::{Note, now_us};
 use crate::{EngineError, Result, draw};
 

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::Inner;
-use crate::blobs::sha256_hex;
 use crate::mail::{Letter, MailServer, Refused, deliver};
+use crate::sha256_hex;
 use crate::store::{MailLink, WaitingMail, now_us};
 use crate::{Result, draw};
 

@@ -3,9 +3,9 @@
 use std::time::Duration;
 
 use super::{Engine, Made};
-use crate::blobs::sha256_hex;
 use crate::boxed;
 use crate::model::{AccountInfo, AuditEntry, Cursor, NewToken, Page, Part, Role, Scope, TokenInfo, TokenRequest};
+use crate::sha256_hex;
 use crate::store::{Note, now_us};
 use crate::{EngineError, Result, draw, passwords, signature};
 

@@ -3,17 +3,18 @@
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
+use ocb_lab::check::{check_manifest, is_free};
 use ocb_sandbox::text::one_line;
 
 use super::Engine;
 use super::people::said;
 use super::plugin_notices::of_decision;
-use crate::blobs::sha256_hex;
 use crate::boxed;
 use crate::model::{
     AccountInfo, Action, CheckLine, CheckVerdict, Cursor, Decision, Manifest, Page, Part, PluginInfo, PluginState, Role,
 };
-use crate::registry::{brought, check_manifest, is_free};
+use crate::registry::brought;
+use crate::sha256_hex;
 use crate::store::{A_FORMER_ACCOUNT, Note, SubmissionRow, now_us};
 use crate::{EngineError, Result, signature};
 

@@ -5,17 +5,19 @@ use std::sync::Arc;
 
 use ocb_core::instance;
 use ocb_core::mesh::{Mesh, obj};
+use ocb_lab::check::is_free;
+use ocb_lab::contestant::{Contestant, read_plugin};
 use tokio::runtime::Handle;
 
 use super::Engine;
-use crate::blobs::sha256_hex;
 use crate::boxed;
 use crate::columns::{AnswerRow, read_answers, set_versions};
 use crate::model::{Recipe, RecipeAlgorithm, RecipeObject, RecipeVersions, Replay, Replayed, State};
 use crate::objects::blocking;
-use crate::registry::{Contestant, brought, is_free, read_plugin};
+use crate::registry::brought;
 use crate::replay::{Packing, Questions, Unpacked};
 use crate::results::not_yet;
+use crate::sha256_hex;
 use crate::store::{RunRow, StoredResult};
 use crate::{EngineError, Result};
 
@@ -50,7 +52,7 @@ impl Engine {
             environment: environment.clone(),
             files: Vec::new(),
         };
-        packing.finish(recipe)
+        Ok(packing.finish(recipe)?)
     }
 
     async fn repro_objects(&self, row: &RunRow, packing: &mut Packing) -> Result<Vec<RecipeObject>> {
@@ -96,7 +98,7 @@ impl Engine {
         if sha256_hex(&bytes) != sha256 {
             return Ok(None);
         }
-        packing.add(&path, &bytes).map(Some)
+        Ok(Some(packing.add(&path, &bytes)?))
     }
 
     /// Asks everything in the archive again, or these algorithms of it; `each` hears of every algorithm when it is through.
@@ -130,8 +132,8 @@ impl Engine {
         let (sender, algorithms) = tokio::sync::oneshot::channel();
         std::thread::spawn(move || {
             let (recipe, poses) = (&archive.recipe, &archive.poses);
-            let (mesh_a, mesh_b, registry) = (&mesh_a, mesh_b.as_deref(), &inner.registry);
-            let questions = Questions { recipe, registry, mesh_a, mesh_b, poses };
+            let (mesh_a, mesh_b, runner) = (&mesh_a, mesh_b.as_deref(), inner.registry.runner());
+            let questions = Questions { recipe, runner, mesh_a, mesh_b, poses };
             let ask =
                 |(algorithm, rows, contestant): (String, Vec<AnswerRow>, std::result::Result<Contestant, String>)| {
                     let replayed = match contestant {

@@ -8,7 +8,7 @@ use std::time::Duration;
 use serde::Serialize;
 
 use super::Engine;
-use crate::blobs::sha256_hex;
+use crate::sha256_hex;
 use crate::store::{Request, now_us};
 use crate::{EngineError, Result};
 

@@ -24,7 +24,7 @@ impl Engine {
     #[boxed]
     pub async fn selected_csv(&self, run: &str, algorithm: &str, selection: &str) -> Result<Vec<u8>> {
         let parquet = self.inner.selected_records(run, algorithm, selection).await?;
-        blocking(move || crate::columns::csv(&parquet)).await
+        blocking(move || Ok(crate::columns::csv(&parquet)?)).await
     }
 
     /// The worst configurations of an algorithm: wrong answers first.

@@ -29,7 +29,7 @@ impl SetJob {
     /// Finds and certifies it on all CPUs; `None` when it was stopped.
     pub fn find(&self, gauge: &Gauge) -> Result<Option<ConfigurationSet>> {
         let [a, b] = self.meshes.each_ref().map(|mesh| Shape::new(mesh.clone()));
-        make(&a, &b, self.meshes[0].longest_side(), &self.spec, self.poses.as_deref(), gauge)
+        Ok(make(&a, &b, self.meshes[0].longest_side(), &self.spec, self.poses.as_deref(), gauge)?)
     }
 }
 

@@ -36,9 +36,9 @@ impl Engine {
         let (sender, found) = tokio::sync::oneshot::channel();
         std::thread::spawn(move || {
             // Who asked may have gone.
-            drop(sender.send(stability::run(&inner.registry, &contestant, &selection, &stop, &at)));
+            drop(sender.send(stability::run(inner.registry.runner(), &contestant, &selection, &stop, &at)));
         });
-        let found = found.await.unwrap_or_else(|_| Err(EngineError::Fault("The stability run broke down.".into())))?;
+        let found = found.await.map_err(|_| EngineError::Fault("The stability run broke down.".into()))??;
         if whole {
             self.inner.store.keep_stability(&found).await?;
         }

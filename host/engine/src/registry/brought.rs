@@ -4,7 +4,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::Contestant;
+use ocb_lab::contestant::Contestant;
+
 use crate::blobs::Blobs;
 use crate::model::{AlgorithmInfo, Owner, PluginState};
 use crate::store::{Store, SubmissionRow};

@@ -49,7 +49,7 @@ impl Inner {
         let selection = read(selection)?;
         let table = self.table(run, algorithm, Some(&selection), false).await?;
         let parquet = self.records_parquet(run, algorithm).await?;
-        blocking(move || columns::select(&parquet, &table.choose(&selection)?)).await
+        blocking(move || Ok(columns::select(&parquet, &table.choose(&selection)?)?)).await
     }
 
     /// The worst configurations of an algorithm: wrong answers first, missed collisions before all.
@@ -106,7 +106,7 @@ impl Inner {
                 let values = table.column(*column, None).ok()?.into_owned();
                 Some((*name, if column.is_flag() { Numbers::Rough(values) } else { Numbers::Exact(values) }))
             });
-            columns::stream(all.collect())
+            Ok(columns::stream(all.collect())?)
         })
         .await
     }
@@ -127,7 +127,7 @@ impl Inner {
                     all.push((name, Numbers::Exact(points.iter().map(|p| p[axis]).collect())));
                 }
             }
-            columns::stream(all)
+            Ok(columns::stream(all)?)
         })
         .await
     }

@@ -4,8 +4,8 @@ use sqlx::{Any, AnyConnection, Executor};
 
 use super::{A_FORMER_ACCOUNT, Store, now_us};
 use crate::Result;
-use crate::blobs::sha256_hex;
 use crate::model::AuditEntry;
+use crate::sha256_hex;
 
 type AuditRow = (i64, i64, String, String, String, String, String);
 

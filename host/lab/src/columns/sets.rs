@@ -1,0 +1,314 @@
+//! A configuration set with its truth.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use arrow_array::{
+    Array, ArrayRef, BooleanArray, FixedSizeListArray, Float64Array, RecordBatch, StringArray, UInt32Array,
+};
+use arrow_schema::{DataType, Field};
+use nalgebra::Point3;
+use ocb_core::configuration::{
+    Class, Configuration, ConfigurationSet, Containment, Placed, Separation, Truth, Witness,
+};
+use ocb_core::oracle;
+use ocb_core::pose::Pose;
+use ocb_core::sampling;
+
+use super::{SCHEMA_VERSION, batch, column, from_parquet, to_parquet};
+use crate::{LabError, Result};
+
+/// What the file says of itself.
+pub struct SetOf<'a> {
+    /// SHA-256 of the mesh of A.
+    pub mesh_a: &'a str,
+    /// SHA-256 of the mesh of B.
+    pub mesh_b: &'a str,
+}
+
+/// The set as Parquet. Poses are the first three rows of the 4x4 matrix, row-major, bit for bit.
+pub fn set_parquet(of: &SetOf, set: &ConfigurationSet) -> Result<Vec<u8>> {
+    let placed = &set.placed;
+    let metadata = HashMap::from(
+        [
+            ("opencollbench.schema", SCHEMA_VERSION.to_owned()),
+            ("opencollbench.version", env!("CARGO_PKG_VERSION").to_owned()),
+            ("opencollbench.mesh_a_sha256", of.mesh_a.to_owned()),
+            ("opencollbench.mesh_b_sha256", of.mesh_b.to_owned()),
+            ("opencollbench.method", json(&set.method)?),
+            ("opencollbench.separation", json(&set.separation)?),
+            ("opencollbench.longest_side", set.longest_side.to_string()),
+            ("opencollbench.missed_rays", set.missed_rays.to_string()),
+            ("opencollbench.box_side", maybe(set.box_side)),
+            ("opencollbench.spacing", maybe(set.spacing)),
+            ("opencollbench.sampling", sampling::VERSION.to_string()),
+            ("opencollbench.oracle", oracle::VERSION.to_string()),
+        ]
+        .map(|(key, value)| (key.to_owned(), value)),
+    );
+    let f64s = |of: &dyn Fn(&Placed) -> f64| -> ArrayRef { Arc::new(placed.iter().map(of).collect::<Float64Array>()) };
+    let u32s = |of: &dyn Fn(&Placed) -> u32| -> ArrayRef { Arc::new(placed.iter().map(of).collect::<UInt32Array>()) };
+    let flags = |of: &dyn Fn(&Placed) -> bool| -> ArrayRef {
+        Arc::new(placed.iter().map(|p| Some(of(p))).collect::<BooleanArray>())
+    };
+    let classes = |of: &dyn Fn(&Placed) -> Class| -> ArrayRef {
+        Arc::new(placed.iter().map(|p| Some(class_name(of(p)))).collect::<StringArray>())
+    };
+    to_parquet(&batch(
+        metadata,
+        vec![
+            ("pose_a", lists(placed, 12, |p| p.configuration.pose_a.to_row_major()[..12].to_vec())?),
+            ("pose_b", lists(placed, 12, |p| p.configuration.pose_b.to_row_major()[..12].to_vec())?),
+            ("hit", flags(&|p| p.truth.hit)),
+            ("distance_lo", f64s(&|p| p.truth.distance_lo)),
+            ("distance_hi", f64s(&|p| p.truth.distance_hi)),
+            ("margin", f64s(&|p| p.truth.margin)),
+            ("containment", containment(placed)),
+            ("class64", classes(&|p| p.truth.class64)),
+            ("class32", classes(&|p| p.truth.class32)),
+            ("point_a", lists(placed, 3, |p| p.truth.witness.point_a.coords.as_slice().to_vec())?),
+            ("point_b", lists(placed, 3, |p| p.truth.witness.point_b.coords.as_slice().to_vec())?),
+            ("triangle_a", u32s(&|p| p.truth.witness.triangle_a)),
+            ("triangle_b", u32s(&|p| p.truth.witness.triangle_b)),
+            ("exact_used", flags(&|p| p.truth.exact_used)),
+            ("root_index", u32s(&|p| p.root_index)),
+            (
+                "relative_distance",
+                wanted(placed, |w| match w {
+                    Separation::Relative { distance } => Some(distance),
+                    Separation::Step { .. } | Separation::Ladder => None,
+                }),
+            ),
+            (
+                "step",
+                wanted(placed, |w| match w {
+                    Separation::Step { of_size } => Some(of_size),
+                    Separation::Relative { .. } | Separation::Ladder => None,
+                }),
+            ),
+        ],
+    )?)
+}
+
+fn maybe(number: Option<f64>) -> String {
+    number.map_or_else(String::new, |x| x.to_string())
+}
+
+fn json(value: &impl serde::Serialize) -> Result<String> {
+    serde_json::to_string(value).map_err(|e| LabError::fault("Naming the method failed", e))
+}
+
+/// Reads back a stored set.
+pub fn read_set(bytes: &[u8]) -> Result<ConfigurationSet> {
+    let damaged = |e: String| LabError::Fault(format!("A stored configuration set cannot be read: {e}."));
+    let (schema, batches) = from_parquet(bytes).map_err(damaged)?;
+    let said = |key: &str| {
+        let key = format!("opencollbench.{key}");
+        schema.metadata().get(&key).cloned().ok_or_else(|| damaged(format!("{key} is missing")))
+    };
+    let number = |key: &str| said(key)?.parse::<f64>().map_err(|e| damaged(format!("{key}: {e}")));
+    let not_json = |e: serde_json::Error| damaged(e.to_string());
+    let mut set = ConfigurationSet {
+        method: serde_json::from_str(&said("method")?).map_err(not_json)?,
+        separation: serde_json::from_str(&said("separation")?).map_err(not_json)?,
+        longest_side: number("longest_side")?,
+        placed: Vec::new(),
+        missed_rays: number("missed_rays")? as u32,
+        box_side: number("box_side").ok(),
+        spacing: number("spacing").ok(),
+    };
+    for batch in &batches {
+        append_placed(&mut set.placed, batch).map_err(damaged)?;
+    }
+    Ok(set)
+}
+
+/// The versions of sampling and oracle that made a stored set, where it says.
+pub fn set_versions(bytes: &[u8]) -> Result<(Option<u32>, Option<u32>)> {
+    let damaged = |e: String| LabError::Fault(format!("A stored configuration set cannot be read: {e}."));
+    let (schema, _) = from_parquet(bytes).map_err(damaged)?;
+    let said = |key: &str| schema.metadata().get(key)?.parse().ok();
+    Ok((said("opencollbench.sampling"), said("opencollbench.oracle")))
+}
+
+/// Only the poses of a set that somebody brings: whatever else the file says is found out anew.
+pub fn read_poses(bytes: &[u8]) -> std::result::Result<Vec<Configuration>, String> {
+    let (_, batches) = from_parquet(bytes)?;
+    let mut all = Vec::new();
+    for batch in &batches {
+        for row in 0..batch.num_rows() {
+            let pose = |name| pose(batch, name, row).map_err(|e| format!("row {}: {e}", all.len() + 1));
+            let configuration = Configuration { pose_a: pose("pose_a")?, pose_b: pose("pose_b")? };
+            all.push(configuration);
+        }
+    }
+    Ok(all)
+}
+
+fn append_placed(placed: &mut Vec<Placed>, batch: &RecordBatch) -> std::result::Result<(), String> {
+    let flag = |name| column::<BooleanArray>(batch, name);
+    let real = |name| column::<Float64Array>(batch, name);
+    let whole = |name| column::<UInt32Array>(batch, name);
+    let text = |name| column::<StringArray>(batch, name);
+    let (hit, exact_used) = (flag("hit")?, flag("exact_used")?);
+    let (lo, hi, margin) = (real("distance_lo")?, real("distance_hi")?, real("margin")?);
+    let (class64, class32) = (text("class64")?, text("class32")?);
+    let containment = text("containment")?;
+    let (relative_distance, step) = (real("relative_distance")?, real("step")?);
+    let (triangle_a, triangle_b, root_index) = (whole("triangle_a")?, whole("triangle_b")?, whole("root_index")?);
+    for row in 0..batch.num_rows() {
+        placed.push(Placed {
+            configuration: Configuration { pose_a: pose(batch, "pose_a", row)?, pose_b: pose(batch, "pose_b", row)? },
+            truth: Truth {
+                hit: hit.value(row),
+                distance_lo: lo.value(row),
+                distance_hi: hi.value(row),
+                margin: margin.value(row),
+                containment: containment
+                    .is_valid(row)
+                    .then(|| named_containment(containment.value(row)))
+                    .transpose()?,
+                class64: named_class(class64.value(row))?,
+                class32: named_class(class32.value(row))?,
+                witness: Witness {
+                    point_a: point(batch, "point_a", row)?,
+                    point_b: point(batch, "point_b", row)?,
+                    triangle_a: triangle_a.value(row),
+                    triangle_b: triangle_b.value(row),
+                },
+                exact_used: exact_used.value(row),
+            },
+            root_index: root_index.value(row),
+            wanted: if relative_distance.is_valid(row) {
+                Some(Separation::Relative { distance: relative_distance.value(row) })
+            } else {
+                step.is_valid(row).then(|| Separation::Step { of_size: step.value(row) })
+            },
+        });
+    }
+    Ok(())
+}
+
+/// What was looked for, where it was this.
+fn wanted(placed: &[Placed], this: fn(Separation) -> Option<f64>) -> ArrayRef {
+    Arc::new(placed.iter().map(|p| p.wanted.and_then(this)).collect::<Float64Array>())
+}
+
+fn containment(placed: &[Placed]) -> ArrayRef {
+    Arc::new(placed.iter().map(|p| p.truth.containment.map(Containment::name)).collect::<StringArray>())
+}
+
+fn named_containment(name: &str) -> std::result::Result<Containment, String> {
+    let known = Containment::NAMES.iter().find(|(_, known)| *known == name).map(|(containment, _)| *containment);
+    known.ok_or_else(|| format!("{name:?} is no containment"))
+}
+
+fn lists(placed: &[Placed], width: i32, of: impl Fn(&Placed) -> Vec<f64>) -> Result<ArrayRef> {
+    let values: Float64Array = placed.iter().flat_map(of).collect::<Vec<_>>().into();
+    let item = Arc::new(Field::new("item", DataType::Float64, false));
+    let list = FixedSizeListArray::try_new(item, width, Arc::new(values), None)
+        .map_err(|e| LabError::fault("Laying out the columns failed", e))?;
+    Ok(Arc::new(list))
+}
+
+/// One row of a column of fixed-length lists; the file may be anybody's, so nothing about it is taken for granted.
+fn list(batch: &RecordBatch, name: &str, row: usize, width: usize) -> std::result::Result<Vec<f64>, String> {
+    let lists = column::<FixedSizeListArray>(batch, name)?;
+    if lists.is_null(row) {
+        return Err(format!("{name} is absent"));
+    }
+    let values = lists.value(row);
+    let numbers = values.as_any().downcast_ref::<Float64Array>().ok_or(format!("{name} does not hold f64"))?;
+    if numbers.len() != width || numbers.null_count() > 0 {
+        return Err(format!("{name} must hold {width} numbers"));
+    }
+    Ok(numbers.values().to_vec())
+}
+
+fn pose(batch: &RecordBatch, name: &str, row: usize) -> std::result::Result<Pose, String> {
+    let mut matrix = [0.0; 16];
+    matrix[..12].copy_from_slice(&list(batch, name, row, 12)?);
+    matrix[15] = 1.0;
+    Pose::from_row_major(&matrix).map_err(|e| format!("{name}: {e}"))
+}
+
+fn point(batch: &RecordBatch, name: &str, row: usize) -> std::result::Result<Point3<f64>, String> {
+    Ok(Point3::from_slice(&list(batch, name, row, 3)?))
+}
+
+pub fn class_name(class: Class) -> &'static str {
+    match class {
+        Class::Clear => "clear",
+        Class::Colliding => "colliding",
+        Class::Grazing => "grazing",
+    }
+}
+
+fn named_class(name: &str) -> std::result::Result<Class, String> {
+    match name {
+        "clear" => Ok(Class::Clear),
+        "colliding" => Ok(Class::Colliding),
+        "grazing" => Ok(Class::Grazing),
+        other => Err(format!("{other:?} is no class")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Rotation3, Vector3};
+    use ocb_core::configuration::{Method, Sampling};
+
+    fn set() -> ConfigurationSet {
+        let placed = |i: u32| {
+            let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), 0.1 * f64::from(i));
+            let pose_b = Pose { linear: *turn.matrix(), translation: Vector3::new(1.0 / 3.0, f64::from(i), -0.0) };
+            Placed {
+                configuration: Configuration { pose_a: Pose::identity(), pose_b },
+                truth: Truth {
+                    hit: i == 1,
+                    distance_lo: 0.1,
+                    distance_hi: 0.1 + f64::EPSILON,
+                    margin: 1e-9,
+                    containment: (i == 0).then_some(Containment::BInA),
+                    class64: Class::Clear,
+                    class32: Class::Grazing,
+                    witness: Witness {
+                        point_a: Point3::new(0.1, 0.2, 0.3),
+                        point_b: Point3::new(0.4, 0.5, 0.6),
+                        triangle_a: i,
+                        triangle_b: 9,
+                    },
+                    exact_used: i == 0,
+                },
+                root_index: 0,
+                wanted: [Some(Separation::Step { of_size: -1e-8 }), Some(Separation::Relative { distance: 0.1 }), None]
+                    [i as usize],
+            }
+        };
+        ConfigurationSet {
+            method: Method::Sphere { sampling: Sampling::Count { count: 3 }, seed: 5 },
+            separation: Some(Separation::Ladder),
+            longest_side: 2.0 / 3.0,
+            placed: (0..3).map(placed).collect(),
+            missed_rays: 1,
+            box_side: None,
+            spacing: Some(0.1 + 0.2),
+        }
+    }
+
+    #[test]
+    fn a_set_comes_back_bit_for_bit() {
+        let file = set_parquet(&SetOf { mesh_a: "a", mesh_b: "b" }, &set()).unwrap();
+        assert_eq!(read_set(&file).unwrap(), set());
+        let poses = read_poses(&file).unwrap();
+        assert_eq!(poses, set().placed.iter().map(|p| p.configuration).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_foreign_parquet_file_is_refused_with_the_missing_column() {
+        let table = batch(HashMap::new(), vec![("x", Arc::new(Float64Array::from(vec![1.0])) as ArrayRef)]).unwrap();
+        let reason = read_poses(&to_parquet(&table).unwrap()).unwrap_err();
+        assert_eq!(reason, "row 1: the column \"pose_a\" is missing");
+    }
+}

@@ -1,0 +1,172 @@
+//! Finding or reading the configurations of a run, each with its certified truth, on all CPUs.
+
+mod affordable;
+mod coverage;
+mod file;
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use ocb_core::configuration::{Class, Configuration, ConfigurationSet, Method, Placed, Separation};
+use ocb_core::oracle::{self, Pair, Shape};
+use ocb_core::sampling::{self, Found, Plan, SamplingError};
+use rayon::prelude::*;
+
+use crate::model::{ClassCount, RunSpec, SetInfo};
+use crate::sha256_hex;
+use crate::{LabError, Result};
+
+use coverage::Coverage;
+pub use file::{ConfigurationFile, read_file, read_matrices};
+
+/// What a set depends on beside the request. Stored sets of other versions stay readable but are not used again.
+#[derive(Clone, Copy)]
+struct Versions {
+    sampling: u32,
+    oracle: u32,
+}
+
+const VERSIONS: Versions = Versions { sampling: sampling::VERSION, oracle: oracle::VERSION };
+
+/// What determines a set: the meshes, the method and the separation.
+pub fn set_key(mesh_a: &str, mesh_b: &str, spec: &RunSpec) -> Result<String> {
+    key(VERSIONS, mesh_a, mesh_b, spec)
+}
+
+fn key(Versions { sampling, oracle }: Versions, mesh_a: &str, mesh_b: &str, spec: &RunSpec) -> Result<String> {
+    let determines = serde_json::to_string(&(spec.finding(), spec.separation()))
+        .map_err(|e| LabError::fault("Naming the method failed", e))?;
+    // Sets from files of older versions may hold matrices that are no rotations; they are not reused.
+    let rule = if matches!(spec.method, Method::File { .. }) { "|rotations" } else { "" };
+    Ok(sha256_hex(format!("{sampling}|{oracle}|{mesh_a}|{mesh_b}|{determines}{rule}").as_bytes()))
+}
+
+/// How far the work is, and whether it is still wanted. Shared between the workers and whoever reports.
+#[derive(Default)]
+pub struct Gauge {
+    /// Configurations done.
+    pub done: AtomicU64,
+    /// Nobody wants the rest.
+    pub stop: AtomicBool,
+}
+
+/// Finds the set, or certifies the given poses. `None` when it was stopped. `longest_side` is that of A's bounding box.
+pub fn make(
+    a: &Shape,
+    b: &Shape,
+    longest_side: f64,
+    spec: &RunSpec,
+    poses: Option<&[Configuration]>,
+    gauge: &Gauge,
+) -> Result<Option<ConfigurationSet>> {
+    let mut set = ConfigurationSet {
+        method: spec.finding(),
+        separation: spec.separation(),
+        longest_side,
+        placed: Vec::new(),
+        missed_rays: 0,
+        box_side: None,
+        spacing: None,
+    };
+    let found = if let Some(poses) = poses {
+        affordable::check(a, b, poses)
+            .map_err(|why| LabError::Invalid(format!("These configurations cost too much: {why}.")))?;
+        let pair = Pair::new(a, b);
+        let units = on_all_cpus(poses.len() as u64, gauge, |i| {
+            let configuration = poses[i as usize];
+            let truth = pair.truth(&configuration);
+            Found { placed: vec![Placed { configuration, truth, root_index: 0, wanted: None }], missed: 0 }
+        });
+        Found { placed: units.into_iter().flat_map(|unit| unit.placed).collect(), missed: 0 }
+    } else {
+        let separation = set.separation.unwrap_or(Separation::Relative { distance: 0.0 });
+        let plan = match Plan::unless_stopped(a, b, &set.method, separation, &|| gauge.stop.load(Ordering::Relaxed)) {
+            Ok(plan) => plan,
+            Err(SamplingError::Stopped) => return Ok(None),
+            Err(e) => return Err(LabError::Invalid(format!("These configurations cannot be found: {e}."))),
+        };
+        (set.box_side, set.spacing) = (plan.box_side(), plan.spacing());
+        plan.gather(on_all_cpus(plan.units(), gauge, |unit| plan.place(unit)))
+    };
+    if gauge.stop.load(Ordering::Relaxed) {
+        return Ok(None);
+    }
+    (set.placed, set.missed_rays) = (found.placed, found.missed);
+    if set.placed.is_empty() {
+        return Err(LabError::Invalid(
+            "Nowhere do the objects come as near as that; choose another distance or step.".into(),
+        ));
+    }
+    Ok(Some(set))
+}
+
+fn on_all_cpus(units: u64, gauge: &Gauge, place: impl Fn(u64) -> Found + Sync) -> Vec<Found> {
+    (0..units)
+        .into_par_iter()
+        .map(|unit| {
+            if gauge.stop.load(Ordering::Relaxed) {
+                return Found::default();
+            }
+            let found = place(unit);
+            gauge.done.fetch_add(found.placed.len() as u64 + u64::from(found.missed), Ordering::Relaxed);
+            found
+        })
+        .collect()
+}
+
+/// The numbers of a set that pages and tables show.
+pub fn describe(set: &ConfigurationSet, sha256: &str, triangles: [usize; 2]) -> SetInfo {
+    let classes = [Class::Clear, Class::Colliding, Class::Grazing].map(|class| ClassCount {
+        class,
+        count: set.placed.iter().filter(|p| p.truth.class64 == class).count() as u32,
+    });
+    let coverage = |of: fn(&Placed) -> u32, all: usize| Coverage::new(all, set.placed.iter().map(of));
+    let coverage_a = coverage(|p| p.truth.witness.triangle_a, triangles[0]);
+    let coverage_b = coverage(|p| p.truth.witness.triangle_b, triangles[1]);
+    let count = |of: fn(&Placed) -> bool| set.placed.iter().filter(|p| of(p)).count() as u32;
+    SetInfo {
+        sha256: sha256.to_owned(),
+        configurations: set.placed.len() as u32,
+        missed_rays: set.missed_rays,
+        longest_side: set.longest_side,
+        classes: classes.into_iter().filter(|c| c.count > 0).collect(),
+        exact: count(|p| p.truth.exact_used),
+        further_roots: count(|p| p.root_index > 0),
+        coverage_a: coverage_a.share,
+        coverage_b: coverage_b.share,
+        evenness_a: coverage_a.evenness,
+        evenness_b: coverage_b.evenness,
+        spacing: set.spacing,
+        box_side: set.box_side,
+        oracle: Some(ocb_core::oracle::VERSION),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+
+    #[test]
+    fn the_key_changes_with_everything_that_changes_the_set() {
+        let spec = |distance: f64, count: u32| -> RunSpec {
+            serde_json::from_value(serde_json::json!({
+                "object_a": "x", "query": "proximity", "relative_distance": distance,
+                "method": {"kind": "sphere", "sampling": {"kind": "count", "count": count}},
+            }))
+            .unwrap()
+        };
+        let asked = |a: &str, distance, count| set_key(a, "b", &spec(distance, count)).unwrap();
+        assert_eq!(asked("a", 0.0, 5), asked("a", 0.0, 5));
+        let keys = HashSet::from([asked("a", 0.0, 5), asked("c", 0.0, 5), asked("a", 0.1, 5), asked("a", 0.0, 6)]);
+        assert_eq!(keys.len(), 4);
+        // A quick look finds the beginning of what the whole finds, and a set of that size is the same set.
+        let quick = RunSpec { at_most: Some(5), ..spec(0.0, 900) };
+        assert_eq!(set_key("a", "b", &quick).unwrap(), asked("a", 0.0, 5));
+        assert_eq!(set_key("a", "b", &RunSpec { at_most: Some(5), ..spec(0.0, 4) }).unwrap(), asked("a", 0.0, 4));
+        let versioned = |sampling, oracle| key(Versions { sampling, oracle }, "a", "b", &spec(0.0, 5)).unwrap();
+        let keys =
+            HashSet::from([versioned(1, 1), versioned(2, 1), versioned(1, 2), versioned(11, 1), versioned(1, 11)]);
+        assert_eq!(keys.len(), 5);
+    }
+}

@@ -1,0 +1,25 @@
+//! What can go wrong while something is measured or checked.
+
+/// One clear sentence: what is wrong, where, and how to mend it.
+#[derive(Debug, thiserror::Error)]
+pub enum LabError {
+    /// What was given is bad.
+    #[error("{0}")]
+    Invalid(String),
+    /// Not now: another process holds what is needed.
+    #[error("{0}")]
+    Busy(String),
+    /// Ours or the machine's fault.
+    #[error("{0}")]
+    Fault(String),
+}
+
+impl LabError {
+    /// A fault with the step at which it happened.
+    pub fn fault(step: &str, cause: impl std::fmt::Display) -> Self {
+        Self::Fault(format!("{step}: {cause}."))
+    }
+}
+
+/// Shorthand of this crate.
+pub type Result<T> = std::result::Result<T, LabError>;

@@ -1,0 +1,178 @@
+//! Where methods fail: asks one algorithm, in the jail, everything that `ocb-stability` makes, and judges what it says.
+
+mod ask;
+mod families;
+mod judge;
+mod relations;
+mod reported;
+mod repro;
+mod search;
+mod tessellations;
+
+use std::time::{Duration, Instant};
+
+use ocb_sandbox::{ClockChoice, Policy};
+use ocb_stability::relations::Relation;
+use ocb_stability::{corpus, families as catalogue};
+
+use crate::contestant::{Contestant, Runner};
+use crate::measure::{Stop, precision};
+use crate::model::{FailureInfo, FamilyInfo, RelationInfo, Stability, StabilityTable};
+use crate::now_us;
+use crate::{LabError, Result};
+use ask::Asker;
+
+/// Which part of everything.
+#[derive(Clone, Debug, Default)]
+pub struct Selection {
+    /// Families and relations by their short names, `reported` for the reported failures; empty: all.
+    pub parts: Vec<String>,
+    /// Only this value of the parameter.
+    pub at: Option<f64>,
+    /// Only this seed.
+    pub seed: Option<u32>,
+    /// Seeds per value; 0 stands for the usual number.
+    pub seeds: u32,
+    /// No new family, relation or failure is begun after so long.
+    pub budget: Option<Duration>,
+}
+
+/// Seeds per value when nothing is said.
+pub const SEEDS: u32 = 3;
+
+impl Selection {
+    /// Names that stand for nothing are refused.
+    pub fn check(&self) -> Result<()> {
+        let known: Vec<&str> = names().collect();
+        match self.parts.iter().find(|part| !known.contains(&part.as_str())) {
+            Some(part) => Err(LabError::Invalid(format!(
+                "There is no family or relation {part:?}; there are: {}.",
+                known.join(", ")
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    fn wants(&self, part: &str) -> bool {
+        self.parts.is_empty() || self.parts.iter().any(|wanted| wanted == part)
+    }
+
+    fn seeds(&self) -> std::ops::Range<u32> {
+        match (self.seed, self.seeds) {
+            (Some(seed), _) => seed..seed + 1,
+            (None, 0) => 0..SEEDS,
+            (None, seeds) => 0..seeds,
+        }
+    }
+
+    fn has(&self, at: f64) -> bool {
+        self.at.is_none_or(|wanted| wanted == at)
+    }
+}
+
+/// The names of the parts that are neither families nor relations: reported failures, other triangles, adversarial search.
+const REPORTED: &str = "reported";
+const TESSELLATIONS: &str = "tessellations";
+const SEARCH: &str = "search";
+
+/// Everything that can be selected.
+fn names() -> impl Iterator<Item = &'static str> {
+    let families = catalogue::all().map(|family| family.id);
+    families.chain(Relation::ALL.map(|relation| relation.words()[0])).chain([REPORTED, TESSELLATIONS, SEARCH])
+}
+
+/// What there is to try, without any method.
+pub fn table() -> StabilityTable {
+    let family = |f: &ocb_stability::Family| FamilyInfo {
+        id: f.id.into(),
+        name: f.name.into(),
+        sentence: f.sentence.into(),
+        source: f.source.into(),
+        parameter: f.parameter.name.into(),
+        continuous: f.parameter.continuous,
+        beyond: f.beyond,
+    };
+    let relation = |r: Relation| {
+        let [id, name, sentence] = r.words().map(str::to_owned);
+        RelationInfo { id, name, sentence }
+    };
+    let failure = |r: corpus::Reported| FailureInfo {
+        id: r.id,
+        source: r.source,
+        url: r.url,
+        seen: r.seen,
+        numbers_reported: r.numbers_reported,
+    };
+    StabilityTable {
+        families: catalogue::all().map(family).collect(),
+        relations: Relation::ALL.map(relation).to_vec(),
+        failures: corpus::all().into_iter().map(failure).collect(),
+        methods: Vec::new(),
+    }
+}
+
+/// A jail for small objects: a question takes microseconds, and one that takes seconds hangs.
+fn policy() -> Policy {
+    Policy {
+        load_seconds: 5.0,
+        build_seconds: 5.0,
+        query_seconds: 2.0,
+        trial_seconds: 120.0,
+        clock: ClockChoice::Futex,
+        rough_clock: true,
+        ..Policy::default()
+    }
+}
+
+/// Tries everything selected on one algorithm; says what it is at. Blocks, so it wants a thread of its own.
+pub fn run(
+    runner: &Runner,
+    contestant: &Contestant,
+    selection: &Selection,
+    stop: &Stop,
+    at: &dyn Fn(&str),
+) -> Result<Stability> {
+    let launcher = runner.launcher(contestant, Policy { threads: contestant.threads, ..policy() });
+    selection.check()?;
+    let begun = Instant::now();
+    let info = &contestant.info;
+    let mut asker = Asker::new(&launcher, contestant, precision(info), stop);
+    let mut found = Stability {
+        algorithm: info.id.clone(),
+        name: info.name.clone(),
+        version: info.version.clone(),
+        plugin_sha256: info.plugin_sha256.clone(),
+        single_precision: info.single_precision,
+        seeds: selection.seeds().len() as u32,
+        created_us: now_us(),
+        complete: true,
+        families: Vec::new(),
+        relations: Vec::new(),
+        failures: Vec::new(),
+        tessellations: Vec::new(),
+        search: None,
+        unit_safe: None,
+        offset_safe: None,
+    };
+    for name in names().filter(|name| selection.wants(name)) {
+        if selection.budget.is_some_and(|budget| begun.elapsed() > budget) {
+            found.complete = false;
+            break;
+        }
+        at(name);
+        if let Some(family) = catalogue::by_id(name) {
+            found.families.push(families::family(&mut asker, family, selection)?);
+        } else if name == REPORTED {
+            found.failures = reported::failures(&mut asker)?;
+        } else if name == TESSELLATIONS {
+            found.tessellations = tessellations::tessellations(&mut asker)?;
+        } else if name == SEARCH {
+            found.search = search::search(&mut asker)?;
+        } else if let Some(relation) = Relation::ALL.into_iter().find(|r| r.words()[0] == name) {
+            found.relations.push(relations::relation(&mut asker, relation, selection)?);
+        }
+    }
+    found.unit_safe = relations::unit_safe(&found.relations);
+    found.offset_safe = families::offset_safe(&found.families);
+    Ok(found)
+}
