@@ -9,9 +9,9 @@
 //! The rounds see the unit of the files, and what is ranked comes from them alone: times, building, waiting, integrity. The
 //! questions they reached, the first of them where they are many, are then asked in a smaller and a larger unit
 //! ([`OTHER_UNITS`]). An answer that is wrong in any unit is wrong; how time and answers depend on the unit is told apart
-//! ([`by_unit`]).
+//! (`by_unit.rs`).
 //!
-//! Control questions are mixed into every timed pass ([`weave`]). Their numbers follow those of the set's configurations;
+//! Control questions are mixed into every timed pass (`weave.rs`). Their numbers follow those of the set's configurations;
 //! they are answered and judged like these, and nothing else is made of them.
 //!
 //! A run that asks for a precision takes the order piece by piece, all rounds of a piece before the next one, and looks
