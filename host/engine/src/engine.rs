@@ -302,13 +302,16 @@ impl Engine {
         estimate::estimate(&self.inner, &self.check(spec, viewer).await?).await
     }
 
-    /// The same for a visitor, whose limits apply.
+    /// The same for a visitor, with what their limits say of it.
     #[boxed]
     pub async fn estimate_for(&self, spec: &RunSpec, owner: &str) -> Result<Estimate> {
         let checked = self.check(spec, Some(owner)).await?;
         let expected = estimate::estimate(&self.inner, &checked).await?;
-        self.inner.may_be_asked_for(owner, &checked.spec, expected.total_seconds)?;
-        Ok(expected)
+        match self.inner.may_be_asked_for(owner, &checked.spec, expected.total_seconds) {
+            Ok(()) => Ok(expected),
+            Err(EngineError::Invalid(why)) => Ok(Estimate { refused: Some(why), ..expected }),
+            Err(e) => Err(e),
+        }
     }
 
     async fn check(&self, spec: &RunSpec, viewer: Option<&str>) -> Result<spec::Checked> {

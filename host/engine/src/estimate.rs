@@ -71,6 +71,7 @@ pub async fn estimate_alone(inner: &Inner, checked: &Checked) -> Result<Estimate
         total_seconds,
         runs_ahead: 0,
         wait_seconds: 0.0,
+        refused: None,
     })
 }
 

@@ -20,6 +20,10 @@ pub struct Estimate {
     pub runs_ahead: u32,
     /// Expected seconds until those are done.
     pub wait_seconds: f64,
+    /// Why whoever asks may not start it, and what to change; absent when they may. A part of it, such as a quick look, may be
+    /// allowed.
+    #[serde(default)]
+    pub refused: Option<String>,
 }
 
 /// Seconds of one algorithm.

@@ -2538,6 +2538,11 @@ export interface components {
             /** @description Expected seconds per algorithm that was asked for. */
             measuring_seconds: components["schemas"]["AlgorithmSeconds"][];
             /**
+             * @description Why whoever asks may not start it, and what to change; absent when they may. A part of it, such as a quick look, may be
+             *     allowed.
+             */
+            refused?: string | null;
+            /**
              * Format: int32
              * @description Runs ahead in the queue.
              */
@@ -7105,7 +7110,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The spec cannot be run, or asks for more time than its owner may have */
+            /** @description The spec cannot be run */
             422: {
                 headers: {
                     [name: string]: unknown;

@@ -33,7 +33,7 @@ fn example() -> serde_json::Value {
         (status = 200, body = Estimate),
         (status = 400, description = "No JSON", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The spec cannot be run, or asks for more time than its owner may have", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The spec cannot be run", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn estimate_run(
     State(app): State<App>,

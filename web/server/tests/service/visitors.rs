@@ -32,6 +32,20 @@ fn ceilings() -> Ceilings {
     Ceilings { guest_run: minutes(10), guest: minutes(15), account: minutes(40), address: minutes(30) }
 }
 
+/// What is too long for a guest is estimated all the same, so that the page can offer a part of it.
+#[tokio::test]
+async fn an_estimate_says_what_a_guest_may_not_start() {
+    let service = Service::start_limited(ceilings()).await;
+    let guest = service.guest();
+    for (budget, refused) in [(86_400.0, true), (1.0, false)] {
+        let answer = guest.post("/api/v1/estimates").json(&spec(budget)).send().await.expect("an answer");
+        assert_eq!(answer.status(), 200);
+        let estimate: Value = answer.json().await.expect("JSON");
+        assert_eq!(estimate["refused"].as_str().is_some_and(|why| why.contains("300 s")), refused, "{estimate}");
+        assert!(estimate["total_seconds"].as_f64().is_some_and(|seconds| seconds > 0.0), "{estimate}");
+    }
+}
+
 #[tokio::test]
 async fn requests_without_cookies_share_the_limits_of_their_address() {
     let service = Service::start_limited(ceilings()).await;
