@@ -3,7 +3,7 @@
 use ocb_sandbox::integrity::Check;
 
 use crate::Attack;
-use crate::Expected::{Caught, Harmless, SaysAlike, WorkSeen, Wrong};
+use crate::Expected::{Caught, Harmless, SaysAlike, WorkSeen, Wrong, WrongOrViolation};
 use crate::Form::{Loading, Pass, Query, Twice};
 
 /// Work that takes some 50 microseconds.
@@ -25,7 +25,7 @@ pub const ALL: &[Attack] = &[
         Pass,
         Caught(&[Check::Batches])
     ),
-    attack!("T6", "commit early and work on while nothing is asked", "work_on", Pass, Wrong),
+    attack!("T6", "commit early and work on while nothing is asked", "work_on", Pass, WrongOrViolation),
     attack!("T7", "do the work only where one question is asked", "nothing_more"[WORK, "SKIPS_IN_BATCHES"], Pass, Wrong),
     attack!(
         "T8",

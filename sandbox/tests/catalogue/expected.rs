@@ -39,6 +39,8 @@ pub enum Expected {
     Bounded,
     /// Some of its answers are wrong in each process, and every one is judged.
     Wrong,
+    /// The same, or `ProtocolViolation`: whether it still works when the next answer is due is a race.
+    WrongOrViolation,
     /// One of these checks of the times is not met: `TimingIntegrity`. Found by statistics, so in enough measurements of many.
     Caught(&'static [Check]),
     /// It says the same in every trial; its words begin like this.
@@ -71,6 +73,7 @@ impl Expected {
             Expected::WorkSeen => "harmless: the clock sees its work".into(),
             Expected::Bounded => "harmless: its time is the clock's resolution, never 0".into(),
             Expected::Wrong => "judged `FalseNegative`".into(),
+            Expected::WrongOrViolation => "judged `FalseNegative`, or `ProtocolViolation`".into(),
             Expected::Caught(checks) => {
                 let names: Vec<&str> = checks.iter().map(|check| check.name()).collect();
                 let names = names.join(" or ");
@@ -98,7 +101,8 @@ impl Expected {
             (Expected::Violation, Outcome::ProtocolViolation { phase: p, .. }) => *p == phase,
             (Expected::Refused(words), Outcome::LoadError { reason }) => reason.contains(words),
             (Expected::Harmless, Outcome::Completed) => ran.caught.is_empty() && ran.wrong == 0,
-            (Expected::Wrong, Outcome::Completed) => ran.wrong_in == PROCESSES,
+            (Expected::Wrong | Expected::WrongOrViolation, Outcome::Completed) => ran.wrong_in == PROCESSES,
+            (Expected::WrongOrViolation, Outcome::ProtocolViolation { phase: p, .. }) => *p == phase,
             (Expected::Caught(checks), Outcome::Completed) => ran.wrong == 0 && found(&ran.caught, checks) >= FOUND,
             (Expected::SaysAlike(words), Outcome::Failed { .. }) => Expected::Says(words).met_by(ran, phase),
             (Expected::Judged(verdicts), Outcome::Completed) => ran.verdicts == verdicts,
