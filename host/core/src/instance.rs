@@ -6,8 +6,9 @@
 //! translates back without a rounding, and a wrong answer to an instance is a wrong answer.
 //!
 //! Renumbering and scaling belong to a [`Presentation`], which lasts as long as a process. Scaling by a power of two gives the
-//! objects another unit of length. The first processes see the objects smaller and larger ([`OTHER_UNITS`]), so that a
-//! tolerance that is an absolute length shows in every run; all other processes see the unit of the files. The rotation differs from question to question, unless the order of the questions is part of what is measured. Only
+//! objects another unit of length. The processes numbered 0 to 3 see the objects smaller and larger ([`OTHER_UNITS`]), so that
+//! a tolerance that is an absolute length shows in every run; all other processes see the unit of the files. The rotation
+//! differs from question to question, unless the order of the questions is part of what is measured. Only
 //! questions whose time does not count are swapped: a method may be faster one way round, and the time shall be that of
 //! the question as it was asked.
 

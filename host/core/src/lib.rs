@@ -1,6 +1,7 @@
 //! The domain of OpenCollBench, pure: same input, same output.
 //!
-//! Nothing here does I/O, starts a thread, reads a clock or knows a plugin. The words are those of `GLOSSARY.md`.
+//! Nothing here does I/O, starts a process, reads a clock or knows a plugin. Its only threads are those of rayon, and they change
+//! no result. The words are those of `GLOSSARY.md`.
 #![forbid(unsafe_code)]
 
 // Pairs of triangles that make trouble are drawn by one file, for the tests in here and for those that see the crate

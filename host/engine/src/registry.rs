@@ -16,7 +16,8 @@ use crate::{EngineConfig, Result};
 
 use brought::AllBrought;
 
-/// Ours that are measured when nobody names any: each kind of method once. A foreign plugin was brought to be measured.
+/// Ours that are measured when nobody names any: each kind of method once. A foreign plugin was brought to be measured. `all`
+/// takes every algorithm; with thirty installed, that can take an hour.
 const USUAL: [&str; 4] = ["box-tree", "brute-force", "ocb-fast", "parry"];
 
 /// The known plugins.

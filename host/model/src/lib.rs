@@ -1,4 +1,5 @@
-//! The values of API and store: the JSON of the API and of `--json`; there is no second set. No I/O.
+//! The values of API and store: the JSON of the API and of `--json`; there is no second set, which would have to be kept equal
+//! by hand. No I/O.
 //!
 //! Ids are UUIDv7 text, times are microseconds since the Unix epoch (UTC), durations say their unit in their name.
 #![forbid(unsafe_code)]

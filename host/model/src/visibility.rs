@@ -10,6 +10,8 @@ pub enum Visibility {
     /// Its owner alone.
     Private,
     /// Whoever has its link; no list has it.
+    // The default, also for guests: with the link a guest comes back from another browser and shows the result to others, and
+    // ids cannot be guessed.
     #[default]
     Unlisted,
     /// Everybody: the list of objects has it, or the board when it is a finished run.

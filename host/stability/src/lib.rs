@@ -1,7 +1,7 @@
 //! Where methods fail: questions that are hard on purpose, and what must hold between the answers to them.
 //!
-//! Pure, as the core is: a family, a value of its parameter and a seed give the same questions on every machine. Who asks
-//! an algorithm, and judges what it says, is the engine.
+//! Pure, as the core is: a family, a value of its parameter and a seed give the same questions on every machine. The lab
+//! (`ocb_lab::stability`) asks the algorithms and judges their answers.
 #![forbid(unsafe_code)]
 
 pub mod corpus;

@@ -1,4 +1,5 @@
-//! How a file was compiled: what its compilers wrote into it, and which instructions it holds.
+//! How a file was compiled: what its compilers wrote into it, and which instructions it holds. The instruction sets are found by
+//! decoding the code, because an author could leave them out of a declaration.
 
 use std::collections::BTreeSet;
 

@@ -61,7 +61,8 @@ fn launch_with(control: &Control) -> Result<(), Report> {
     if std::os::unix::process::parent_id() as i32 != order.supervisor {
         return Ok(()); // It died before the parent-death signal was set.
     }
-    // Ctrl-C in a terminal is for the host, which then ends the jail in its own way.
+    // Ctrl-C in a terminal is for the host, which then ends the jail in its own way. A process group is enough: a session would
+    // get a scheduling group of its own, which can starve (sandbox/README.md, Limits).
     let _ = nix::unistd::setpgid(nix::unistd::Pid::from_raw(0), nix::unistd::Pid::from_raw(0));
     // SAFETY: an integer; the runner must be able to read what init creates.
     unsafe { libc::umask(0o022) };

@@ -1,8 +1,9 @@
-//! Who may know whom: read from the manifests through `cargo metadata`.
+//! Which crate may depend on which: read from the manifests through `cargo metadata`, the floors from ARCHITECTURE.md.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
-use ocb_tests::place::root;
+use ocb_tests::place::{root, text};
 use ocb_tests::process::{command, output};
 use serde_json::Value;
 
@@ -13,17 +14,51 @@ pub fn metadata() -> Value {
     serde_json::from_str(&text).expect("cargo metadata prints JSON")
 }
 
+/// The packages of the workspace.
+fn members(metadata: &Value) -> Vec<&Value> {
+    let ids: BTreeSet<&str> = strings(&metadata["workspace_members"]).collect();
+    let packages = metadata["packages"].as_array().expect("packages").iter();
+    packages.filter(|p| ids.contains(p["id"].as_str().expect("id"))).collect()
+}
+
+fn package_name(package: &Value) -> String {
+    package["name"].as_str().expect("name").to_owned()
+}
+
 /// Members by name, with the names of what they depend on outside of tests.
 fn dependencies(metadata: &Value) -> BTreeMap<String, BTreeSet<String>> {
-    let members: BTreeSet<&str> = strings(&metadata["workspace_members"]).collect();
-    let packages = metadata["packages"].as_array().expect("packages");
-    let ours = packages.iter().filter(|p| members.contains(p["id"].as_str().expect("id")));
-    ours.map(|p| {
+    let of = |p: &Value| -> BTreeSet<String> {
         let needs = p["dependencies"].as_array().expect("dependencies").iter();
-        let needs = needs.filter(|d| d["kind"] != "dev").map(|d| d["name"].as_str().expect("name").to_owned());
-        (p["name"].as_str().expect("name").to_owned(), needs.collect())
-    })
-    .collect()
+        needs.filter(|d| d["kind"] != "dev").map(package_name).collect()
+    };
+    members(metadata).into_iter().map(|p| (package_name(p), of(p))).collect()
+}
+
+/// Members by name, with their floors. ARCHITECTURE.md draws one line per folder; a line without a number continues the floor
+/// above it, and `plugins/*` stands for every plugin that has no line of its own.
+fn floors(metadata: &Value) -> BTreeMap<String, usize> {
+    let page = text(Path::new("ARCHITECTURE.md")).expect("a text");
+    let mut blocks = page.split("```").skip(1).step_by(2);
+    let drawing = blocks.find(|block| block.contains("floor 0")).expect("a drawing of the floors");
+    let (mut drawn, mut floor): (BTreeMap<&str, usize>, usize) = (BTreeMap::new(), 0);
+    for line in drawing.lines().filter(|line| !line.trim().is_empty()) {
+        let mut words = line.split_whitespace();
+        let mut folder = words.next().expect("a word");
+        if folder == "floor" {
+            floor = words.next().and_then(|number| number.parse().ok()).expect("the number of a floor");
+            folder = words.next().expect("a folder");
+        }
+        drawn.insert(folder, floor);
+    }
+    let root = Path::new(metadata["workspace_root"].as_str().expect("a path"));
+    let floor_of = |p: &Value| {
+        let manifest = Path::new(p["manifest_path"].as_str().expect("a path"));
+        let folder = manifest.parent().expect("a folder").strip_prefix(root).expect("a folder of the workspace");
+        let folder = folder.to_str().expect("UTF-8");
+        let any_plugin = drawn.get("plugins/*").filter(|_| folder.starts_with("plugins/"));
+        *drawn.get(folder).or(any_plugin).unwrap_or_else(|| panic!("{folder} has no floor in ARCHITECTURE.md"))
+    };
+    members(metadata).into_iter().map(|p| (package_name(p), floor_of(p))).collect()
 }
 
 fn strings(list: &Value) -> impl Iterator<Item = &str> {
@@ -84,7 +119,19 @@ const PLUGINS: [&str; 17] = [
 ];
 
 #[test]
-fn a_floor_knows_only_the_floors_below() {
+fn a_crate_depends_only_on_lower_floors() {
+    let metadata = metadata();
+    let floors = floors(&metadata);
+    for (name, needs) in dependencies(&metadata) {
+        let floor = floors[&name];
+        let wrong: Vec<_> = needs.iter().filter(|n| floors.get(*n).is_some_and(|other| *other >= floor)).collect();
+        assert!(wrong.is_empty(), "{name} is on floor {floor} of ARCHITECTURE.md; {wrong:?} is not below");
+    }
+}
+
+/// Lower floors are not all open to everybody: this is the list of what each crate may use.
+#[test]
+fn a_crate_depends_only_on_what_is_listed_for_it() {
     let mut may: BTreeMap<&str, &[&str]> = BTreeMap::from([
         (PLUGIN_API, &[] as &[&str]),
         (TRIANGLES, &[]),
@@ -114,10 +161,10 @@ fn a_floor_knows_only_the_floors_below() {
     for (name, needs) in &members {
         let allowed = may
             .get(name.as_str())
-            .unwrap_or_else(|| panic!("{name} has no floor yet: say in this test whom it may know"));
+            .unwrap_or_else(|| panic!("{name} is not listed: say in this test what it may depend on"));
         let ours = needs.iter().filter(|n| members.contains_key(*n));
         let wrong: Vec<_> = ours.filter(|n| !allowed.contains(&n.as_str())).collect();
-        assert!(wrong.is_empty(), "{name} must not depend on {wrong:?} (floors in ARCHITECTURE.md)");
+        assert!(wrong.is_empty(), "{name} must not depend on {wrong:?}");
     }
 }
 

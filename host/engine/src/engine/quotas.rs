@@ -1,6 +1,7 @@
 //! Quotas that keep one visitor from filling the queue or the disk. The command line has none.
 //!
-//! Guest cookies and accounts are free, so addresses have a quota as well.
+//! Guest cookies and accounts are free, so addresses have a quota as well. The main quota is measuring time, because the number
+//! of runs says little about their cost.
 
 use std::time::Duration;
 
@@ -18,7 +19,8 @@ pub struct Visitor {
     pub address: Option<String>,
 }
 
-/// The turn in the queue that a run takes. Each account has one; guests of one address share one.
+/// The turn in the queue that a run takes. Each account has one; guests of one address share one, because a client without
+/// cookies is a new guest at every request.
 pub(super) fn turn(owner: &str, address: Option<&str>) -> String {
     match (kind(owner), address) {
         (Some(Kind::Guest), Some(address)) => format!("address:{address}"),

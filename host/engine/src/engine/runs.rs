@@ -124,7 +124,8 @@ impl Engine {
     }
 
     /// Queues a preview's run for all of its configurations. It stays the same run; its numbers are a preview's until those
-    /// of the whole are there.
+    /// of the whole are there. The configurations of the preview are measured again: they are few, their times were taken
+    /// earlier, and the interval over processes needs processes that measured everything.
     #[boxed]
     pub async fn refine(&self, id: &str, caller: Option<&str>) -> Result<RunInfo> {
         let row = self.inner.run_row(id).await?;

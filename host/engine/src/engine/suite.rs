@@ -1,4 +1,8 @@
 //! The public benchmark: which results of the suite there are, which are missing, and queueing those.
+//!
+//! The runs of the suite are ordinary runs, so everything that shows, repeats and deletes runs works for them as well. Our own
+//! algorithms are measured when the operator runs `ocb suite run`, a developer's plugin when it becomes public. Otherwise a
+//! service that has just been installed would be busy for minutes with runs that nobody requested.
 
 use std::collections::{HashMap, HashSet};
 

@@ -144,7 +144,8 @@ impl Inner {
         Ok(Things { runs: what.runs, objects: what.objects, advice: what.advice.len() as u32, bytes, kept_until_us })
     }
 
-    /// When the things of this owner go by themselves: only guests', and only if they have any.
+    /// When the things of this owner go by themselves: only guests', and only if they have any. All of them expire together,
+    /// counted from the newest: there is one date to show and to extend, and nothing goes that a newer link still needs.
     async fn kept_until(&self, owner: &str) -> Result<Option<i64>> {
         if !matches!(Owner::of(owner), Owner::Guest(_)) {
             return Ok(None);

@@ -68,6 +68,8 @@ impl Letter {
 }
 
 /// Opened, it shows a page with a button; mail programs send the click there. Behind `#`, its secret would stay with who opens it.
+/// Opening it changes nothing, because programs that scan mails open links. Each mail has a link of its own: the database keeps
+/// only the hash of the secret, so that no later mail could repeat it.
 fn off_link(server: &MailServer, secret: &str) -> String {
     format!("{}/mails/off/{secret}", server.origin)
 }

@@ -28,6 +28,8 @@ impl Store {
             .bind(administrator)
             .execute(&mut *transaction)
             .await?;
+        // The row stays, with nothing but the folded name: public plugins refer to it, and the audit log contains the name. A new
+        // account of that name would appear as the author of the deleted account's actions.
         let done = sqlx::query(
             "UPDATE accounts SET name = $1, password = '', role = $2, wish = NULL, signing_key = NULL, \
              agrees_to_reruns = 0, mail_notices = 0, address = NULL, confirmed_us = NULL, deleted_us = $3 \
@@ -66,6 +68,8 @@ impl Store {
         }
         let open = "UPDATE invitations SET revoked_us = $1 WHERE invited_by = $2 AND accepted_us IS NULL AND revoked_us IS NULL";
         sqlx::query(open).bind(now).bind(id).execute(&mut *transaction).await?;
+        // Public runs and objects get no owner. Whatever the account still owns later was being made during the deletion, and the
+        // sweep deletes it.
         for run in &stays.runs {
             let text = "UPDATE runs SET owner = NULL, request_key = NULL WHERE id = $1";
             sqlx::query(text).bind(&run.id).execute(&mut *transaction).await?;

@@ -17,7 +17,8 @@ pub struct RunRow {
     pub owner: Option<String>,
     /// May be shown on the start page.
     pub featured: bool,
-    /// It has a plugin that was not public, so that only its owner sees it, whatever they decide.
+    /// It has a plugin that was not public, so that only its owner sees it, whatever they decide. It stays so when the plugin
+    /// is published: that must not publish what its author measured before.
     pub private: bool,
     /// Who else sees it, as its owner decided.
     pub visibility: Visibility,

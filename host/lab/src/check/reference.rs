@@ -3,7 +3,7 @@
 //! Every scene is asked in fresh processes, each of which sees another equivalent instance: vertices and triangles
 //! renumbered, everything scaled and turned, the objects swapped. One small scene is asked so often in one process that a
 //! wrong answer in a hundred thousand is found. What is asked follows from the plugin's file alone, so that the report is the
-//! same wherever it is made.
+//! same wherever it is made. An author cannot fit a plugin to the instances, because every change of the file draws others.
 
 use std::path::Path;
 use std::time::{Duration, Instant};

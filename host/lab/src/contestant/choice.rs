@@ -1,7 +1,8 @@
 //! How an algorithm is asked for: `box-tree`, or with settings of its own, `box-tree:leaf_size=4`.
 //!
-//! Several settings of one algorithm are several contestants, each under its whole name. `threads=2` enters the
-//! multi-threaded track with so many CPUs; a plugin that declares a parameter of that name is told as well.
+//! Several settings of one algorithm are several contestants, each under its whole name. So tables, files, links and commands
+//! need no notion of parameters. `threads=2` enters the multi-threaded track with so many CPUs; a plugin that declares a
+//! parameter of that name is told as well.
 
 use super::Contestant;
 use crate::model::ParameterInfo;
