@@ -3,8 +3,8 @@
 use std::io::{BufRead, IsTerminal};
 use std::process::ExitCode;
 
-use ocb_engine::Engine;
-use ocb_engine::model::{InvitationInfo, InvitationRequest, InvitationState, LeavingCounts, Page, Role};
+use ocb_service::Engine;
+use ocb_service::model::{InvitationInfo, InvitationRequest, InvitationState, LeavingCounts, Page, Role};
 
 use crate::args::{AdminCommand, Store};
 use crate::failure::{Failure, Result};

@@ -23,7 +23,7 @@ pub use services::{CiteArgs, CiteAs, Cited, LookArgs, ServiceArgs, Shown, Visibi
 pub use suite::{SuiteCommand, SuiteRunArgs};
 pub use things::{Deleted, PlaceArgs, ThingsCommand};
 
-use ocb_engine::Profile;
+use ocb_service::Profile;
 
 use crate::board::BoardArgs;
 use crate::chart::ChartArgs;

@@ -14,8 +14,8 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use futures::StreamExt;
-use ocb_engine::Engine;
-use ocb_engine::model::{RunInfo, State};
+use ocb_service::Engine;
+use ocb_service::model::{RunInfo, State};
 
 use crate::args::{BenchArgs, Store};
 use crate::failure::{Failure, INTERRUPTED, Result};

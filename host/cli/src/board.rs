@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use ocb_engine::chart::svg;
-use ocb_engine::model::{Board, BoardFilter, BoardRequest, BoardRow, BoardSuite};
+use ocb_service::chart::svg;
+use ocb_service::model::{Board, BoardFilter, BoardRequest, BoardRow, BoardSuite};
 
 use crate::args::Store;
 use crate::choice::AccuracyArg;

@@ -4,10 +4,10 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
 
-use ocb_engine::model::{
+use ocb_service::model::{
     CampaignInfo, CampaignPreview, CampaignRequest, Compared, ComparedResult, Estimated, OutcomeName, Page, State,
 };
-use ocb_engine::{Engine, EngineError, campaign_csv};
+use ocb_service::{Engine, EngineError, campaign_csv};
 
 use crate::args::{CampaignArgs, CampaignCommand, CampaignOf, Store};
 use crate::failure::{Failure, INTERRUPTED, NOT_ALL_WELL, Result};

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use ocb_engine::chart::{Chart, svg};
-use ocb_engine::model::ChartRequest;
-use ocb_engine::{Engine, chart_csv, chart_parquet};
+use ocb_service::chart::{Chart, svg};
+use ocb_service::model::ChartRequest;
+use ocb_service::{Engine, chart_csv, chart_parquet};
 use serde_json::json;
 
 use crate::args::Store;

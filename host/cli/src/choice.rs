@@ -19,7 +19,7 @@ macro_rules! choice {
 
 choice! {
     /// Who sees a run or an object.
-    VisibilityArg => ocb_engine::model::Visibility {
+    VisibilityArg => ocb_service::model::Visibility {
         /// You alone.
         Private,
         /// Whoever has its link.
@@ -31,7 +31,7 @@ choice! {
 
 choice! {
     /// What to show.
-    MeasureArg => ocb_engine::model::Measure {
+    MeasureArg => ocb_service::model::Measure {
         /// Time per query.
         Time,
         /// Bounding volume tests per query.
@@ -56,7 +56,7 @@ choice! {
 }
 choice! {
     /// What counts as worse.
-    WorstByArg => ocb_engine::model::WorstBy {
+    WorstByArg => ocb_service::model::WorstBy {
         /// The longer time.
         Time,
         /// The larger error of the distance.
@@ -93,7 +93,7 @@ choice! {
 }
 choice! {
     /// Which object.
-    SideArg => ocb_engine::model::Side {
+    SideArg => ocb_service::model::Side {
         /// The fixed object.
         A,
         /// The moving object.
@@ -122,7 +122,7 @@ choice! {
 }
 choice! {
     /// What to chart speed against.
-    AccuracyArg => ocb_engine::model::Accuracy {
+    AccuracyArg => ocb_service::model::Accuracy {
         /// Share of wrong answers.
         Wrong,
         /// Share of missed collisions.
@@ -137,7 +137,7 @@ choice! {
 }
 choice! {
     /// What a chart shows.
-    KindArg => ocb_engine::model::ChartKind {
+    KindArg => ocb_service::model::ChartKind {
         /// Speed against accuracy.
         Accuracy,
         /// Mean and maximum time against distance.

@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use ocb_engine::model::Citation;
+use ocb_service::model::Citation;
 
 use crate::args::{CiteArgs, CiteAs, Cited};
 use crate::failure::Result;

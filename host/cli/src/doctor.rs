@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use ocb_engine::doctor::{Diagnosis, State, examine};
+use ocb_service::doctor::{Diagnosis, State, examine};
 
 use crate::args::Store;
 use crate::failure::{OUR_FAULT, Result};

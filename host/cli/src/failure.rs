@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use ocb_engine::{EngineError, LabError};
+use ocb_service::{EngineError, LabError};
 
 /// Exit code: ours or the machine's fault.
 pub const OUR_FAULT: u8 = 1;

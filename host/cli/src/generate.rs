@@ -5,8 +5,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use ocb_core::query::{Query, Semantics};
-use ocb_engine::Engine;
-use ocb_engine::model::{RunSpec, SetInfo};
+use ocb_service::Engine;
+use ocb_service::model::{RunSpec, SetInfo};
 use serde::Serialize;
 
 use crate::args::{GenerateArgs, Store};

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
 
-use ocb_engine::Engine;
-use ocb_engine::model::{Heatmap, HeatmapRequest, RunInfo};
+use ocb_service::Engine;
+use ocb_service::model::{Heatmap, HeatmapRequest, RunInfo};
 use serde_json::json;
 
 use crate::args::{HeatmapArgs, Store};

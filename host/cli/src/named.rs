@@ -4,7 +4,7 @@ use std::path::Path;
 
 use ocb_core::mesh::obj;
 use ocb_core::stock;
-use ocb_engine::Engine;
+use ocb_service::Engine;
 
 use crate::failure::{Failure, Result};
 use crate::open::{OWNER, read_bounded};

@@ -2,8 +2,8 @@
 
 use std::process::ExitCode;
 
-use ocb_engine::Engine;
-use ocb_engine::model::{ObjectInfo, Page};
+use ocb_service::Engine;
+use ocb_service::model::{ObjectInfo, Page};
 
 use crate::args::{ObjectCommand, Store};
 use crate::failure::Result;

@@ -4,7 +4,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use ocb_engine::{Ceilings, Engine, EngineConfig, MailServer, Profile, given};
+use ocb_service::{Ceilings, Engine, EngineConfig, MailServer, Profile, given};
 
 use crate::args::{CeilingArgs, MailArgs, ServeArgs, Store};
 use crate::failure::{Failure, Result};

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use ocb_core::query::Query;
-use ocb_engine::model::{AlgorithmInfo, CheckLine, CheckVerdict, PluginReport};
-use ocb_engine::{Extent, given};
+use ocb_service::model::{AlgorithmInfo, CheckLine, CheckVerdict, PluginReport};
+use ocb_service::{Extent, given};
 use serde::de::DeserializeOwned;
 
 use crate::args::{PluginCommand, Store};

@@ -2,8 +2,8 @@
 
 use std::process::ExitCode;
 
-use ocb_engine::Unpacked;
-use ocb_engine::model::{Replay, Replayed};
+use ocb_service::Unpacked;
+use ocb_service::model::{Replay, Replayed};
 
 use crate::args::{ReplayArgs, Store};
 use crate::failure::{NOT_ALL_WELL, Result};

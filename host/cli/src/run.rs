@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use ocb_engine::model::{Page, RunInfo, State};
-use ocb_engine::{Engine, EngineError};
+use ocb_service::model::{Page, RunInfo, State};
+use ocb_service::{Engine, EngineError};
 
 use crate::args::{RunCommand, Store};
 use crate::failure::{Failure, Result};

@@ -2,8 +2,8 @@
 
 use std::process::ExitCode;
 
-use ocb_engine::Engine;
-use ocb_engine::model::SelectedOf;
+use ocb_service::Engine;
+use ocb_service::model::SelectedOf;
 
 use crate::args::{SelectArgs, Store};
 use crate::failure::{Failure, Result};

@@ -4,11 +4,11 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
 
-use ocb_engine::model::{
+use ocb_service::model::{
     CellState, FailingCase, FamilyResult, SearchResult, Stability, StabilityTable, Tally, TessellationResult,
 };
-use ocb_engine::stability::Selection;
-use ocb_engine::{Engine, Stop};
+use ocb_service::stability::Selection;
+use ocb_service::{Engine, Stop};
 
 use crate::args::{StabilityArgs, Store};
 use crate::failure::{Failure, INTERRUPTED, NOT_ALL_WELL, Result};
@@ -96,7 +96,7 @@ fn text(table: &StabilityTable) -> String {
             blocks.push(families(table, &method.families));
         }
         if !method.relations.is_empty() {
-            let row = |r: &ocb_engine::model::RelationResult| {
+            let row = |r: &ocb_service::model::RelationResult| {
                 let numbers = [r.tried, r.decisions, r.distances, r.grazing].map(|n| n.to_string());
                 [vec![r.relation.clone()], numbers.to_vec()].concat()
             };
@@ -104,7 +104,7 @@ fn text(table: &StabilityTable) -> String {
             blocks.push(output::table(&headings, method.relations.iter().map(row).collect(), &[1, 2, 3, 4]));
         }
         if !method.failures.is_empty() {
-            let row = |f: &ocb_engine::model::FailureResult| {
+            let row = |f: &ocb_service::model::FailureResult| {
                 vec![f.id.clone(), state(f.state).to_owned(), f.expected.clone(), f.got.clone()]
             };
             let headings = ["reported failure", "", "expected", "answered"];

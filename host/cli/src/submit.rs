@@ -3,8 +3,8 @@
 use std::process::ExitCode;
 use std::time::Duration;
 
-use ocb_engine::MAX_PLUGIN_BYTES;
-use ocb_engine::model::{Manifest, PluginInfo};
+use ocb_service::MAX_PLUGIN_BYTES;
+use ocb_service::model::{Manifest, PluginInfo};
 
 use crate::args::SubmitArgs;
 use crate::failure::{BAD_INPUT, Result};

@@ -5,8 +5,8 @@ use std::process::ExitCode;
 
 use futures::StreamExt;
 use ocb_core::configuration::Separation;
-use ocb_engine::Engine;
-use ocb_engine::model::{BoardRequest, RunInfo, State, SuiteInfo, SuiteProgress};
+use ocb_service::Engine;
+use ocb_service::model::{BoardRequest, RunInfo, State, SuiteInfo, SuiteProgress};
 
 use crate::args::{Store, SuiteCommand, SuiteRunArgs};
 use crate::failure::{Failure, INTERRUPTED, NOT_ALL_WELL, Result};

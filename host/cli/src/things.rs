@@ -4,8 +4,8 @@ use std::io::{BufRead, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
-use ocb_engine::Engine;
-use ocb_engine::model::Things;
+use ocb_service::Engine;
+use ocb_service::model::Things;
 
 use crate::args::{Deleted, PlaceArgs, ServiceArgs, Store, ThingsCommand};
 use crate::failure::{Failure, Result};
@@ -58,7 +58,7 @@ async fn delete(place: &Place, what: Deleted, id: Option<&str>, yes: bool, json:
 async fn take_along(place: &Place, path: &Path, json: bool) -> Result<()> {
     let bytes = match place {
         Place::Here(engine) => {
-            let mut packed = engine.archive(OWNER, ocb_engine::Contents::ALL).await?;
+            let mut packed = engine.archive(OWNER, ocb_service::Contents::ALL).await?;
             let unwritten = |e| Failure::file("write", path, &e);
             let mut file = std::fs::File::create(path).map_err(unwritten)?;
             std::io::copy(&mut packed, &mut file).map_err(unwritten)?

@@ -11,8 +11,8 @@ use std::sync::Arc;
 
 use ocb_core::mesh::{Mesh, obj};
 use ocb_core::oracle::Shape;
-use ocb_engine::model::TruthRow;
-use ocb_engine::truth::{self, Depth};
+use ocb_service::model::TruthRow;
+use ocb_service::truth::{self, Depth};
 use serde_json::json;
 
 use crate::args::{Store, TruthArgs, TruthCommand, TruthQuestion};

@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use ocb_engine::model::{ObjectInfo, RunInfo, Visibility};
+use ocb_service::model::{ObjectInfo, RunInfo, Visibility};
 use serde_json::json;
 
 use crate::args::{Shown, VisibilityArgs};

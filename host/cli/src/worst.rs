@@ -2,8 +2,8 @@
 
 use std::process::ExitCode;
 
-use ocb_engine::Engine;
-use ocb_engine::model::{WorstCase, WorstRequest};
+use ocb_service::Engine;
+use ocb_service::model::{WorstCase, WorstRequest};
 
 use crate::args::{Store, WorstArgs};
 use crate::failure::Result;

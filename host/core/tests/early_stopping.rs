@@ -2,7 +2,7 @@
 //!
 //! Times are drawn as runners give them, only worse: hardness over three decades, questions that one method finds thirty
 //! times as hard as the others do, processes that differ by 1.5 %, single disturbances of ten times. The same in real
-//! processes: `host/engine/tests/early.rs`.
+//! processes: `host/service/tests/early.rs`.
 
 use ocb_core::numbers::Numbers;
 use ocb_core::sequential::{self, Look, Standing, contest};

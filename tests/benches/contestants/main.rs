@@ -16,8 +16,8 @@ use std::path::{Path, PathBuf};
 use futures::StreamExt;
 use ocb_core::configuration::{Method, Sampling};
 use ocb_core::query::{Query, Semantics};
-use ocb_engine::model::{RunInfo, RunSpec};
-use ocb_engine::{Engine, EngineConfig};
+use ocb_service::model::{RunInfo, RunSpec};
+use ocb_service::{Engine, EngineConfig};
 use report::Row;
 
 /// What the command line says.

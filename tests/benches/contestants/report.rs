@@ -6,7 +6,7 @@ use std::sync::Arc;
 use arrow_array::{Float64Array, RecordBatch, StringArray, UInt32Array, UInt64Array};
 use arrow_schema::{DataType, Field, Schema};
 use ocb_core::query::Query;
-use ocb_engine::model::{AlgorithmResult, RunInfo};
+use ocb_service::model::{AlgorithmResult, RunInfo};
 use parquet::arrow::ArrowWriter;
 
 /// One contestant on one workload.

@@ -1,8 +1,8 @@
 //! What the board makes of given results.
 
-use ocb_engine::board::{self, Measured, Named, add_stability, board};
-use ocb_engine::model::{Accuracy, Board, BoardRequest, BoardRow, Controls, OutcomeName, Tally, UnrankedCause};
-use ocb_engine::suite::Suite;
+use ocb_service::board::{self, Measured, Named, add_stability, board};
+use ocb_service::model::{Accuracy, Board, BoardRequest, BoardRow, Controls, OutcomeName, Tally, UnrankedCause};
+use ocb_service::suite::Suite;
 use serde_json::{Value, json};
 
 fn named(value: &str) -> Named {
@@ -162,7 +162,7 @@ fn the_chart_has_the_rows_numbers_filled_on_the_frontier_and_hollow_when_a_colli
             let rate = row.rate.expect("a rate");
             assert_eq!((point.y, point.y_lo, point.y_hi), (rate.value, Some(rate.lo), Some(rate.hi)));
             assert_eq!((point.n, point.missed, point.false_alarms), (row.n, row.missed, row.false_alarms));
-            let share = |share: Option<ocb_engine::model::Estimated>| share.map(|s| s.value).filter(|x| *x > 0.0);
+            let share = |share: Option<ocb_service::model::Estimated>| share.map(|s| s.value).filter(|x| *x > 0.0);
             let x = match accuracy {
                 Accuracy::Wrong => share(row.wrong_share),
                 Accuracy::Missed => share(row.missed_share),

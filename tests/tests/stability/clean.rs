@@ -21,7 +21,7 @@ async fn ocb_fast_fails_nowhere_within_the_promise() {
     assert!(unexplained.is_empty(), "{:#?}", unexplained.iter().map(|(id, _)| (id, first(id))).collect::<Vec<_>>());
     assert!(all.families.iter().all(|family| family.tally.broken == 0));
     assert!(
-        all.failures.iter().all(|failure| failure.state == ocb_engine::model::CellState::Agrees),
+        all.failures.iter().all(|failure| failure.state == ocb_service::model::CellState::Agrees),
         "{:?}",
         all.failures
     );

@@ -5,9 +5,9 @@ mod faults;
 
 use std::path::PathBuf;
 
-use ocb_engine::model::Stability;
-use ocb_engine::stability::Selection;
-use ocb_engine::{Engine, EngineConfig, Profile, Stop};
+use ocb_service::model::Stability;
+use ocb_service::stability::Selection;
+use ocb_service::{Engine, EngineConfig, Profile, Stop};
 use ocb_tests::place::built;
 
 /// An engine with these plugin files alone, in a folder that goes away.

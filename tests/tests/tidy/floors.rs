@@ -149,12 +149,12 @@ fn a_crate_depends_only_on_what_is_listed_for_it() {
         ("ocb-model", &["ocb-advisor", "ocb-chart", "ocb-core", "ocb-stability"]),
         ("ocb-lab", &["ocb-core", "ocb-model", "ocb-sandbox", "ocb-stability"]),
         (
-            "ocb-engine",
+            "ocb-service",
             &["ocb-advisor", "ocb-chart", "ocb-citation", "ocb-core", "ocb-lab", "ocb-model", "ocb-sandbox"],
         ),
-        ("ocb-server", &["ocb-core", "ocb-engine"]),
-        ("ocb-cli", &["ocb-core", "ocb-advisor", "ocb-engine", "ocb-server"]),
-        ("ocb-tests", &["ocb-chart", "ocb-core", "ocb-sandbox", "ocb-engine", "ocb-server", "ocb-cli", PLUGIN_API]),
+        ("ocb-server", &["ocb-core", "ocb-service"]),
+        ("ocb-cli", &["ocb-core", "ocb-advisor", "ocb-service", "ocb-server"]),
+        ("ocb-tests", &["ocb-chart", "ocb-core", "ocb-sandbox", "ocb-service", "ocb-server", "ocb-cli", PLUGIN_API]),
     ]);
     may.extend(PLUGINS.map(|p| (p, &[PLUGIN_API, TRIANGLES, HIERARCHY, WIDE, FIELDS, METHODS] as &[&str])));
     let members = dependencies(&metadata());
@@ -173,7 +173,7 @@ fn a_crate_depends_only_on_what_is_listed_for_it() {
 fn the_lab_knows_no_store_no_account_and_nothing_of_http() {
     let lab = closure(&metadata(), "ocb-lab");
     assert!(lab.contains("ocb-sandbox"), "the test sees no dependencies at all");
-    let service = ["ocb-engine", "ocb-server", "sqlx", "object_store", "argon2", "lettre", "axum", "hyper", "tokio"];
+    let service = ["ocb-service", "ocb-server", "sqlx", "object_store", "argon2", "lettre", "axum", "hyper", "tokio"];
     let known: Vec<_> = service.into_iter().filter(|name| lab.contains(*name)).collect();
     assert!(known.is_empty(), "{known:?}");
 }

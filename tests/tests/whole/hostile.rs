@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use ocb_engine::{Engine, EngineConfig};
+use ocb_service::{Engine, EngineConfig};
 use ocb_tests::place::built;
 use ocb_tests::service::{Guest, Service};
 use serde_json::{Value, json};
@@ -114,7 +114,7 @@ fn fill_the_queue(data: &Path, owners: u64) {
             ..EngineConfig::beside_executable(data)
         });
         let engine = engine.await.expect("the data folder");
-        let spec: ocb_engine::model::RunSpec = serde_json::from_value(run(20, 1.0)).expect("a request");
+        let spec: ocb_service::model::RunSpec = serde_json::from_value(run(20, 1.0)).expect("a request");
         for number in 0..owners * RUNS_OF_EACH {
             let owner = format!("0193f1a0-0000-4000-8000-{:012}", number % owners);
             engine.submit(spec.clone(), Some(&owner)).await.expect("it is queued");

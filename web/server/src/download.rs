@@ -44,7 +44,7 @@ impl Archives {
         &self,
         media_type: &str,
         name: &str,
-        write: impl Future<Output = ocb_engine::Result<File>>,
+        write: impl Future<Output = ocb_service::Result<File>>,
     ) -> Result<Response> {
         let place = self
             .places

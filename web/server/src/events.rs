@@ -8,7 +8,7 @@ use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use futures::{Stream, StreamExt};
-use ocb_engine::model::{RunEvent, State as RunState};
+use ocb_service::model::{RunEvent, State as RunState};
 use tokio::sync::watch;
 
 use crate::App;

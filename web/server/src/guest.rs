@@ -6,7 +6,7 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use axum_extra::extract::CookieJar;
 use axum_extra::extract::cookie::{Cookie, SameSite};
-use ocb_engine::model::{AccountInfo, Role, Scope};
+use ocb_service::model::{AccountInfo, Role, Scope};
 use uuid::Uuid;
 
 use crate::App;

@@ -1,6 +1,6 @@
 //! HTTP for pages and programs: the routes of `/api/v1`, the progress stream and the built pages.
 //!
-//! Everything that is known comes from one [`Engine`]; its values ([`ocb_engine::model`]) are the JSON of this API. The
+//! Everything that is known comes from one [`Engine`]; its values ([`ocb_service::model`]) are the JSON of this API. The
 //! server sends numbers, never colours (except in the downloads that are pictures of a heatmap).
 
 mod address;
@@ -27,7 +27,7 @@ use std::io;
 use std::net::SocketAddr;
 use std::time::Duration;
 
-use ocb_engine::Engine;
+use ocb_service::Engine;
 use tokio::net::TcpListener;
 use tokio::sync::watch;
 

@@ -4,7 +4,7 @@ use axum::Json;
 use axum::extract::rejection::{JsonRejection, PathRejection, QueryRejection};
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use ocb_engine::EngineError;
+use ocb_service::EngineError;
 use serde::Serialize;
 use utoipa::ToSchema;
 use uuid::Uuid;

@@ -44,7 +44,7 @@ use crate::{App, events, layers, pages, upload};
             owns what is made with it, and may publish.",
         license(name = "MIT OR Apache-2.0")
     ),
-    components(schemas(ocb_engine::model::Accuracy, ocb_engine::model::ChartKind)),
+    components(schemas(ocb_service::model::Accuracy, ocb_service::model::ChartKind)),
     tags(
         (name = "objects", description = "Meshes to measure on"),
         (name = "algorithms", description = "What the plugins offer"),

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use ocb_advisor::Watch;
-use ocb_engine::truth::{Machine, MakingWay};
+use ocb_service::truth::{Machine, MakingWay};
 
 use crate::failure::{Failure, Result};
 use crate::serve;

@@ -1,6 +1,6 @@
 //! How the contestants of a run were compiled, below its table.
 
-use ocb_engine::model::AlgorithmResult;
+use ocb_service::model::AlgorithmResult;
 
 use crate::output;
 

@@ -1,6 +1,6 @@
 //! Time and answers in each unit of length, below the table of a run.
 
-use ocb_engine::model::{AlgorithmResult, Estimated, InUnit};
+use ocb_service::model::{AlgorithmResult, Estimated, InUnit};
 
 use crate::{output, units};
 

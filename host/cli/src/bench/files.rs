@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use ocb_core::colormap::{Colormap, Scale};
 use ocb_core::statistics::{Outliers, Statistic};
-use ocb_engine::Engine;
-use ocb_engine::model::{AlgorithmResult, HeatmapRequest, Measure, RunInfo};
+use ocb_service::Engine;
+use ocb_service::model::{AlgorithmResult, HeatmapRequest, Measure, RunInfo};
 
 use crate::failure::{Failure, Result};
 use crate::output;

@@ -5,7 +5,7 @@ use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
-use ocb_engine::model::{RunEvent, RunInfo, Stage, StageKind, State};
+use ocb_service::model::{RunEvent, RunInfo, Stage, StageKind, State};
 
 use crate::units;
 

@@ -3,8 +3,8 @@
 use ocb_core::configuration::{Method, Sampling};
 use ocb_core::query::{Query, Semantics};
 use ocb_core::sampling::MAX_CONFIGURATIONS;
-use ocb_engine::Engine;
-use ocb_engine::model::RunSpec;
+use ocb_service::Engine;
+use ocb_service::model::RunSpec;
 
 use crate::args::{BenchArgs, Contacts, Question};
 use crate::failure::{Failure, Result};

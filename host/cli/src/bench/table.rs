@@ -3,8 +3,8 @@
 use ocb_core::configuration::{Class, Method, Separation};
 use ocb_core::record::Verdict;
 use ocb_core::resolution::{Resolution, Threshold};
-use ocb_engine::Profile;
-use ocb_engine::model::{
+use ocb_service::Profile;
+use ocb_service::model::{
     Agreement, AlgorithmResult, ContactQuality, ContractClass, Controls, Estimated, Preview, RunInfo, RunSpec, SetInfo,
     Timing,
 };
@@ -158,7 +158,7 @@ fn class_name(class: Class) -> &'static str {
 }
 
 fn row(result: &AlgorithmResult) -> Vec<String> {
-    let time = |of: fn(&ocb_engine::model::TimeSummary) -> Estimated| {
+    let time = |of: fn(&ocb_service::model::TimeSummary) -> Estimated| {
         result.time.as_ref().map_or_else(dash, |summary| interval(&of(summary)))
     };
     vec![

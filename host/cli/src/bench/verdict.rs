@@ -1,6 +1,6 @@
 //! What a run's results mean for the exit code.
 
-use ocb_engine::model::{AlgorithmResult, RunInfo, State};
+use ocb_service::model::{AlgorithmResult, RunInfo, State};
 
 use crate::failure::{NOT_ALL_WELL, OUR_FAULT};
 
@@ -19,7 +19,7 @@ pub fn exit_code(run: &RunInfo) -> u8 {
 
 #[cfg(test)]
 mod tests {
-    use ocb_engine::model::Controls;
+    use ocb_service::model::Controls;
 
     use super::*;
     use serde_json::json;

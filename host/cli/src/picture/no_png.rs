@@ -1,6 +1,6 @@
 //! In the place of `png.rs` where nothing draws.
 
-use ocb_engine::EngineError;
+use ocb_service::EngineError;
 
 use crate::failure::Result;
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use ocb_engine::EngineError;
+use ocb_service::EngineError;
 use serde_json::Value;
 
 use super::{Service, Upload};

@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use ocb_core::configuration::{Configuration, Truth};
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::pose::Pose;
-use ocb_engine::model::TruthRow;
+use ocb_service::model::TruthRow;
 
 use super::number::number;
 

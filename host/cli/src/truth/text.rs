@@ -1,8 +1,8 @@
 //! Certified answers for people.
 
 use ocb_core::configuration::{Class, Containment};
-use ocb_engine::model::TruthRow;
-use ocb_engine::truth::Depth;
+use ocb_service::model::TruthRow;
+use ocb_service::truth::Depth;
 
 use crate::output;
 
@@ -10,7 +10,7 @@ use crate::output;
 pub fn table(index: &str, rows: &[TruthRow], depth: Depth) -> String {
     if depth == Depth::Contacts {
         let contact = |r: &TruthRow| -> Vec<Vec<String>> {
-            let row = |c: &ocb_engine::model::ContactRow| {
+            let row = |c: &ocb_service::model::ContactRow| {
                 vec![r.index.to_string(), c.triangle_a.to_string(), c.triangle_b.to_string(), number(c.margin)]
             };
             r.contacts.iter().flatten().map(row).collect()

@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
-use ocb_engine::truth::{Gauge, Machine, MakingWay};
+use ocb_service::truth::{Gauge, Machine, MakingWay};
 
 use crate::failure::{Failure, Result};
 use crate::serve;

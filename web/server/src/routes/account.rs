@@ -5,7 +5,7 @@ use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{AppendHeaders, IntoResponse, Response};
 use axum_extra::extract::CookieJar;
-use ocb_engine::model::{
+use ocb_service::model::{
     AccountInfo, Credentials, Farewell, Identity, Leaving, NewPassword, NewToken, Role, SigningKey, TokenInfo,
     TokenRequest, Wish,
 };
@@ -76,7 +76,7 @@ async fn enter(app: &App, guest: &str, headers: &HeaderMap, account: AccountInfo
     }
     app.engine.remember_device(&account, guest).await?;
     let secret = app.engine.add_session(&account).await?;
-    let session = cookie(SESSION, &secret, ocb_engine::SESSION.as_secs(), is_secure(headers));
+    let session = cookie(SESSION, &secret, ocb_service::SESSION.as_secs(), is_secure(headers));
     let identity = Identity { account: Some(account) };
     Ok((AppendHeaders([(header::SET_COOKIE, session)]), Answer(identity)).into_response())
 }

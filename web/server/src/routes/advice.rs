@@ -4,8 +4,8 @@ use axum::Json as Answer;
 use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use ocb_engine::Visitor;
-use ocb_engine::model::{AdviceInfo, AdviceSpec, Side};
+use ocb_service::Visitor;
+use ocb_service::model::{AdviceInfo, AdviceSpec, Side};
 use serde::Deserialize;
 use utoipa::IntoParams;
 

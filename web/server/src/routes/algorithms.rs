@@ -2,7 +2,7 @@
 
 use axum::Json;
 use axum::extract::State;
-use ocb_engine::model::AlgorithmInfo;
+use ocb_service::model::AlgorithmInfo;
 
 use crate::App;
 use crate::guest::Guest;

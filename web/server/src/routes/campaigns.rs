@@ -4,7 +4,7 @@ use axum::Json as Answer;
 use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use ocb_engine::model::{CampaignInfo, CampaignPreview, CampaignRequest, Page};
+use ocb_service::model::{CampaignInfo, CampaignPreview, CampaignRequest, Page};
 use serde::Deserialize;
 use utoipa::IntoParams;
 

@@ -3,9 +3,9 @@
 use axum::Json;
 use axum::extract::State;
 use axum::response::Response;
-use ocb_engine::chart::Chart;
-use ocb_engine::model::{Board, BoardRequest, ChartRequest};
-use ocb_engine::{board_csv, chart_csv, chart_parquet};
+use ocb_service::chart::Chart;
+use ocb_service::model::{Board, BoardRequest, ChartRequest};
+use ocb_service::{board_csv, chart_csv, chart_parquet};
 
 use crate::App;
 use crate::download::download;

@@ -2,7 +2,7 @@
 
 use axum::Json as Answer;
 use axum::extract::State;
-use ocb_engine::model::{Choices, NewAddress, NewChoices, OpenedLink};
+use ocb_service::model::{Choices, NewAddress, NewChoices, OpenedLink};
 
 use crate::App;
 use crate::address::Address;

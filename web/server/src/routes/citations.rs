@@ -3,7 +3,7 @@
 use axum::extract::State;
 use axum::http::HeaderMap;
 use axum::{Extension, Json};
-use ocb_engine::model::Citation;
+use ocb_service::model::Citation;
 
 use crate::App;
 use crate::extract::Path;

@@ -4,7 +4,7 @@ use axum::Json;
 use axum::extract::State;
 use axum::response::Response;
 use ocb_core::colormap::{Colormap, Scale};
-use ocb_engine::model::{Heatmap, HeatmapRequest, VertexValue};
+use ocb_service::model::{Heatmap, HeatmapRequest, VertexValue};
 use serde::Deserialize;
 use utoipa::IntoParams;
 

@@ -4,7 +4,7 @@ use axum::Json as Answer;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
-use ocb_engine::model::{Acceptance, AccountInfo, InvitationInfo, InvitationRequest, NewInvitation, Page};
+use ocb_service::model::{Acceptance, AccountInfo, InvitationInfo, InvitationRequest, NewInvitation, Page};
 
 use crate::App;
 use crate::address::Address;

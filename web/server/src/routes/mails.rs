@@ -2,7 +2,7 @@
 
 use axum::extract::State;
 use axum::http::StatusCode;
-use ocb_engine::EngineError;
+use ocb_service::EngineError;
 
 use crate::App;
 use crate::address::Address;

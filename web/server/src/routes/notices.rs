@@ -4,7 +4,7 @@ use axum::Json as Answer;
 use axum::extract::State;
 use axum::http::StatusCode;
 use axum::response::Response;
-use ocb_engine::model::{NoticeInfo, Page};
+use ocb_service::model::{NoticeInfo, Page};
 
 use crate::App;
 use crate::extract::{Path, Query};

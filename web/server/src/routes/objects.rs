@@ -5,8 +5,8 @@ use axum::extract::{Request, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use ocb_core::export::glb;
-use ocb_engine::model::{NewVisibility, ObjectInfo, Page};
-use ocb_engine::{Made, sha256_hex};
+use ocb_service::model::{NewVisibility, ObjectInfo, Page};
+use ocb_service::{Made, sha256_hex};
 use utoipa::ToSchema;
 
 use crate::App;

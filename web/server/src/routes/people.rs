@@ -3,7 +3,7 @@
 use axum::Json as Answer;
 use axum::extract::State;
 use axum::response::Response;
-use ocb_engine::model::{AccountInfo, NewRole, Page};
+use ocb_service::model::{AccountInfo, NewRole, Page};
 
 use crate::App;
 use crate::extract::{Json, Path, Query};

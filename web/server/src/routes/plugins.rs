@@ -11,8 +11,8 @@ use axum::http::{StatusCode, header};
 use axum::response::sse::Event;
 use axum::response::{IntoResponse, Response};
 use futures::stream;
-use ocb_engine::model::{AccountInfo, Decision, Page, PluginInfo};
-use ocb_engine::{Engine, Made, sha256_hex};
+use ocb_service::model::{AccountInfo, Decision, Page, PluginInfo};
+use ocb_service::{Engine, Made, sha256_hex};
 use utoipa::ToSchema;
 
 use crate::App;

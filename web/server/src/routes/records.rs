@@ -3,7 +3,7 @@
 use axum::Json;
 use axum::extract::State;
 use axum::response::Response;
-use ocb_engine::model::Ecdf;
+use ocb_service::model::Ecdf;
 use serde::Deserialize;
 use utoipa::IntoParams;
 

@@ -4,8 +4,8 @@ use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::{Extension, Json as Answer};
-use ocb_engine::model::{Estimate, NewVisibility, Page, RunInfo, RunSpec};
-use ocb_engine::{EngineError, Visitor};
+use ocb_service::model::{Estimate, NewVisibility, Page, RunInfo, RunSpec};
+use ocb_service::{EngineError, Visitor};
 
 use crate::App;
 use crate::address::Address;

@@ -3,7 +3,7 @@
 use axum::Json;
 use axum::extract::State;
 use axum::response::Response;
-use ocb_engine::model::{Meeting, Selected, WorstCase, WorstRequest};
+use ocb_service::model::{Meeting, Selected, WorstCase, WorstRequest};
 use serde::Deserialize;
 use utoipa::IntoParams;
 

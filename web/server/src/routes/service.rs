@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use axum::Json;
 use axum::extract::State;
 use axum::http::StatusCode;
-use ocb_engine::model::Status;
+use ocb_service::model::Status;
 
 use crate::App;
 use crate::problem::{Problem, Result};

@@ -2,7 +2,7 @@
 
 use axum::Json;
 use axum::extract::State;
-use ocb_engine::model::StabilityTable;
+use ocb_service::model::StabilityTable;
 
 use crate::App;
 use crate::problem::Result;

@@ -2,7 +2,7 @@
 
 use axum::Json;
 use axum::extract::State;
-use ocb_engine::model::SuiteInfo;
+use ocb_service::model::SuiteInfo;
 
 use crate::App;
 use crate::problem::Result;

@@ -3,8 +3,8 @@
 use axum::extract::State;
 use axum::response::Response;
 use axum::{Extension, Json};
-use ocb_engine::Contents;
-use ocb_engine::model::{Scope, Things};
+use ocb_service::Contents;
+use ocb_service::model::{Scope, Things};
 
 use crate::App;
 use crate::extract::Path;

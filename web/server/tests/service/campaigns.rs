@@ -1,6 +1,6 @@
 //! Campaigns over HTTP: who may begin one, and what everybody sees of it.
 
-use ocb_engine::model::{NewChoices, Role};
+use ocb_service::model::{NewChoices, Role};
 use reqwest::{Response, StatusCode};
 use serde_json::{Value, json};
 
@@ -42,7 +42,7 @@ async fn a_curator_has_old_results_measured_again_and_everybody_sees_both() {
         StatusCode::OK
     );
     follow(&user, &run, 0).await;
-    let all = service.engine.accounts(&ocb_engine::model::Page::default()).await.expect("accounts").entries;
+    let all = service.engine.accounts(&ocb_service::model::Page::default()).await.expect("accounts").entries;
     let agrees = NewChoices { agrees_to_reruns: Some(true), ..NewChoices::default() };
     service.engine.choose(&all[0], &agrees).await.expect("chosen");
     let service = service.restart_noted("turbo off").await;

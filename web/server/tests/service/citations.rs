@@ -1,6 +1,6 @@
 //! Runs and plugins are cited by links that lead to them. That the texts hold what they should: `host/citation/tests`.
 
-use ocb_engine::model::Role;
+use ocb_service::model::Role;
 use reqwest::StatusCode;
 use serde_json::Value;
 

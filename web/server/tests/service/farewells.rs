@@ -1,6 +1,6 @@
 //! Deleting an account: what goes, what stays and says no name, and who cannot.
 
-use ocb_engine::model::Role;
+use ocb_service::model::Role;
 use reqwest::{Method, Response, StatusCode};
 use serde_json::{Value, json};
 

@@ -1,6 +1,6 @@
 //! Invitations: one link makes one developer, once and in time, and tells nothing to whoever guesses.
 
-use ocb_engine::model::{InvitationRequest, Role};
+use ocb_service::model::{InvitationRequest, Role};
 use reqwest::{Method, Response, StatusCode};
 use serde_json::{Value, json};
 

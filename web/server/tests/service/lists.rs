@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use ocb_engine::model::Role;
+use ocb_service::model::Role;
 use serde_json::Value;
 
 use crate::people::member;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
-use ocb_engine::{MailServer, Pace};
+use ocb_service::{MailServer, Pace};
 use serde_json::Value;
 use tempfile::TempDir;
 

@@ -4,8 +4,8 @@ use std::io;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use ocb_engine::MailServer;
-use ocb_engine::model::Role;
+use ocb_service::MailServer;
+use ocb_service::model::Role;
 use tracing::subscriber::DefaultGuard;
 
 use crate::authority::Authority;

@@ -1,6 +1,6 @@
 //! Notices: who is told what, and that it is theirs alone.
 
-use ocb_engine::model::Role;
+use ocb_service::model::Role;
 use reqwest::{Method, StatusCode};
 use serde_json::{Value, json};
 

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use ocb_core::mesh::obj;
 use ocb_core::stock;
-use ocb_engine::model::Role;
+use ocb_service::model::Role;
 use reqwest::{Method, Response, StatusCode};
 use serde_json::{Value, json};
 

@@ -1,6 +1,6 @@
 //! What is asked for again under the same key is there once; and nobody asks for everything.
 
-use ocb_engine::model::Role;
+use ocb_service::model::Role;
 use reqwest::{Method, RequestBuilder, Response, StatusCode};
 use serde_json::{Value, json};
 

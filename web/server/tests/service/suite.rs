@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use ocb_engine::model::Role;
+use ocb_service::model::Role;
 use reqwest::StatusCode;
 use serde_json::{Value, json};
 

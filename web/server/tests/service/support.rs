@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use ocb_engine::{Ceilings, Engine, EngineConfig, MailServer, Profile};
+use ocb_service::{Ceilings, Engine, EngineConfig, MailServer, Profile};
 use reqwest::{Client, Method, RequestBuilder, Response, StatusCode};
 use serde_json::{Value, json};
 use tempfile::TempDir;

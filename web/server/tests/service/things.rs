@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::Read;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use ocb_engine::model::Role;
+use ocb_service::model::Role;
 use reqwest::{Method, StatusCode};
 use serde_json::{Value, json};
 

@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-use ocb_engine::Ceilings;
-use ocb_engine::model::Role;
+use ocb_service::Ceilings;
+use ocb_service::model::Role;
 use reqwest::{RequestBuilder, Response, StatusCode};
 use serde_json::{Value, json};
 

@@ -6,8 +6,8 @@
 mod common;
 
 use ocb_core::statistics::{Outliers, Statistic};
-use ocb_engine::model::{Heatmap, HeatmapRequest, Measure, RunInfo, State, WorstBy, WorstRequest};
-use ocb_engine::{Engine, EngineError};
+use ocb_service::model::{Heatmap, HeatmapRequest, Measure, RunInfo, State, WorstBy, WorstRequest};
+use ocb_service::{Engine, EngineError};
 use tempfile::TempDir;
 
 /// Asked so near to contact that parry in f32 fails.

@@ -5,8 +5,8 @@
 mod common;
 
 use ocb_core::sequential::ERROR;
-use ocb_engine::model::{AlgorithmResult, Preview, RunInfo, RunSpec, State};
-use ocb_engine::{Engine, EngineError};
+use ocb_service::model::{AlgorithmResult, Preview, RunInfo, RunSpec, State};
+use ocb_service::{Engine, EngineError};
 
 /// `count` random poses of a small knot against itself, half of them colliding: all but free to find.
 fn spec(count: u32, algorithms: &[&str]) -> RunSpec {

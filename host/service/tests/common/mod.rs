@@ -4,8 +4,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use ocb_engine::model::{RunEvent, RunInfo, RunSpec};
-use ocb_engine::{Engine, EngineConfig};
+use ocb_service::model::{RunEvent, RunInfo, RunSpec};
+use ocb_service::{Engine, EngineConfig};
 
 /// The folder where cargo puts binaries and plugins; test binaries lie in `deps` below it.
 fn built() -> PathBuf {
@@ -56,8 +56,8 @@ pub fn files(folder: &Path) -> usize {
 }
 
 /// A check of a second.
-pub fn quick() -> ocb_engine::Extent {
-    ocb_engine::Extent { quick: true, ..ocb_engine::Extent::default() }
+pub fn quick() -> ocb_service::Extent {
+    ocb_service::Extent { quick: true, ..ocb_service::Extent::default() }
 }
 
 /// The database of an engine's data folder, to make it fail.

@@ -3,8 +3,8 @@
 mod common;
 
 use ocb_core::configuration::{Method, Sampling};
-use ocb_engine::model::{Page, RunSpec};
-use ocb_engine::{Engine, EngineError};
+use ocb_service::model::{Page, RunSpec};
+use ocb_service::{Engine, EngineError};
 
 /// What must not change: blobs on disk, the guest's objects and runs.
 async fn inventory(engine: &Engine, data: &std::path::Path) -> (usize, usize, usize) {
@@ -69,7 +69,7 @@ async fn a_good_object_is_kept_once() {
 async fn no_bad_request_is_queued() {
     let data = tempfile::tempdir().unwrap();
     let engine =
-        Engine::open(ocb_engine::EngineConfig { dispatch: false, ..common::config(data.path()) }).await.unwrap();
+        Engine::open(ocb_service::EngineConfig { dispatch: false, ..common::config(data.path()) }).await.unwrap();
     let before = inventory(&engine, data.path()).await;
     let good = common::spec("proximity", 10, 0);
     let count = |count| Method::Sphere { sampling: Sampling::Count { count }, seed: 0 };

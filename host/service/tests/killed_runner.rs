@@ -6,8 +6,8 @@ mod common;
 
 use std::time::{Duration, Instant};
 
-use ocb_engine::Engine;
-use ocb_engine::model::{OutcomeName, State};
+use ocb_service::Engine;
+use ocb_service::model::{OutcomeName, State};
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_killed_runner_gets_its_outcome_and_the_next_algorithm_is_measured() {

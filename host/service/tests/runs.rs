@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 
 use ocb_core::configuration::{Class, Method};
 use ocb_core::statistics::{Outliers, Statistic};
-use ocb_engine::model::{
+use ocb_service::model::{
     ChartKind, ChartRequest, Ecdf, HeatmapRequest, Measure, OutcomeName, Page, RunSpec, StageKind, State,
 };
-use ocb_engine::{Ceilings, Engine, EngineConfig, EngineError};
+use ocb_service::{Ceilings, Engine, EngineConfig, EngineError};
 
 fn request(algorithm: &str, measure: Measure, statistic: Statistic) -> HeatmapRequest {
     HeatmapRequest::new(algorithm, measure, statistic, Outliers::Keep)

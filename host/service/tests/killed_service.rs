@@ -10,8 +10,8 @@ use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use futures::StreamExt;
-use ocb_engine::Engine;
-use ocb_engine::model::{AccountInfo, AlgorithmResult, Page, PluginState, Role, RunSpec, StageKind, State};
+use ocb_service::Engine;
+use ocb_service::model::{AccountInfo, AlgorithmResult, Page, PluginState, Role, RunSpec, StageKind, State};
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
@@ -127,7 +127,7 @@ fn kill_at(mut child: Child, mut lines: impl Iterator<Item = String>, there: imp
     met.is_some()
 }
 
-fn run_to_the_end(data: &Path) -> ocb_engine::model::RunInfo {
+fn run_to_the_end(data: &Path) -> ocb_service::model::RunInfo {
     let (mut child, lines) = start("--service", data);
     let end = lines.filter_map(|line| line.strip_prefix("end ").map(str::to_owned)).last();
     assert!(child.wait().expect("reaped").success());

@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use ocb_core::query::Query;
-use ocb_engine::model::{
+use ocb_service::model::{
     AccountInfo, Action, BoardRequest, CampaignInfo, CampaignRequest, Decision, Manifest, NewChoices, OutcomeName,
     Page, PluginInfo, PluginState, Role, RunInfo, State, Visibility,
 };
-use ocb_engine::{Engine, EngineConfig, EngineError, Profile};
+use ocb_service::{Engine, EngineConfig, EngineError, Profile};
 use tempfile::TempDir;
 use tokio::sync::{Mutex, MutexGuard};
 
@@ -144,7 +144,7 @@ async fn another_hardware_class_is_measured_once_and_stands_beside_the_old_one()
         let told = row.ratio.unwrap();
         assert!(told.value == ratio && told.lo <= ratio && ratio <= told.hi);
     }
-    let csv = String::from_utf8(ocb_engine::campaign_csv(&campaign.results).unwrap()).unwrap();
+    let csv = String::from_utf8(ocb_service::campaign_csv(&campaign.results).unwrap()).unwrap();
     assert!(csv.starts_with("algorithm,question,scene,") && csv.lines().count() == 8, "{csv}");
 
     // The old run is as it was; the new one is its owner's, who is told once.
@@ -203,7 +203,7 @@ async fn what_another_oracle_judged_is_queued_whole_also_when_the_service_ended_
     let campaign = ended(&engine, &made.id).await;
     assert_eq!((campaign.runs.done, campaign.results.len()), (3, 7));
     let of =
-        |side: fn(&ocb_engine::model::Compared) -> Option<u32>| campaign.results.iter().map(side).collect::<Vec<_>>();
+        |side: fn(&ocb_service::model::Compared) -> Option<u32>| campaign.results.iter().map(side).collect::<Vec<_>>();
     assert_eq!(of(|row| row.old.as_ref()?.oracle), [Some(ocb_core::oracle::VERSION - 1); 7]);
     assert_eq!(of(|row| row.new.as_ref()?.oracle), [Some(ocb_core::oracle::VERSION); 7]);
     engine.shutdown().await;
@@ -321,7 +321,7 @@ async fn who_crashes_on_the_new_class_is_taken_out_there_and_nobody_for_our_faul
 
     // As if these were its bytes from the beginning: on the machine before they did not crash.
     let crash = std::fs::read(crashing(data.path())).unwrap();
-    let (old, new) = (&plugin.sha256, ocb_engine::sha256_hex(&crash));
+    let (old, new) = (&plugin.sha256, ocb_service::sha256_hex(&crash));
     std::fs::write(data.path().join("plugins").join(format!("{new}.so")), crash).unwrap();
     let same = format!("SELECT '{new}', bytes, media_type, created_us FROM blobs WHERE sha256 = '{old}'");
     edit(data.path(), format!("INSERT INTO blobs (sha256, bytes, media_type, created_us) {same}")).await;

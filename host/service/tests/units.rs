@@ -5,8 +5,8 @@ mod common;
 use std::path::{Path, PathBuf};
 
 use ocb_core::configuration::Method;
-use ocb_engine::model::{AlgorithmResult, InUnit, RunSpec, State};
-use ocb_engine::{Engine, EngineConfig, Profile};
+use ocb_service::model::{AlgorithmResult, InUnit, RunSpec, State};
+use ocb_service::{Engine, EngineConfig, Profile};
 
 /// Coordinates of the file are at most 1, so they are below this in the small unit and above it in the others.
 const SMALL: &str = "0.5";

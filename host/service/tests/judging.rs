@@ -3,8 +3,8 @@
 mod common;
 
 use ocb_core::query::Semantics;
-use ocb_engine::model::{RunSpec, State};
-use ocb_engine::{Engine, EngineError};
+use ocb_service::model::{RunSpec, State};
+use ocb_service::{Engine, EngineError};
 
 /// A tetrahedron, with and without its last face.
 const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";

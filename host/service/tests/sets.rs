@@ -3,9 +3,9 @@
 mod common;
 
 use ocb_core::configuration::Method;
-use ocb_engine::model::{RunSpec, SetInfo};
-use ocb_engine::truth::{Gauge, read_matrices};
-use ocb_engine::{Engine, EngineError};
+use ocb_service::model::{RunSpec, SetInfo};
+use ocb_service::truth::{Gauge, read_matrices};
+use ocb_service::{Engine, EngineError};
 use serde_json::{Value, json};
 
 fn spec(object_b: &str, method: Value, separation: Value) -> RunSpec {

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use ocb_core::query::Query;
-use ocb_engine::model::{
+use ocb_service::model::{
     AccountInfo, Action, CheckVerdict, Decision, Manifest, Page, PluginInfo, PluginReport, PluginState, Role,
 };
-use ocb_engine::{Engine, EngineConfig, EngineError, Profile};
+use ocb_service::{Engine, EngineConfig, EngineError, Profile};
 use tokio::sync::{Mutex, MutexGuard};
 
 /// One check at a time on a machine.
@@ -73,7 +73,7 @@ async fn checked_within(limit: Duration, file: &Path, quick: bool) -> (PluginRep
     let engine =
         Engine::open(EngineConfig { check_limit: limit, dispatch: false, ..config(data.path()) }).await.unwrap();
     let begun = Instant::now();
-    let report = engine.check_plugin(file, ocb_engine::Extent { quick, ..Default::default() }).await.unwrap();
+    let report = engine.check_plugin(file, ocb_service::Extent { quick, ..Default::default() }).await.unwrap();
     let took = begun.elapsed();
     engine.shutdown().await;
     (report, took)
