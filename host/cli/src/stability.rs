@@ -4,10 +4,10 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
 
+use ocb_service::StabilitySelection as Selection;
 use ocb_service::model::{
     CellState, FailingCase, FamilyResult, SearchResult, Stability, StabilityTable, Tally, TessellationResult,
 };
-use ocb_service::stability::Selection;
 use ocb_service::{Engine, Stop};
 
 use crate::args::{StabilityArgs, Store};

@@ -1,187 +1,218 @@
-//! Advice about levels of detail: worked on one at a time, kept in the store, taken up again after a restart.
-//!
-//! Such work is no run: nothing foreign is started and nothing is ranked. Its times are taken while this process holds the
-//! machine's right to measure, so nothing is measured beside them; the rest of the work is kept off a run's CPU as all
-//! threads of this process are.
+//! Asking for advice, looking at it, taking it away.
 
-use std::collections::HashMap;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+pub mod sql;
+pub mod work;
 
-use ocb_advisor::{
-    Advice, CONFIGURATIONS, HELD_OUT, Level, Paper, Question, Scene, Shelf, Watch, advise, ladder, sample,
-    usual_distances,
-};
-use ocb_core::mesh::Mesh;
-use ocb_core::sampling::SamplingError;
-use tokio::sync::{Notify, Semaphore};
+use std::sync::Arc;
 
-use crate::machine::MeasuringRight;
-use crate::model::{AdviceInfo, Asked, State};
+use ocb_advisor::{Paper, Shelf};
+use ocb_core::mesh::{Mesh, obj};
+
+use crate::advice::work::{Found, Job};
+use crate::boxed;
+use crate::engine::{Engine, Inner, Made};
+use crate::model::{AdviceInfo, AdviceSpec, Asked, Side, State};
+use crate::quotas::{Visitor, turn};
+use crate::store::{AdviceRow, StoredPaper};
 use crate::{EngineError, Result};
 
-/// Between two tries for the right to measure.
-const TICK: Duration = Duration::from_millis(100);
+/// Where certificates are kept below the data folder.
+const SHELF: &str = "certificates";
+/// So many requests of one account, or of the guests of one address, may wait or be at work, and so many in all.
+const MOST_OPEN: usize = 3;
+const MOST_IN_ALL: usize = 200;
+/// When to ask again: advice takes minutes.
+const RETRY_SECONDS: u32 = 120;
+/// A request whose work was begun this often is not tried again: it may be what ends the service.
+const MAX_ATTEMPTS: i64 = 3;
 
-/// The requests that wait or are at work, by id.
-#[derive(Debug)]
-pub struct Advices {
-    jobs: Mutex<HashMap<String, Arc<Job>>>,
-    /// Whose turn it is, first come, first served.
-    pub turn: Semaphore,
-}
-
-impl Default for Advices {
-    fn default() -> Self {
-        Self { jobs: Mutex::default(), turn: Semaphore::new(1) }
-    }
-}
-
-/// One request under way.
-#[derive(Debug)]
-pub struct Job {
-    stop: AtomicBool,
-    /// Rung when it is stopped, for one that waits.
-    bell: Notify,
-    info: Mutex<AdviceInfo>,
-    /// Whose it is: an account, the guests of an address.
-    turn: String,
-}
-
-/// What came out: the advice and, of A and of B, what can be taken away: reduced meshes with their certificates.
-pub type Found = (Advice, [Vec<(Paper, Arc<Mesh>)>; 2]);
-
-impl Advices {
-    /// A request that waits from now on.
-    pub fn add(&self, info: AdviceInfo, turn: String) -> Arc<Job> {
-        let id = info.id.clone();
-        let job = Arc::new(Job { stop: AtomicBool::new(false), bell: Notify::new(), info: Mutex::new(info), turn });
-        locked(&self.jobs).insert(id, job.clone());
-        job
-    }
-
-    /// How many there are, and how many of these are whose.
-    pub fn count(&self, turn: &str) -> [usize; 2] {
-        let jobs = locked(&self.jobs);
-        [jobs.len(), jobs.values().filter(|job| job.turn == turn).count()]
-    }
-
-    /// One of them.
-    pub fn find(&self, id: &str) -> Option<Arc<Job>> {
-        locked(&self.jobs).get(id).cloned()
-    }
-
-    /// It has ended.
-    pub fn remove(&self, id: &str) {
-        locked(&self.jobs).remove(id);
-    }
-
-    /// Ends all of them soon.
-    pub fn stop_all(&self) {
-        locked(&self.jobs).values().for_each(|job| job.stop());
-    }
-}
-
-impl Job {
-    /// How far it is.
-    pub fn info(&self) -> AdviceInfo {
-        locked(&self.info).clone()
-    }
-
-    /// Ends it soon.
-    pub fn stop(&self) {
-        self.stop.store(true, Ordering::Relaxed);
-        self.bell.notify_one();
-    }
-
-    /// Returns when it was stopped.
-    pub async fn ended(&self) {
-        self.bell.notified().await;
-    }
-
-    /// `None` when it was stopped.
-    pub fn work(&self, names: &[String; 2], [a, b]: &[Arc<Mesh>; 2], shelf: &Shelf) -> Result<Option<Found>> {
-        if self.stopped() {
-            return Ok(None);
+impl Engine {
+    /// Asks how much of two objects a question needs; the work begins when its turn comes. True when it is new: the same asked
+    /// again under the same key gives what there is.
+    ///
+    /// # Errors
+    /// `NotFound` without such an object, `Invalid` for a question that cannot be asked, `TooMuch` when too many wait.
+    #[boxed]
+    pub async fn ask_advice(
+        &self,
+        spec: AdviceSpec,
+        visitor: &Visitor,
+        key: Option<&str>,
+    ) -> Result<(AdviceInfo, bool)> {
+        let owner = visitor.owner.as_str();
+        check(spec.question)?;
+        let inner = &self.inner;
+        let names = inner.objects_of(&spec, Some(owner)).await?;
+        let id = self.id_of_request(owner, Made::Advice, key, &spec).await?;
+        if inner.store.advice(&id).await?.is_some() {
+            return Ok((self.advice(&id).await?, false));
         }
-        locked(&self.info).state = State::Running;
-        let Some(of_a) = ladder(&names[0], a, shelf, self) else { return Ok(None) };
-        let of_b = match Arc::ptr_eq(a, b) {
-            true => Some(of_a.clone()),
-            false => ladder(&names[1], b, shelf, self),
-        };
-        let Some(of_b) = of_b else { return Ok(None) };
-        let side = a.longest_side();
-        let question = match locked(&self.info).spec.question {
-            Asked::Distance { tolerance } => Question::Distance { tolerance: tolerance * side },
-            Asked::Clearance { clearance } => Question::Clearance { clearance: clearance * side },
-        };
-        let distances = usual_distances(question, side);
-        let shapes = [of_a[0].lod.shape(), of_b[0].lod.shape()];
-        let placed = |count, seed, what| match sample(shapes, &distances, count, seed, what, self) {
-            Ok(placed) => Ok(Some(placed)),
-            Err(SamplingError::Stopped) => Ok(None),
-            Err(e) => Err(EngineError::Invalid(format!("These configurations are not possible: {e}."))),
-        };
-        let Some(chosen_by) = placed(CONFIGURATIONS, 0, "configurations")? else { return Ok(None) };
-        let Some(held_out) = placed(HELD_OUT, 1, "held-out configurations")? else { return Ok(None) };
-        if chosen_by.is_empty() {
-            return Err(EngineError::Invalid("B never comes that close to A; ask for another distance.".to_owned()));
+        let turn = turn(owner, visitor.address.as_deref());
+        let [all, own] = inner.advices.count(&turn);
+        if own >= MOST_OPEN || all >= MOST_IN_ALL {
+            let whose = if own >= MOST_OPEN { format!("{own} requests of yours") } else { format!("{all} requests") };
+            let message = format!("{whose} for advice wait or are at work; ask again when one of them is through.");
+            return Err(EngineError::TooMuch { message, retry_seconds: RETRY_SECONDS });
         }
-        let Some(_right) = self.right_to_measure()? else { return Ok(None) };
-        let ladders = [of_a.as_slice(), of_b.as_slice()];
-        let scene = Scene { ladders, question, distances: &distances, sample: &chosen_by, held_out: &held_out };
-        let papers = |advice: &Advice| [0, 1].map(|side| papers_of(side, &names[side], ladders[side], advice));
-        Ok(advise(&scene, self).map(|advice| {
-            let papers = papers(&advice);
-            (advice, papers)
-        }))
+        let step = "waiting".to_owned();
+        let info =
+            AdviceInfo { id, spec, names, state: State::Queued, step, done: 0, total: 0, message: None, advice: None };
+        // Two that come at once under one key: the first stands.
+        if !inner.store.add_advice(&info, owner).await? {
+            return Ok((self.advice(&info.id).await?, false));
+        }
+        inner.clone().begin_advice(inner.advices.add(info.clone(), turn));
+        Ok((info, true))
     }
 
-    /// Waits until nobody measures on this machine; `None` when stopped.
-    fn right_to_measure(&self) -> Result<Option<MeasuringRight>> {
-        self.step("waiting for a measurement to end", 0, 0);
-        loop {
-            if self.stopped() {
-                return Ok(None);
+    /// Begins again what an ended process left behind.
+    pub(crate) async fn recover_advice(&self) -> Result<()> {
+        for AdviceRow { mut info, attempts, owner, .. } in self.inner.store.open_advice().await? {
+            if attempts >= MAX_ATTEMPTS {
+                info.state = State::Failed;
+                info.message =
+                    Some(format!("The service ended {attempts} times during this work; it is not tried again."));
+                self.inner.store.end_advice(&info, &Default::default()).await?;
+                continue;
             }
-            if let Some(right) = MeasuringRight::try_take()? {
-                return Ok(Some(right));
-            }
-            std::thread::sleep(TICK);
+            self.inner.clone().begin_advice(self.inner.advices.add(info, owner.unwrap_or_default()));
         }
+        Ok(())
     }
-}
 
-impl Watch for Job {
-    fn step(&self, what: &str, done: u64, total: u64) {
-        // Nobody who works waits for somebody who looks.
-        if let Ok(mut info) = self.info.try_lock() {
-            if info.step != what {
-                what.clone_into(&mut info.step);
-            }
-            (info.done, info.total) = (done, total);
+    /// How far it is, and the advice when it is done.
+    #[boxed]
+    pub async fn advice(&self, id: &str) -> Result<AdviceInfo> {
+        match self.inner.advices.find(id) {
+            Some(job) => Ok(job.info()),
+            None => Ok(self.inner.advice_row(id).await?.info),
         }
     }
 
-    fn stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+    /// Ends it; only its owner may.
+    #[boxed]
+    pub async fn cancel_advice(&self, id: &str, caller: Option<&str>) -> Result<AdviceInfo> {
+        let row = self.inner.advice_row(id).await?;
+        if row.owner.as_deref() != caller {
+            return Err(EngineError::Forbidden("Only who asked for the advice may cancel it.".to_owned()));
+        }
+        let Some(job) = self.inner.advices.find(id) else { return Ok(row.info) };
+        job.stop();
+        Ok(job.info())
+    }
+
+    /// A reduced object as OBJ, and the name of its file; `stage` counts from the coarsest.
+    #[boxed]
+    pub async fn reduced(&self, id: &str, side: Side, stage: usize) -> Result<(Vec<u8>, String)> {
+        let paper = self.inner.paper(id, side, stage).await?;
+        Ok((self.inner.blobs.get(&paper.mesh).await?, paper.file))
+    }
+
+    /// The certificate of a reduced object as JSON, and the name of its file.
+    #[boxed]
+    pub async fn certificate(&self, id: &str, side: Side, stage: usize) -> Result<(Vec<u8>, String)> {
+        let paper = self.inner.paper(id, side, stage).await?;
+        Ok((self.inner.blobs.get(&paper.certificate).await?, paper.file.replace(".obj", ".certificate.json")))
     }
 }
 
-fn papers_of(side: usize, name: &str, levels: &[Level], advice: &Advice) -> Vec<(Paper, Arc<Mesh>)> {
-    let level = |stage: &[usize; 2]| {
-        let level = &levels[stage[side]];
-        let file = format!("{}-{}.obj", ["a", "b"][side], level.mesh.triangles().len());
-        Some((
-            Paper { object_file: name.to_owned(), file, certificate: level.certificate.clone()? },
-            level.mesh.clone(),
-        ))
-    };
-    advice.stages.iter().filter_map(level).collect()
+impl Inner {
+    /// Names of both objects.
+    async fn objects_of(&self, spec: &AdviceSpec, viewer: Option<&str>) -> Result<[String; 2]> {
+        let b = spec.object_b.as_deref().unwrap_or(&spec.object_a);
+        let (a, b) = (self.objects.info_for(&spec.object_a, viewer).await?, self.objects.info_for(b, viewer).await?);
+        Ok([a.name, b.name])
+    }
+
+    async fn advice_row(&self, id: &str) -> Result<AdviceRow> {
+        self.store.advice(id).await?.ok_or_else(|| no_advice(id))
+    }
+
+    async fn paper(&self, id: &str, side: Side, stage: usize) -> Result<StoredPaper> {
+        let row = self.advice_row(id).await?;
+        let none = || EngineError::NotFound("This advice has no reduced object there.".to_owned());
+        row.papers[side as usize].get(stage).cloned().ok_or_else(none)
+    }
+
+    fn begin_advice(self: Arc<Self>, job: Arc<Job>) {
+        let inner = self.clone();
+        self.spawn(async move {
+            let id = job.info().id;
+            let found = inner.work_on_advice(&job).await;
+            // What closing interrupted stays open, and is begun again.
+            if !inner.closing()
+                && let Err(e) = inner.end_advice(job.info(), found).await
+            {
+                tracing::error!("advice {id}: {e}");
+            }
+            inner.advices.remove(&id);
+        });
+    }
+
+    async fn work_on_advice(&self, job: &Arc<Job>) -> Result<Option<Found>> {
+        let _turn = tokio::select! {
+            Ok(turn) = self.advices.turn.acquire() => turn,
+            () = job.ended() => return Ok(None),
+        };
+        let AdviceInfo { id, spec, names, .. } = job.info();
+        self.store.begin_advice(&id).await?;
+        let a = self.objects.mesh(&spec.object_a).await?;
+        let b = match &spec.object_b {
+            Some(b) if *b != spec.object_a => self.objects.mesh(b).await?,
+            _ => a.clone(),
+        };
+        let (job, shelf) = (job.clone(), Shelf::folder(&self.config.data.join(SHELF)));
+        let work = tokio::task::spawn_blocking(move || job.work(&names, &[a, b], &shelf));
+        work.await.unwrap_or_else(|_| Err(EngineError::Fault("The advisor broke down; see the log.".to_owned())))
+    }
+
+    async fn end_advice(&self, mut info: AdviceInfo, found: Result<Option<Found>>) -> Result<()> {
+        let mut papers: [Vec<StoredPaper>; 2] = Default::default();
+        let _keeping = self.blobs.keeping().await;
+        (info.state, info.message) = match found {
+            Ok(Some((advice, found))) => {
+                for (side, all) in found.iter().enumerate() {
+                    for (paper, mesh) in all {
+                        papers[side].push(self.keep_paper(paper, mesh).await?);
+                    }
+                }
+                info.advice = Some(advice);
+                (State::Done, None)
+            }
+            Ok(None) => (State::Cancelled, None),
+            Err(e) => (State::Failed, Some(e.for_visitors().to_string())),
+        };
+        self.store.end_advice(&info, &papers).await
+    }
+
+    async fn keep_paper(&self, paper: &Paper, mesh: &Mesh) -> Result<StoredPaper> {
+        let json = serde_json::to_vec(paper).map_err(|e| EngineError::fault("Writing a certificate failed", e))?;
+        let mut kept = Vec::new();
+        for (bytes, media_type) in [(obj::write(mesh).into_bytes(), "model/obj"), (json, "application/json")] {
+            let length = bytes.len();
+            let sha256 = self.blobs.put(bytes).await?;
+            self.store.add_blob(&sha256, length, media_type).await?;
+            kept.push(sha256);
+        }
+        let [mesh, certificate] = kept.try_into().expect("two blobs");
+        Ok(StoredPaper { mesh, certificate, file: paper.file.clone() })
+    }
 }
 
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+/// There is no such advice, or not for who asks: both sound alike.
+pub(crate) fn no_advice(id: &str) -> EngineError {
+    EngineError::NotFound(format!("There is no advice {id:?}; check the link."))
+}
+
+fn check(question: Asked) -> Result<()> {
+    // Written so that NaN fails.
+    match question {
+        Asked::Distance { tolerance } if !(tolerance > 0.0 && tolerance <= 1.0) => Err(EngineError::Invalid(format!(
+            "The tolerance is a share of A's longest side, more than 0 and at most 1, not {tolerance}."
+        ))),
+        Asked::Clearance { clearance } if !(0.0..=100.0).contains(&clearance) => Err(EngineError::Invalid(format!(
+            "The clearance is a share of A's longest side from 0 to 100, not {clearance}."
+        ))),
+        Asked::Distance { .. } | Asked::Clearance { .. } => Ok(()),
+    }
 }

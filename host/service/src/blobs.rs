@@ -121,5 +121,6 @@ fn fault(step: &str, e: object_store::Error) -> EngineError {
     EngineError::fault(step, e)
 }
 
+pub mod sql;
 #[cfg(test)]
 pub(crate) mod tests;

@@ -6,6 +6,8 @@
 //! oracle). The results of a suite are never mixed with other runs, nor with those of another version. Over several scenarios counts are added,
 //! eps* and the error of distances are the worst, and the time is the mean with every scenario asked equally often.
 
+pub mod ask;
+pub mod columns;
 mod family;
 mod filter;
 mod frontier;

@@ -6,6 +6,8 @@
 //! A finished run never changes, so its charts are kept in memory ([`KEPT_POINTS`]): the intervals of a large one take more
 //! than a second.
 
+pub mod ask;
+pub mod columns;
 mod resolution;
 mod times;
 mod work;

@@ -1,41 +1,15 @@
 //! The one handle for server and command line.
 
-mod advice;
-mod archive;
-mod campaigns;
-mod charts;
-mod choices;
-mod citations;
-mod farewells;
-mod featured;
-mod follow;
-mod invitations;
-mod mails;
-mod notices;
-mod people;
-mod plugin_notices;
-mod plugins;
-mod quotas;
-mod repro;
-mod requests;
-mod runs;
-mod selecting;
-mod sets;
-mod stability;
-mod standing;
-mod suite;
-mod things;
-mod visibility;
-
-pub use archive::Contents;
-pub use campaigns::campaign_csv;
-pub use charts::{board_csv, chart_csv, chart_parquet};
-pub use people::SESSION;
-pub use plugin_notices::of_check;
-pub use plugins::{MAX_PLUGIN_BYTES, conflict};
-pub use quotas::Visitor;
-pub use requests::Made;
-pub use sets::SetJob;
+pub use crate::accounts::SESSION;
+pub use crate::board::ask::board_csv;
+pub use crate::campaigns::campaign_csv;
+pub use crate::charts::ask::{chart_csv, chart_parquet};
+pub use crate::owned::archive::Contents;
+pub use crate::plugins::notices::of_check;
+pub use crate::plugins::{MAX_PLUGIN_BYTES, conflict};
+pub use crate::quotas::Visitor;
+pub use crate::requests::Made;
+pub use crate::sets::SetJob;
 
 use std::fs::File;
 use std::path::Path;
@@ -51,7 +25,7 @@ use ocb_lab::check::{Extent, Term, check_plugin};
 use tokio::sync::Notify;
 use tokio::task::JoinHandle;
 
-use crate::advice::Advices;
+use crate::advice::work::Advices;
 use crate::blobs::Blobs;
 use crate::boxed;
 use crate::cache::Cache;
@@ -62,17 +36,18 @@ use crate::model::{
     AlgorithmInfo, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, Page, Part, PluginReport, RunSpec, Status,
 };
 use crate::objects::{Objects, blocking};
-use crate::registry::Registry;
+use crate::plugins::registry::Registry;
 use crate::results::Format;
-use crate::runlog::Bell;
+use crate::runs::log::Bell;
+use crate::runs::{dispatcher, estimate, spec};
 use crate::store::Store;
 use crate::suite::Suite;
-use crate::{EngineConfig, EngineError, Result, configurations, dispatcher, estimate, spec};
+use crate::{EngineConfig, EngineError, Result, configurations};
 
 /// Priority of what somebody waits for.
 pub const INTERACTIVE: i64 = 1;
 /// Priority of the service's own runs.
-const BACKGROUND: i64 = 5;
+pub const BACKGROUND: i64 = 5;
 
 /// Runs, objects, algorithms and results behind one cheap-to-clone handle.
 ///
@@ -81,7 +56,7 @@ const BACKGROUND: i64 = 5;
 /// functions without a viewer answer whoever got so far. Only its owner may change a run.
 #[derive(Clone)]
 pub struct Engine {
-    inner: Arc<Inner>,
+    pub(crate) inner: Arc<Inner>,
 }
 
 /// What all parts of one engine share.
@@ -96,11 +71,11 @@ pub struct Inner {
     /// What public plugins are measured on.
     pub suite: Suite,
     /// Held while it is found out what of the suite is missing, until that is in the queue.
-    planning: tokio::sync::Mutex<()>,
+    pub planning: tokio::sync::Mutex<()>,
     /// Held while a plugin is published: its ids must still be free then.
-    publishing: tokio::sync::Mutex<()>,
+    pub publishing: tokio::sync::Mutex<()>,
     /// Held while a run is admitted: its quota must still be free then.
-    asking: tokio::sync::Mutex<()>,
+    pub asking: tokio::sync::Mutex<()>,
     /// Rung when the queue has something new.
     pub wake: Notify,
     /// The run at work and how it is stopped.
@@ -111,15 +86,15 @@ pub struct Inner {
     pub shapes: Cache<Shape>,
     pub charts: Cache<ocb_chart::Chart>,
     pub advices: Advices,
-    closing: AtomicBool,
+    pub closing: AtomicBool,
     /// Rung when the engine shuts down, for what would sleep on.
-    closed: Notify,
+    pub closed: Notify,
     /// Rung when there is a mail to bring, or the engine shuts down.
-    posting: Notify,
+    pub posting: Notify,
     /// What closing waits for.
-    tasks: Mutex<Vec<JoinHandle<()>>>,
+    pub tasks: Mutex<Vec<JoinHandle<()>>>,
     /// Held as long as this process uses the folder.
-    lock: File,
+    pub lock: File,
 }
 
 impl Inner {
@@ -129,7 +104,7 @@ impl Inner {
     }
 
     /// Work that closing waits for.
-    fn spawn(&self, work: impl Future<Output = ()> + Send + 'static) {
+    pub fn spawn(&self, work: impl Future<Output = ()> + Send + 'static) {
         let mut tasks = self.tasks.lock().unwrap_or_else(PoisonError::into_inner);
         tasks.retain(|task| !task.is_finished());
         tasks.push(tokio::spawn(work));
@@ -314,7 +289,7 @@ impl Engine {
         }
     }
 
-    async fn check(&self, spec: &RunSpec, viewer: Option<&str>) -> Result<spec::Checked> {
+    pub(crate) async fn check(&self, spec: &RunSpec, viewer: Option<&str>) -> Result<spec::Checked> {
         let inner = &self.inner;
         spec::check(spec, &inner.objects, &inner.registry, &inner.store, &inner.blobs, viewer).await
     }

@@ -3,38 +3,40 @@
 //! One handle, [`Engine`], serves the web server and the command line alike; its values ([`ocb_model`]) are the JSON of both.
 #![forbid(unsafe_code)]
 
+mod accounts;
 mod advice;
-mod benchmark;
+mod audit;
 mod blobs;
 pub mod board;
 mod cache;
+mod campaigns;
 mod charts;
-mod checks;
-mod columns;
+mod citations;
 mod config;
-mod dispatcher;
-mod draw;
 mod engine;
 mod error;
-mod estimate;
 #[cfg_attr(not(feature = "mail"), allow(dead_code))]
 mod mail;
+mod notices;
 mod objects;
-mod passwords;
-mod registry;
+mod owned;
+mod plugins;
+mod quotas;
+mod requests;
 mod results;
-mod runlog;
-mod signature;
-mod spec;
+mod runs;
+mod sets;
+mod stability;
 mod store;
 pub mod suite;
+mod visibility;
 
 /// An asynchronous function whose future comes in a box. All that others call are such: the machine behind a future is
 /// compiled where it is polled, and so the whole engine once more for every program around it.
 pub(crate) use async_recursion::async_recursion as boxed;
 pub use config::{Ceilings, EngineConfig, Profile};
 pub use ocb_lab::{LabError, sha256_hex};
-use ocb_lab::{configurations, machine, measure, replay};
+use ocb_lab::{columns, configurations, machine, measure, replay};
 
 pub use engine::{
     Contents, Engine, MAX_PLUGIN_BYTES, Made, SESSION, SetJob, Visitor, board_csv, campaign_csv, chart_csv,
@@ -46,6 +48,7 @@ pub use ocb_chart as chart;
 pub use ocb_lab::check::Extent;
 pub use ocb_lab::measure::Stop;
 pub use ocb_lab::replay::Unpacked;
-pub use ocb_lab::{stability, truth};
+pub use ocb_lab::stability::Selection as StabilitySelection;
+pub use ocb_lab::truth;
 pub use ocb_model as model;
 pub use ocb_sandbox::{doctor, given};

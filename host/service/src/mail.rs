@@ -6,6 +6,8 @@ mod delivery;
 #[path = "mail/no_delivery.rs"]
 mod delivery;
 mod letter;
+pub mod outbox;
+pub mod sql;
 
 use std::fmt;
 use std::time::Duration;

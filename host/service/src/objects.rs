@@ -1,5 +1,7 @@
 //! Objects: made on demand, shipped with the service, or added by somebody.
 
+pub mod sql;
+
 use std::path::PathBuf;
 use std::sync::Arc;
 

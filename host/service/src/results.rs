@@ -1,6 +1,8 @@
 //! From stored records to heatmaps, charts and files.
 
 mod selected;
+pub mod selecting;
+pub mod sql;
 mod table;
 
 use std::sync::Arc;

@@ -3,34 +3,8 @@
 //! `sqlx::Any` checks nothing at compile time; the contract tests run every function here on both databases instead.
 //! The subset that works on both: `$1` placeholders, TEXT, BIGINT, DOUBLE PRECISION, `ON CONFLICT`, `RETURNING`.
 
-mod accounts;
-mod advice;
-mod audit;
-mod blobs;
-mod campaigns;
-mod choices;
-mod devices;
-mod farewells;
-mod invitations;
-mod mails;
-mod notices;
-mod objects;
-mod places;
-mod plugin_lists;
-mod plugins;
-mod queue;
-mod requests;
-mod results;
-mod runs;
-mod sets;
-mod stability;
-mod submissions;
-mod suites;
 #[cfg(test)]
 pub(crate) mod tests;
-mod things;
-mod unused;
-mod visibility;
 
 use std::path::Path;
 
@@ -42,26 +16,26 @@ use sqlx::{AnyPool, Executor, SqlSafeStr};
 
 use crate::{EngineError, Result};
 
-pub use advice::{AdviceRow, StoredPaper};
-pub use audit::Note;
-pub use campaigns::CampaignRow;
-pub use farewells::A_FORMER_ACCOUNT;
-pub use mails::{MailLink, WaitingMail};
-pub use notices::Telling;
-pub use queue::Granted;
-pub use requests::Request;
-pub use results::StoredResult;
-pub use runs::RunRow;
-pub use submissions::{SubmissionRow, THE_SERVICE};
-pub use things::Belongings;
+pub use crate::accounts::deletion::sql::A_FORMER_ACCOUNT;
+pub use crate::advice::sql::{AdviceRow, StoredPaper};
+pub use crate::audit::Note;
+pub use crate::campaigns::sql::CampaignRow;
+pub use crate::mail::sql::{MailLink, WaitingMail};
+pub use crate::notices::sql::Telling;
+pub use crate::owned::sql::Belongings;
+pub use crate::plugins::sql::{SubmissionRow, THE_SERVICE};
+pub use crate::requests::sql::Request;
+pub use crate::results::sql::StoredResult;
+pub use crate::runs::queue::Granted;
+pub use crate::runs::sql::RunRow;
 
 /// All tables of one data folder.
 #[derive(Clone)]
 pub struct Store {
-    pool: AnyPool,
+    pub(crate) pool: AnyPool,
     /// Begins a transaction whose reads all see the same moment.
-    one_moment: &'static str,
-    turns: places::Known,
+    pub(crate) one_moment: &'static str,
+    pub(crate) turns: crate::runs::places::Known,
 }
 
 impl Store {
@@ -99,7 +73,7 @@ impl Store {
         migrations().run(&pool).await.map_err(|e| EngineError::fault("Migrating the database failed", e))?;
         // SQLite's transactions see one moment anyway, PostgreSQL's have to ask for it.
         let one_moment = if sqlite { "BEGIN" } else { "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY" };
-        Ok(Self { pool, one_moment, turns: places::Known::default() })
+        Ok(Self { pool, one_moment, turns: crate::runs::places::Known::default() })
     }
 
     /// Closes all connections; what was written is on disk.
@@ -159,11 +133,11 @@ fn sqlite_url(data: &Path) -> Result<AnyConnectOptions> {
 pub use ocb_lab::now_us;
 
 /// To a JSON column.
-fn to_json(value: &impl Serialize) -> Result<String> {
+pub fn to_json(value: &impl Serialize) -> Result<String> {
     serde_json::to_string(value).map_err(|e| EngineError::fault("Writing a JSON column failed", e))
 }
 
 /// From a JSON column. Rows are written by this program only; a row that does not parse is damage, not input.
-fn from_json<T: DeserializeOwned>(text: &str) -> Result<T> {
+pub fn from_json<T: DeserializeOwned>(text: &str) -> Result<T> {
     serde_json::from_str(text).map_err(|e| EngineError::fault("Reading a JSON column failed", e))
 }

@@ -1,5 +1,8 @@
 //! The public benchmark as data: which scenes, how far apart and what is asked, under a version and a hash.
 
+pub mod planning;
+pub mod sql;
+
 use std::path::Path;
 
 use ocb_core::configuration::{Method, Sampling, Separation};

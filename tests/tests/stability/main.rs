@@ -5,8 +5,8 @@ mod faults;
 
 use std::path::PathBuf;
 
+use ocb_service::StabilitySelection as Selection;
 use ocb_service::model::Stability;
-use ocb_service::stability::Selection;
 use ocb_service::{Engine, EngineConfig, Profile, Stop};
 use ocb_tests::place::built;
 

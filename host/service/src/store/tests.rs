@@ -19,7 +19,7 @@ pub(crate) use fixtures::{result, run};
 use super::*;
 use crate::blobs::tests::from_harness;
 use crate::model::{AlgorithmInfo, Cursor, Draw, Environment, Estimated, ObjectInfo, Reference, Stability, State};
-use crate::runlog::{fresh_stages, plain_event};
+use crate::runs::log::{fresh_stages, plain_event};
 
 /// How many rows there are of blobs, objects, sets, runs and results.
 pub(crate) async fn row_counts(store: &Store) -> [i64; 5] {
@@ -142,7 +142,7 @@ mod contract {
         store.add_object(&nobodys, None, "m").await.unwrap();
         let row = |info: &ObjectInfo, owner: Option<&str>| {
             let owner = owner.map(str::to_owned);
-            objects::ObjectRow { info: info.clone(), owner, blob: "m".into() }
+            crate::objects::sql::ObjectRow { info: info.clone(), owner, blob: "m".into() }
         };
         assert_eq!(store.object("1").await.unwrap(), Some(row(&mine, Some("me"))));
         assert_eq!(store.object("9").await.unwrap(), None);

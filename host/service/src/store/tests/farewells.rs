@@ -1,6 +1,5 @@
 //! Deleting an account, and what stays of it, on both databases.
 
-use super::super::things::Unused;
 use super::super::*;
 use super::people::account;
 use super::submissions::submission;
@@ -9,6 +8,7 @@ use crate::model::{
     AccountInfo, CheckLine, CheckVerdict, Cursor, InvitationInfo, InvitationState, NewChoices, NoticeInfo, PluginState,
     Role, Scope, Thing, TokenInfo,
 };
+use crate::owned::sql::Unused;
 use crate::suite::Suite;
 
 const NOTE: Note<'static> = Note { actor: "Ada", action: "did", subject: "x", detail: "" };

@@ -7,7 +7,7 @@ use crate::model::{
     AdviceInfo, Agreement, AlgorithmResult, ClassCount, Estimated, ObjectInfo, OutcomeInfo, OutcomeName, RunSpec,
     SetInfo, State, Visibility,
 };
-use crate::runlog::fresh_stages;
+use crate::runs::log::fresh_stages;
 
 pub(crate) fn object(id: &str) -> ObjectInfo {
     ObjectInfo {

@@ -1,8 +1,8 @@
 //! Notices, choices, addresses and waiting mails, on both databases.
 
-use super::super::choices::ChoicesRow;
 use super::super::*;
 use super::people::account;
+use crate::accounts::choices::sql::ChoicesRow;
 use crate::model::{Cursor, NewChoices, NoticeInfo};
 
 const NOTE: Note<'static> = Note { actor: "ada", action: "did", subject: "x", detail: "" };

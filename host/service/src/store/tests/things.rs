@@ -1,9 +1,9 @@
 //! What an owner has, and taking it away, on both databases.
 
-use super::super::things::Unused;
 use super::super::*;
 use super::{add, advice_info, object, result, run, set_info};
 use crate::model::Thing;
+use crate::owned::sql::Unused;
 use ocb_core::query::Query;
 
 pub async fn what_is_taken_away_takes_the_files_that_nobody_else_uses(store: Store) {

@@ -1,0 +1,130 @@
+//! Deleting an account: what is private goes, what is public stays and is nobody's.
+
+pub mod sql;
+
+use crate::accounts::NAME_OF_OPERATOR;
+use crate::boxed;
+use crate::engine::{Engine, Inner};
+use crate::model::{AccountInfo, Leaving, LeavingCounts, Role, State, Visibility};
+use crate::plugins::registry::brought::forget_file;
+use crate::store::{Belongings, Note};
+use crate::{EngineError, Result};
+
+impl Engine {
+    /// What goes with an account and what stays, and what stands against deleting it; nothing happens.
+    #[boxed]
+    pub async fn leaving(&self, account: &AccountInfo) -> Result<Leaving> {
+        let (goes, stays) = self.inner.parted(account).await?;
+        self.inner.told_leaving(account, &goes, &stays).await
+    }
+
+    /// Deletes an account whose owner shows its password, and tells what has gone and what stays.
+    #[boxed]
+    pub async fn delete_account(&self, account: &AccountInfo, password: &str) -> Result<Leaving> {
+        let account = self.account_with(&account.name, password).await?;
+        self.delete(&account, &account.name).await
+    }
+
+    /// Deletes the account of this name for whoever has the data folder.
+    #[boxed]
+    pub async fn delete_account_named(&self, name: &str) -> Result<Leaving> {
+        let account = self.account_named(name).await?;
+        self.delete(&account, NAME_OF_OPERATOR).await
+    }
+
+    /// The account of this name.
+    #[boxed]
+    pub async fn account_named(&self, name: &str) -> Result<AccountInfo> {
+        let missing = || EngineError::NotFound(format!("There is no account {:?}.", name.trim()));
+        let (id, _) = self.inner.store.password_of(name.trim()).await?.ok_or_else(missing)?;
+        self.inner.store.account(&id).await?.ok_or_else(missing)
+    }
+
+    async fn delete(&self, account: &AccountInfo, actor: &str) -> Result<Leaving> {
+        let (inner, owner) = (&self.inner, account.owner());
+        if let Some(hindrance) = inner.hindrance(account).await? {
+            return Err(EngineError::Busy(hindrance));
+        }
+        let (goes, stays) = inner.parted(account).await?;
+        self.end_all(&owner, &goes).await?;
+        for plugin in &goes.plugins {
+            inner.stop_current(Some(plugin), None);
+        }
+        let told = inner.told_leaving(account, &goes, &stays).await?;
+        // Nobody stores a file meanwhile that is about to go.
+        let alone = inner.blobs.removing().await;
+        let note = Note { actor, action: "account deleted", subject: &owner, detail: "" };
+        let Some(unused) = inner.store.delete_account(account, &goes, &stays, note).await? else {
+            let gone = || "This account has just been deleted.".to_owned();
+            return Err(EngineError::Busy(inner.hindrance(account).await?.unwrap_or_else(gone)));
+        };
+        for file in unused {
+            // The account is gone, whatever becomes of a file.
+            let removed = inner.blobs.remove(&file.sha256).await;
+            if let Err(e) = removed.and_then(|()| forget_file(&inner.config.data, &file.sha256)) {
+                tracing::error!("file {} of an account that was deleted stays: {e}", file.sha256);
+            }
+        }
+        drop(alone);
+        inner.renew_plugins().await?;
+        Ok(told)
+    }
+}
+
+impl Inner {
+    /// What goes with an account, and what stays: runs that have ended and objects, when everybody finds them; plugins that are
+    /// public or were.
+    async fn parted(&self, account: &AccountInfo) -> Result<(Belongings, Belongings)> {
+        let all = self.store.belongings(&account.owner(), None).await?;
+        let (mut goes, mut stays) = (Belongings { advice: all.advice, ..Belongings::default() }, Belongings::default());
+        for run in all.runs {
+            let row = self.run_row(&run.id).await?;
+            let ended = !matches!(row.state, State::Queued | State::Running);
+            let cited = ended && self.visibility_of(&row).await? == Visibility::Public;
+            let side = if cited { &mut stays } else { &mut goes };
+            side.runs.push(run);
+        }
+        for object in all.objects {
+            let public = self.objects.visibility(&object.id).await? == Visibility::Public;
+            let side = if public { &mut stays } else { &mut goes };
+            side.objects.push(object);
+        }
+        for row in self.store.submissions().await?.into_iter().filter(|row| row.account == account.id) {
+            let side = if row.state.is_shown() { &mut stays } else { &mut goes };
+            side.plugins.push(row.id);
+        }
+        Ok((goes, stays))
+    }
+
+    async fn told_leaving(&self, account: &AccountInfo, goes: &Belongings, stays: &Belongings) -> Result<Leaving> {
+        let bytes = self.store.unused_without(goes).await?.iter().map(|file| file.bytes).sum();
+        let hindrance = self.hindrance(account).await?;
+        Ok(Leaving { goes: counted(goes), stays: counted(stays), bytes, hindrance })
+    }
+
+    /// Who decides for others goes only when somebody else can.
+    async fn hindrance(&self, account: &AccountInfo) -> Result<Option<String>> {
+        let what = match account.role {
+            Role::User | Role::Developer => return Ok(None),
+            Role::Curator => "plugins",
+            Role::Administrator => "roles",
+        };
+        if self.store.others_may(account.role, &account.id).await? {
+            return Ok(None);
+        }
+        let role = account.role.name();
+        Ok(Some(format!(
+            "This is the last {role} here, and somebody has to decide about {what}; make another {role} first, such as by \
+             `ocb admin create NAME --role {role}` on the data folder."
+        )))
+    }
+}
+
+fn counted(what: &Belongings) -> LeavingCounts {
+    LeavingCounts {
+        runs: what.runs.len() as u32,
+        objects: what.objects.len() as u32,
+        advice: what.advice.len() as u32,
+        plugins: what.plugins.len() as u32,
+    }
+}

@@ -1,0 +1,72 @@
+//! The board that a viewer may see, as values and as CSV.
+
+use crate::board::{self, Circumstances, Measured};
+use crate::boxed;
+use crate::engine::{Engine, Inner};
+use crate::model::{Board, BoardRequest, State, Visibility};
+use crate::store::RunRow;
+use crate::{Profile, Result, columns};
+
+/// Finished runs that are looked at, at most: the newest.
+const MOST_RUNS: i64 = 1000;
+
+impl Engine {
+    /// Results of the finished runs that the viewer may see, filtered until they may be compared.
+    #[boxed]
+    pub async fn board(&self, request: &BoardRequest, viewer: Option<&str>) -> Result<Board> {
+        let suites = self.inner.store.suites().await?;
+        let standings = self.inner.standings().await?;
+        let mut measured = Vec::new();
+        for row in self.inner.visible_runs(viewer).await? {
+            let suite = row.suite.as_ref().and_then(|sha256| suites.iter().find(|suite| suite.sha256 == *sha256));
+            for mut result in self.inner.measured_of(&row).await? {
+                result.suite = suite.map(board::suite);
+                result.standing = standings.get(&result.plugin_sha256).and_then(|standing| standing.why_not(&result));
+                measured.push(result);
+            }
+        }
+        let mut board = board::board(measured, request, &suites)?;
+        board::add_stability(&mut board.rows, &self.stability().await?);
+        Ok(board)
+    }
+}
+
+/// The rows of the board as CSV with a header line.
+pub fn board_csv(board: &Board) -> Result<Vec<u8>> {
+    Ok(columns::csv(&board::columns::board_parquet(&board.rows)?)?)
+}
+
+impl Inner {
+    /// The finished runs whose results this viewer may see in lists and comparisons, the newest first: public ones, and
+    /// the viewer's own; then those of suites.
+    #[boxed]
+    pub async fn visible_runs(&self, viewer: Option<&str>) -> Result<Vec<RunRow>> {
+        let mut visible = Vec::new();
+        for row in self.store.finished_runs(viewer, MOST_RUNS).await? {
+            let own = viewer.is_some() && row.owner.as_deref() == viewer;
+            if self.may_see(&row, viewer).await? && (own || self.visibility_of(&row).await? == Visibility::Public) {
+                visible.push(row);
+            }
+        }
+        visible.extend(self.store.suite_runs().await?.into_iter().filter(|row| row.state == State::Done));
+        Ok(visible)
+    }
+
+    /// The results of one run; none when it was never measured.
+    #[boxed]
+    pub async fn measured_of(&self, row: &RunRow) -> Result<Vec<Measured>> {
+        let Some(machine) = &row.environment else { return Ok(Vec::new()) };
+        let circumstances = Circumstances {
+            run: &row.id,
+            finished_us: row.finished_us.unwrap_or(row.created_us),
+            spec: &row.spec,
+            names: [&row.object_a_name, &row.object_b_name],
+            machine: [&machine.cpu, &machine.hardware_class],
+            ranked: machine.profile == Profile::Production.as_str(),
+            preview: row.preview.as_ref(),
+            set: row.set.as_ref(),
+        };
+        let results = self.store.results(&row.id).await?.into_iter();
+        Ok(results.map(|stored| Measured::of(&circumstances, &stored.plugin_sha256, stored.result)).collect())
+    }
+}

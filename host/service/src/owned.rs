@@ -1,0 +1,170 @@
+//! What somebody has made: how long it stays, what goes with it, and taking it away.
+
+pub mod archive;
+pub mod sql;
+pub mod unused;
+
+use std::time::Duration;
+
+use crate::boxed;
+use crate::engine::{Engine, Inner};
+use crate::model::{Owner, State, Things};
+use crate::store::{Belongings, now_us};
+use crate::{EngineError, Result};
+
+/// How often it is looked whose time is over.
+const LOOK: Duration = Duration::from_secs(3600);
+const DAY_US: i64 = 24 * 3600 * 1_000_000;
+
+impl Engine {
+    /// Everything that this owner has, which is what `remove_things` takes away.
+    #[boxed]
+    pub async fn things(&self, owner: &str) -> Result<Things> {
+        let all = self.inner.store.belongings(owner, None).await?;
+        self.inner.told(owner, all).await
+    }
+
+    /// What goes with one of the owner's runs.
+    #[boxed]
+    pub async fn things_of_run(&self, id: &str, owner: &str) -> Result<Things> {
+        let run = self.inner.own_run(id, owner).await?;
+        self.inner.told(owner, run).await
+    }
+
+    /// What goes with one of the owner's objects: it, and their runs and advice with it.
+    #[boxed]
+    pub async fn things_of_object(&self, id: &str, owner: &str) -> Result<Things> {
+        let object = self.inner.own_object(id, owner).await?;
+        self.inner.told(owner, object).await
+    }
+
+    /// Takes away everything that this owner has, and tells what it was. Plugins stay: results belong to them.
+    #[boxed]
+    pub async fn remove_things(&self, owner: &str) -> Result<Things> {
+        let all = self.inner.store.belongings(owner, None).await?;
+        self.remove(owner, all).await
+    }
+
+    /// Takes away a run of this owner.
+    #[boxed]
+    pub async fn remove_run(&self, id: &str, owner: &str) -> Result<Things> {
+        let run = self.inner.own_run(id, owner).await?;
+        self.remove(owner, run).await
+    }
+
+    /// Takes away an object of this owner, and their runs and advice with it.
+    #[boxed]
+    pub async fn remove_object(&self, id: &str, owner: &str) -> Result<Things> {
+        let object = self.inner.own_object(id, owner).await?;
+        self.remove(owner, object).await
+    }
+
+    /// A guest's things stay as long again from now on.
+    #[boxed]
+    pub async fn keep_longer(&self, owner: &str) -> Result<Things> {
+        self.inner.store.keep_longer(owner).await?;
+        self.things(owner).await
+    }
+
+    async fn remove(&self, owner: &str, what: Belongings) -> Result<Things> {
+        self.end_all(owner, &what).await?;
+        let told = self.inner.told(owner, what.clone()).await?;
+        self.inner.take_away(&what).await?;
+        Ok(told)
+    }
+
+    /// Ends what waits or is at work of these, which are the owner's.
+    pub(crate) async fn end_all(&self, owner: &str, what: &Belongings) -> Result<()> {
+        for run in &what.runs {
+            let now = self.cancel(&run.id, Some(owner)).await?;
+            if matches!(now.state, State::Queued | State::Running) {
+                return Err(EngineError::Busy("A run of these is just ending; try again in a moment.".to_owned()));
+            }
+        }
+        for advice in &what.advice {
+            self.cancel_advice(advice, Some(owner)).await?;
+        }
+        Ok(())
+    }
+
+    /// Takes away what guests have left behind, now and every hour.
+    pub(crate) async fn sweep(self) {
+        while !self.inner.closing() {
+            if let Err(e) = self.forget_requests().await {
+                tracing::error!("keys of old requests could not be forgotten: {e}");
+            }
+            if let Err(e) = self.sweep_once(now_us()).await {
+                tracing::error!("what guests left behind could not be taken away: {e}");
+            }
+            tokio::select! {
+                () = tokio::time::sleep(LOOK) => {}
+                () = self.inner.closed.notified() => {}
+            }
+        }
+    }
+
+    /// Takes away everything of guests whose time is over, and what was being made while its account was deleted; gives how many
+    /// they were.
+    #[boxed]
+    pub async fn sweep_once(&self, now_us: i64) -> Result<u32> {
+        let mut swept = 0;
+        for owner in self.inner.store.owners().await? {
+            let over = match Owner::of(&owner) {
+                Owner::Account(account) => self.inner.store.is_former(account).await?,
+                Owner::Guest(_) | Owner::Operator(_) => {
+                    self.inner.kept_until(&owner).await?.is_some_and(|until| until < now_us)
+                }
+            };
+            if over {
+                self.remove_things(&owner).await?;
+                swept += 1;
+            }
+        }
+        Ok(swept)
+    }
+}
+
+impl Inner {
+    async fn own_run(&self, id: &str, owner: &str) -> Result<Belongings> {
+        let row = self.run_row(id).await?;
+        if row.owner.as_deref() != Some(owner) {
+            return Err(EngineError::Forbidden("Only who asked for this run may take it away.".to_owned()));
+        }
+        let all = self.store.belongings(owner, None).await?;
+        let runs = all.runs.into_iter().filter(|run| run.id == id).collect();
+        Ok(Belongings { runs, ..Belongings::default() })
+    }
+
+    async fn own_object(&self, id: &str, owner: &str) -> Result<Belongings> {
+        if !self.objects.info_for(id, Some(owner)).await?.mine {
+            return Err(EngineError::Forbidden("Only who added this object may take it away.".to_owned()));
+        }
+        self.store.belongings(owner, Some(id)).await
+    }
+
+    async fn told(&self, owner: &str, what: Belongings) -> Result<Things> {
+        let bytes = self.store.unused_without(&what).await?.iter().map(|file| file.bytes).sum();
+        let kept_until_us = self.kept_until(owner).await?;
+        Ok(Things { runs: what.runs, objects: what.objects, advice: what.advice.len() as u32, bytes, kept_until_us })
+    }
+
+    /// When the things of this owner go by themselves: only guests', and only if they have any. All of them expire together,
+    /// counted from the newest: there is one date to show and to extend, and nothing goes that a newer link still needs.
+    async fn kept_until(&self, owner: &str) -> Result<Option<i64>> {
+        if !matches!(Owner::of(owner), Owner::Guest(_)) {
+            return Ok(None);
+        }
+        let last = self.store.last_wanted(owner).await?;
+        Ok(last.map(|last| last + i64::from(self.config.guest_days) * DAY_US))
+    }
+
+    /// The rows first, then the files: what the database speaks of is always there.
+    async fn take_away(&self, what: &Belongings) -> Result<()> {
+        // Nobody stores a file meanwhile that is about to go.
+        let _alone = self.blobs.removing().await;
+        for file in self.store.take_away(what).await? {
+            self.blobs.remove(&file.sha256).await?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,195 @@
+//! What an owner has, and taking it away with the stored files that nobody else uses.
+
+use sqlx::AnyConnection;
+
+use crate::Result;
+use crate::model::Thing;
+use crate::store::{Store, StoredPaper, from_json, now_us};
+
+/// Runs, objects, advice and plugins of one owner.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Belongings {
+    /// Newest first.
+    pub runs: Vec<Thing>,
+    /// Newest first.
+    pub objects: Vec<Thing>,
+    /// Their ids.
+    pub advice: Vec<String>,
+    /// Theirs, too; only an account that is deleted takes plugins along.
+    pub plugins: Vec<String>,
+}
+
+/// A stored file that nobody uses any more.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unused {
+    /// Its name.
+    pub sha256: String,
+    /// Its size.
+    pub bytes: u64,
+}
+
+impl Store {
+    /// Everything but plugins that this owner has; with an object, only that and what was made with it.
+    pub async fn belongings(&self, owner: &str, object: Option<&str>) -> Result<Belongings> {
+        // Ids stand in requests as JSON texts, and hold nothing that LIKE would read otherwise.
+        let named = object.map_or_else(|| "%".to_owned(), |id| format!("%\"{id}\"%"));
+        let runs: Vec<(String, String, String)> = sqlx::query_as(
+            "SELECT id, object_a_name, object_b_name FROM runs WHERE owner = $1 AND spec LIKE $2 \
+             ORDER BY created_us DESC, id DESC",
+        )
+        .bind(owner)
+        .bind(&named)
+        .fetch_all(&self.pool)
+        .await?;
+        let objects: Vec<(String, String)> = sqlx::query_as(
+            "SELECT id, info FROM objects WHERE owner = $1 AND id LIKE $2 ORDER BY created_us DESC, id DESC",
+        )
+        .bind(owner)
+        .bind(object.unwrap_or("%"))
+        .fetch_all(&self.pool)
+        .await?;
+        let advice: Vec<String> = sqlx::query_scalar("SELECT id FROM advice WHERE owner = $1 AND info LIKE $2")
+            .bind(owner)
+            .bind(&named)
+            .fetch_all(&self.pool)
+            .await?;
+        let run = |(id, a, b): (String, String, String)| Thing { id, name: format!("{a} x {b}") };
+        let object =
+            |(id, info): (String, String)| Ok(Thing { id, name: from_json::<crate::model::ObjectInfo>(&info)?.name });
+        Ok(Belongings {
+            runs: runs.into_iter().map(run).collect(),
+            objects: objects.into_iter().map(object).collect::<Result<_>>()?,
+            advice,
+            plugins: Vec::new(),
+        })
+    }
+
+    /// Takes these away and tells which files nobody uses any more.
+    pub async fn take_away(&self, what: &Belongings) -> Result<Vec<Unused>> {
+        let mut transaction = self.pool.begin().await?;
+        let unused = take(&mut transaction, what).await?;
+        transaction.commit().await?;
+        Ok(unused)
+    }
+
+    /// When this owner last made something or asked to have it kept; nothing when they have nothing.
+    pub async fn last_wanted(&self, owner: &str) -> Result<Option<i64>> {
+        let text = "SELECT MAX(us) FROM (SELECT MAX(created_us) AS us FROM runs WHERE owner = $1 \
+                    UNION ALL SELECT MAX(created_us) FROM objects WHERE owner = $2 \
+                    UNION ALL SELECT MAX(created_us) FROM advice WHERE owner = $3) AS made";
+        let made: Option<i64> =
+            sqlx::query_scalar(text).bind(owner).bind(owner).bind(owner).fetch_one(&self.pool).await?;
+        let asked: Option<i64> = sqlx::query_scalar("SELECT asked_us FROM kept WHERE owner = $1")
+            .bind(owner)
+            .fetch_optional(&self.pool)
+            .await?;
+        Ok(made.map(|made| made.max(asked.unwrap_or(made))))
+    }
+
+    /// Notes that this owner asked to have everything kept longer.
+    pub async fn keep_longer(&self, owner: &str) -> Result<()> {
+        let text = "INSERT INTO kept (owner, asked_us) VALUES ($1, $2) \
+                    ON CONFLICT (owner) DO UPDATE SET asked_us = excluded.asked_us";
+        sqlx::query(text).bind(owner).bind(now_us()).execute(&self.pool).await?;
+        Ok(())
+    }
+
+    /// Whoever has something.
+    pub async fn owners(&self) -> Result<Vec<String>> {
+        let text = "SELECT owner FROM runs WHERE owner IS NOT NULL UNION SELECT owner FROM objects WHERE owner IS NOT NULL \
+                    UNION SELECT owner FROM advice WHERE owner IS NOT NULL";
+        Ok(sqlx::query_scalar(text).fetch_all(&self.pool).await?)
+    }
+}
+
+/// Takes these away within a transaction and tells which files nobody uses any more.
+pub(crate) async fn take(connection: &mut AnyConnection, what: &Belongings) -> Result<Vec<Unused>> {
+    // Every statement writes, also the first: a transaction that has read cannot write any more on SQLite when somebody
+    // else has written since.
+    let mut files = Vec::new();
+    for Thing { id, .. } in &what.runs {
+        for text in ["DELETE FROM run_events WHERE run_id = $1", "DELETE FROM run_stages WHERE run_id = $1"] {
+            sqlx::query(text).bind(id).execute(&mut *connection).await?;
+        }
+        let records = "DELETE FROM results WHERE run_id = $1 RETURNING records";
+        files.extend(column(&mut *connection, records, id).await?);
+        files.extend(column(&mut *connection, "DELETE FROM runs WHERE id = $1 RETURNING set_blob", id).await?);
+    }
+    for Thing { id, .. } in &what.objects {
+        leave_hidden(&mut *connection, id).await?;
+        files.extend(column(&mut *connection, "DELETE FROM objects WHERE id = $1 RETURNING blob", id).await?);
+    }
+    for id in &what.advice {
+        for papers in column(&mut *connection, "DELETE FROM advice WHERE id = $1 RETURNING papers", id).await? {
+            let papers: [Vec<StoredPaper>; 2] = from_json(&papers)?;
+            files.extend(papers.into_iter().flatten().flat_map(|paper| [paper.mesh, paper.certificate]));
+        }
+    }
+    for id in &what.plugins {
+        // One that was made public meanwhile stays.
+        let text = "UPDATE submissions SET attempts = attempts WHERE id = $1 \
+                    AND state NOT IN ('public', 'suspended', 'excluded', 'withdrawn') RETURNING blob";
+        let blobs = column(&mut *connection, text, id).await?;
+        if blobs.is_empty() {
+            continue;
+        }
+        files.extend(blobs);
+        for text in ["DELETE FROM submission_lines WHERE submission = $1", "DELETE FROM submissions WHERE id = $1"] {
+            sqlx::query(text).bind(id).execute(&mut *connection).await?;
+        }
+    }
+    files.sort();
+    files.dedup();
+    let mut unused = Vec::new();
+    for sha256 in files {
+        if let Some(bytes) = forget(&mut *connection, &sha256).await? {
+            unused.push(Unused { sha256, bytes });
+        }
+    }
+    Ok(unused)
+}
+
+/// What an object hid stays hidden without it: a run with it that more people would see takes over who sees the object.
+async fn leave_hidden(connection: &mut AnyConnection, object: &str) -> Result<()> {
+    let text = "UPDATE runs SET visibility = (SELECT visibility FROM objects WHERE id = $1) WHERE spec LIKE $2 \
+                AND EXISTS (SELECT 1 FROM objects o WHERE o.id = $3 AND (runs.visibility = 'public' AND o.visibility <> 'public' \
+                OR runs.visibility = 'unlisted' AND o.visibility = 'private'))";
+    let named = format!("%\"{object}\"%");
+    sqlx::query(text).bind(object).bind(named).bind(object).execute(connection).await?;
+    Ok(())
+}
+
+async fn column(connection: &mut AnyConnection, text: &'static str, id: &str) -> Result<Vec<String>> {
+    let rows: Vec<Option<String>> = sqlx::query_scalar(text).bind(id).fetch_all(connection).await?;
+    Ok(rows.into_iter().flatten().collect())
+}
+
+/// Forgets a file that nothing names any more, and gives its size. A set that no run has is made again when it is wanted.
+async fn forget(connection: &mut AnyConnection, sha256: &str) -> Result<Option<u64>> {
+    sqlx::query("DELETE FROM sets WHERE blob = $1 AND NOT EXISTS (SELECT 1 FROM runs WHERE set_blob = $2)")
+        .bind(sha256)
+        .bind(sha256)
+        .execute(&mut *connection)
+        .await?;
+    let named = format!("%\"{sha256}\"%");
+    let bytes: Option<i64> = sqlx::query_scalar(
+        "DELETE FROM blobs WHERE sha256 = $1 \
+         AND NOT EXISTS (SELECT 1 FROM objects WHERE blob = $2) \
+         AND NOT EXISTS (SELECT 1 FROM sets WHERE blob = $3) \
+         AND NOT EXISTS (SELECT 1 FROM runs WHERE set_blob = $4 OR spec LIKE $5) \
+         AND NOT EXISTS (SELECT 1 FROM results WHERE records = $6) \
+         AND NOT EXISTS (SELECT 1 FROM submissions WHERE blob = $7) \
+         AND NOT EXISTS (SELECT 1 FROM advice WHERE papers LIKE $8) RETURNING bytes",
+    )
+    .bind(sha256)
+    .bind(sha256)
+    .bind(sha256)
+    .bind(sha256)
+    .bind(&named)
+    .bind(sha256)
+    .bind(sha256)
+    .bind(&named)
+    .fetch_optional(&mut *connection)
+    .await?;
+    Ok(bytes.map(|bytes| bytes as u64))
+}

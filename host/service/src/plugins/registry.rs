@@ -1,0 +1,203 @@
+//! Which algorithms there are. A plugin is only ever loaded by the jailed runner, also to read its name.
+
+pub mod brought;
+pub mod sql;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
+
+use ocb_lab::contestant::{Contestant, Runner, plugin_hash};
+use ocb_sandbox::Profile;
+
+use crate::model::AlgorithmInfo;
+use crate::objects::blocking;
+use crate::store::Store;
+use crate::{EngineConfig, Result};
+
+use brought::AllBrought;
+
+/// Ours that are measured when nobody names any: each kind of method once. A foreign plugin was brought to be measured. `all`
+/// takes every algorithm; with thirty installed, that can take an hour.
+const USUAL: [&str; 4] = ["box-tree", "brute-force", "ocb-fast", "parry"];
+
+/// The known plugins.
+pub struct Registry {
+    runner: Runner,
+    contestants: Vec<Arc<Contestant>>,
+    brought: RwLock<AllBrought>,
+    problems: Vec<String>,
+}
+
+impl Registry {
+    /// Looks through the configured files and folders. A file that was described before is not loaded again; one that
+    /// cannot be described is a problem of its own and keeps no other from being offered.
+    pub async fn open(config: &EngineConfig, store: &Store) -> Result<Self> {
+        let mut registry = Self {
+            runner: Runner { program: config.runner.clone(), profile: config.profile },
+            contestants: Vec::new(),
+            brought: RwLock::default(),
+            problems: Vec::new(),
+        };
+        if !config.runner.is_file() {
+            registry.problems.push(format!(
+                "The runner {} is missing, so nothing can be measured; build it or name it with --runner.",
+                config.runner.display()
+            ));
+            return Ok(registry);
+        }
+        let mut all: Vec<Arc<Contestant>> = Vec::new();
+        for file in plugin_files(&config.plugins) {
+            match registry.describe(&file, store).await {
+                Ok(found) => {
+                    for contestant in found {
+                        if let Some(twin) = all.iter().find(|c| c.info.id == contestant.info.id) {
+                            registry.problems.push(format!(
+                                "The algorithm {:?} is in {} and in {}; only the first is offered.",
+                                contestant.info.id,
+                                twin.file.display(),
+                                file.display()
+                            ));
+                        } else {
+                            all.push(Arc::new(contestant));
+                        }
+                    }
+                }
+                Err(e) => registry.problems.push(format!("The plugin {} is not offered: {e}", file.display())),
+            }
+        }
+        all.sort_by(|x, y| x.info.id.cmp(&y.info.id));
+        registry.problems.iter().for_each(|problem| tracing::warn!("{problem}"));
+        registry.contestants = all;
+        Ok(registry)
+    }
+
+    /// Those that this viewer may ask for, by id.
+    pub fn algorithms(&self, viewer: Option<&str>) -> Vec<AlgorithmInfo> {
+        let mut all: Vec<AlgorithmInfo> = self.contestants.iter().map(|c| c.info.clone()).collect();
+        let brought = self.brought();
+        all.extend(brought.plugins.iter().filter(|b| b.is_for(viewer)).map(|b| b.contestant.info.clone()));
+        all.sort_by(|x, y| x.id.cmp(&y.id));
+        all
+    }
+
+    /// From now on these, of all that developers brought.
+    pub fn offer(&self, brought: AllBrought) {
+        *self.brought.write().unwrap_or_else(PoisonError::into_inner) = brought;
+    }
+
+    fn brought(&self) -> RwLockReadGuard<'_, AllBrought> {
+        self.brought.read().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Nobody but its author may ask for this plugin file now.
+    pub fn is_private(&self, contestant: &Contestant) -> bool {
+        let file = &contestant.info.plugin_sha256;
+        let brought = self.brought();
+        let mut twins = brought.plugins.iter().filter(|b| b.contestant.info.plugin_sha256 == *file).peekable();
+        twins.peek().is_some() && twins.all(|b| !b.public)
+    }
+
+    /// What keeps something from being offered.
+    pub fn problems(&self) -> Vec<String> {
+        self.problems.iter().chain(&self.brought().problems).cloned().collect()
+    }
+
+    /// What loads plugins here.
+    pub fn runner(&self) -> &Runner {
+        &self.runner
+    }
+
+    /// How much a foreign plugin needs of this machine.
+    pub fn profile(&self) -> Profile {
+        self.runner.profile
+    }
+
+    /// The installed algorithm with this id.
+    pub fn contestant(&self, id: &str) -> Option<Arc<Contestant>> {
+        self.contestants.iter().find(|c| c.info.id == id).cloned()
+    }
+
+    /// The algorithm of this name, which may carry settings (`box-tree:leaf_size=4`); `None` when there is no such id for
+    /// this viewer.
+    pub fn choose(&self, name: &str, viewer: Option<&str>) -> Result<Option<Arc<Contestant>>> {
+        let (id, settings) = name.split_once(':').map_or((name, None), |(id, settings)| (id, Some(settings)));
+        let brought = || {
+            let all = self.brought();
+            all.plugins.iter().find(|b| b.contestant.info.id == id && b.is_for(viewer)).map(|b| b.contestant.clone())
+        };
+        match (self.contestant(id).or_else(brought), settings) {
+            (Some(plain), Some(settings)) => Ok(Some(Arc::new(plain.with_settings(settings)?))),
+            (found, _) => Ok(found),
+        }
+    }
+
+    /// The algorithms of the plugin file with this hash that are offered here, to whomever.
+    pub fn of_file(&self, sha256: &str) -> Vec<Arc<Contestant>> {
+        let brought = self.brought();
+        let all = self.contestants.iter().chain(brought.plugins.iter().map(|b| &b.contestant));
+        all.filter(|c| c.info.plugin_sha256 == sha256).cloned().collect()
+    }
+
+    /// The algorithms of a file that somebody gives us and that is offered to nobody.
+    pub async fn foreign(&self, file: &Path, sha256: &str) -> Result<Vec<Arc<Contestant>>> {
+        let described = self.described(file, sha256, false).await?;
+        Ok(described.into_iter().map(|info| Arc::new(Contestant::plain(info, file.to_owned(), false))).collect())
+    }
+
+    /// The one among these that is meant by the name that a run knew it by, which may carry a version and settings.
+    pub fn chosen_of(&self, known: &[Arc<Contestant>], name: &str) -> Result<Option<Contestant>> {
+        let (id, settings) = name.split_once(':').map_or((name, None), |(id, settings)| (id, Some(settings)));
+        let id = id.split('@').next().unwrap_or(id);
+        let plain = known.iter().find(|c| c.algorithm == id);
+        match (plain, settings) {
+            (Some(plain), Some(settings)) => Ok(Some(plain.with_settings(settings)?)),
+            (plain, _) => Ok(plain.map(|plain| Contestant::clone(plain))),
+        }
+    }
+
+    /// The algorithms of an installed file. One that was described before is not loaded again.
+    async fn describe(&self, file: &Path, store: &Store) -> Result<Vec<Contestant>> {
+        let path = file.to_owned();
+        let sha256 = blocking(move || Ok(plugin_hash(&path)?)).await?;
+        let trusted = self.runner.trusts(file);
+        let known_as = self.runner.known_as(file, &sha256)?;
+        // A row that an older version wrote may lack a field; then the plugin is described again.
+        let algorithms = match store.described(&known_as).await {
+            Ok(Some(known)) if known.iter().all(|algorithm| !algorithm.builds.is_empty()) => known,
+            _ => {
+                let described = self.described(file, &sha256, trusted).await?;
+                store.keep_description(&known_as, &described).await?;
+                described
+            }
+        };
+        let contestant = |mut info: AlgorithmInfo| {
+            info.usual = !trusted || USUAL.contains(&info.id.as_str());
+            Contestant::plain(info, file.to_owned(), trusted)
+        };
+        Ok(algorithms.into_iter().map(contestant).collect())
+    }
+
+    /// What the file with this hash says of itself, asked in the jail.
+    async fn described(&self, file: &Path, sha256: &str, trusted: bool) -> Result<Vec<AlgorithmInfo>> {
+        let (runner, path, hash) = (self.runner.clone(), file.to_owned(), sha256.to_owned());
+        blocking(move || Ok(runner.describe(&path, &hash, trusted)?)).await
+    }
+}
+
+/// The named files, and the `*.so` of the named folders, by name.
+fn plugin_files(places: &[PathBuf]) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for place in places {
+        if place.is_dir() {
+            let entries = fs::read_dir(place).into_iter().flatten().flatten().map(|entry| entry.path());
+            let mut here: Vec<PathBuf> =
+                entries.filter(|path| path.is_file() && path.extension().is_some_and(|e| e == "so")).collect();
+            here.sort();
+            files.extend(here);
+        } else {
+            files.push(place.clone());
+        }
+    }
+    files
+}

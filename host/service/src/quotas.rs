@@ -1,0 +1,229 @@
+//! Quotas that keep one visitor from filling the queue or the disk. The command line has none.
+//!
+//! Guest cookies and accounts are free, so addresses have a quota as well. The main quota is measuring time, because the number
+//! of runs says little about their cost.
+
+use std::time::Duration;
+
+use crate::engine::{Engine, Inner};
+use crate::model::{Owner, RunSpec};
+use crate::store::{Granted, RunRow};
+use crate::{EngineError, Result};
+
+/// The sender of a request over the network.
+#[derive(Clone, Debug)]
+pub struct Visitor {
+    /// The account or the guest.
+    pub owner: String,
+    /// Its network, if known.
+    pub address: Option<String>,
+}
+
+/// The turn in the queue that a run takes. Each account has one; guests of one address share one, because a client without
+/// cookies is a new guest at every request.
+pub(crate) fn turn(owner: &str, address: Option<&str>) -> String {
+    match (kind(owner), address) {
+        (Some(Kind::Guest), Some(address)) => format!("address:{address}"),
+        _ => owner.to_owned(),
+    }
+}
+
+/// What has a quota.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    Guest,
+    Account,
+    Address,
+}
+
+/// Bytes of objects.
+const GUEST_OBJECTS: u64 = 512 << 20;
+const ACCOUNT_OBJECTS: u64 = 4 << 30;
+
+fn kind(owner: &str) -> Option<Kind> {
+    match Owner::of(owner) {
+        Owner::Account(_) => Some(Kind::Account),
+        Owner::Guest(_) => Some(Kind::Guest),
+        Owner::Operator(_) => None,
+    }
+}
+
+impl Kind {
+    /// Runs that wait.
+    fn waiting(self) -> u64 {
+        match self {
+            Kind::Guest => 20,
+            Kind::Account => 100,
+            Kind::Address => 200,
+        }
+    }
+
+    fn whose(self) -> &'static str {
+        match self {
+            Kind::Guest | Kind::Account => "of yours",
+            Kind::Address => "from your address",
+        }
+    }
+}
+
+impl Inner {
+    fn ceiling(&self, kind: Kind) -> f64 {
+        let ceilings = &self.config.ceilings;
+        let ceiling = match kind {
+            Kind::Guest => ceilings.guest,
+            Kind::Account => ceilings.account,
+            Kind::Address => ceilings.address,
+        };
+        ceiling.as_secs_f64()
+    }
+
+    /// The time limit of a run, if it has one.
+    pub fn longest_run(&self, row: &RunRow) -> Option<Duration> {
+        let guest = row.owner.as_deref().and_then(kind) == Some(Kind::Guest);
+        (guest && row.campaign.is_none()).then_some(self.config.ceilings.guest_run)
+    }
+
+    /// # Errors
+    /// `Invalid` when the run exceeds the time limit of a guest's run, or the ceiling of its owner even alone.
+    pub fn may_be_asked_for(&self, owner: &str, spec: &RunSpec, expected_seconds: f64) -> Result<()> {
+        let Some(kind) = kind(owner) else { return Ok(()) };
+        let (asks, ceiling) = (granted(spec), self.ceiling(kind));
+        if kind == Kind::Guest {
+            can_be_run(spec, expected_seconds, self.config.ceilings.guest_run)?;
+        }
+        if asks <= ceiling {
+            return Ok(());
+        }
+        Err(EngineError::Invalid(format!(
+            "This run may measure for {}, but your limit is {} for all your runs together. Lower the budget per algorithm or choose \
+             fewer algorithms.",
+            time(asks),
+            time(ceiling)
+        )))
+    }
+}
+
+/// Measuring time that a run may take in all.
+pub(crate) fn granted(spec: &RunSpec) -> f64 {
+    spec.budget_seconds * spec.algorithms.len() as f64
+}
+
+impl Engine {
+    /// # Errors
+    /// `Invalid` when the run alone exceeds a limit, `TooMuch` when it does so together with the queued and running ones.
+    pub(crate) async fn has_room_for_a_run(&self, row: &RunRow) -> Result<()> {
+        let Some((owner, kind)) = row.owner.as_deref().and_then(|owner| Some((owner, kind(owner)?))) else {
+            return Ok(());
+        };
+        self.inner.may_be_asked_for(owner, &row.spec, row.expected_seconds)?;
+        let own = self.inner.store.granted_to(owner).await?;
+        room(kind, own, row, self.inner.ceiling(kind))?;
+        if let Some(address) = &row.address {
+            let all = self.inner.store.granted_at(address).await?;
+            room(Kind::Address, all, row, self.inner.ceiling(Kind::Address))?;
+        }
+        Ok(())
+    }
+
+    /// # Errors
+    /// `Busy` when the objects of this owner would have too many bytes with these.
+    pub(crate) async fn has_room_for_an_object(&self, owner: Option<&str>, bytes: usize) -> Result<()> {
+        let Some((owner, kind)) = owner.and_then(|owner| Some((owner, kind(owner)?))) else { return Ok(()) };
+        let most = if kind == Kind::Guest { GUEST_OBJECTS } else { ACCOUNT_OBJECTS };
+        if self.inner.store.object_bytes(owner).await? + bytes as u64 <= most {
+            return Ok(());
+        }
+        Err(EngineError::Busy(format!(
+            "Your objects would have more than {} MiB; delete some on the page of objects.",
+            most >> 20
+        )))
+    }
+}
+
+/// Can a guest's run finish within its time limit?
+fn can_be_run(spec: &RunSpec, expected_seconds: f64, longest: Duration) -> Result<()> {
+    let (longest, algorithms) = (longest.as_secs_f64(), spec.algorithms.len());
+    if granted(spec) > longest {
+        return Err(EngineError::Invalid(format!(
+            "The limit for a guest's run is {} of measuring; {algorithms} algorithms at {} each may take {}. Set the budget to {:.0} s \
+             per algorithm or less, choose fewer algorithms, or log in.",
+            time(longest),
+            time(spec.budget_seconds),
+            time(granted(spec)),
+            (longest / algorithms as f64).floor()
+        )));
+    }
+    if expected_seconds > longest {
+        return Err(EngineError::Invalid(format!(
+            "The time limit for a guest's run is {}; this one is expected to take {}. Choose fewer configurations or algorithms, or \
+             log in.",
+            time(longest),
+            time(expected_seconds)
+        )));
+    }
+    Ok(())
+}
+
+fn room(kind: Kind, has: Granted, row: &RunRow, ceiling: f64) -> Result<()> {
+    let (whose, asks) = (kind.whose(), row.granted_seconds);
+    if has.waiting >= kind.waiting() {
+        let message =
+            format!("{} runs {whose} are queued already; try again when one has started, or delete some.", has.waiting);
+        return Err(EngineError::TooMuch { message, retry_seconds: later(row.expected_seconds) });
+    }
+    let over = has.seconds + asks - ceiling;
+    if over > 0.0 {
+        let message = format!(
+            "Queued and running runs {whose} may measure for {} already; with this one they would exceed the limit of {}. Try again \
+             when some have finished, in about {}.",
+            time(has.seconds),
+            time(ceiling),
+            time(f64::from(later(over)))
+        );
+        return Err(EngineError::TooMuch { message, retry_seconds: later(over) });
+    }
+    Ok(())
+}
+
+/// Seconds until a retry is useful, an hour at most.
+fn later(seconds: f64) -> u32 {
+    seconds.ceil().clamp(10.0, 3600.0) as u32
+}
+
+/// A time for people.
+fn time(seconds: f64) -> String {
+    let of = |n: f64, unit: &str| format!("{n:.0} {unit}{}", if n.round() == 1.0 { "" } else { "s" });
+    match seconds {
+        s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 7200.0 => of((s / 60.0).ceil(), "minute"),
+        s => of((s / 3600.0).ceil(), "hour"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GUEST: &str = "0193f1a0-0000-4000-8000-000000000000";
+
+    #[test]
+    fn guests_have_less_than_accounts_and_the_command_line_as_much_as_it_wants() {
+        let of = |owner: &str| kind(owner).map(Kind::waiting);
+        assert_eq!(of(GUEST), Some(20));
+        assert_eq!(of(&format!("account:{GUEST}")), Some(100));
+        assert_eq!(of("cli"), None);
+    }
+
+    #[test]
+    fn guests_of_one_address_share_a_turn() {
+        assert_eq!(turn(GUEST, Some("203.0.113.7")), "address:203.0.113.7");
+        assert_eq!((turn(GUEST, None), turn("account:x", Some("203.0.113.7"))), (GUEST.into(), "account:x".into()));
+    }
+
+    #[test]
+    fn times_are_said_as_people_say_them() {
+        let said = [59.6, 600.0, 6000.0, 86_400.0].map(time);
+        assert_eq!(said, ["60 s", "10 minutes", "100 minutes", "24 hours"]);
+        assert_eq!([later(0.2), later(61.5), later(1e9)], [10, 62, 3600]);
+    }
+}

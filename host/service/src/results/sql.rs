@@ -1,0 +1,84 @@
+//! Summaries per algorithm, and what earlier ones say about the cost of a run.
+
+use crate::Result;
+use crate::model::AlgorithmResult;
+use crate::store::{Store, from_json, now_us, to_json};
+use ocb_core::query::Query;
+
+/// The result of one algorithm in one run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StoredResult {
+    /// Its numbers.
+    pub result: AlgorithmResult,
+    /// Blob of its records; absent when nothing was measured.
+    pub records: Option<String>,
+    /// SHA-256 of the plugin file that was measured.
+    pub plugin_sha256: String,
+    /// Wall seconds of one query with everything around it, for estimates.
+    pub seconds_per_query: Option<f64>,
+}
+
+impl Store {
+    /// Keeps the result of one algorithm; a repeated attempt replaces the earlier one.
+    pub async fn keep_result(
+        &self,
+        run: &str,
+        position: usize,
+        stored: &StoredResult,
+        triangles: u64,
+        query: Query,
+    ) -> Result<()> {
+        sqlx::query(
+            "INSERT INTO results (run_id, algorithm, position, plugin_sha256, result, records, \
+             seconds_per_query, triangles, query, created_us) \
+             VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10) \
+             ON CONFLICT (run_id, algorithm) DO UPDATE SET plugin_sha256 = excluded.plugin_sha256, \
+             result = excluded.result, records = excluded.records, \
+             seconds_per_query = excluded.seconds_per_query, created_us = excluded.created_us",
+        )
+        .bind(run)
+        .bind(&stored.result.algorithm)
+        .bind(position as i64)
+        .bind(&stored.plugin_sha256)
+        .bind(to_json(&stored.result)?)
+        .bind(stored.records.as_deref())
+        .bind(stored.seconds_per_query)
+        .bind(triangles as i64)
+        .bind(to_json(&query)?)
+        .bind(now_us())
+        .execute(&self.pool)
+        .await?;
+        Ok(())
+    }
+
+    /// The results of a run in the order of its algorithms.
+    pub async fn results(&self, run: &str) -> Result<Vec<StoredResult>> {
+        let rows: Vec<(String, Option<String>, String, Option<f64>)> = sqlx::query_as(
+            "SELECT result, records, plugin_sha256, seconds_per_query FROM results WHERE run_id = $1 \
+             ORDER BY position",
+        )
+        .bind(run)
+        .fetch_all(&self.pool)
+        .await?;
+        rows.into_iter()
+            .map(|(result, records, plugin_sha256, seconds_per_query)| {
+                let result = from_json::<AlgorithmResult>(&result)?.renamed();
+                Ok(StoredResult { result, records, plugin_sha256, seconds_per_query })
+            })
+            .collect()
+    }
+
+    /// Triangles of both objects and wall seconds per query of this algorithm's newest 50 results.
+    pub async fn result_rates(&self, algorithm: &str, query: Query) -> Result<Vec<(u64, f64)>> {
+        let rows: Vec<(i64, f64)> = sqlx::query_as(
+            "SELECT triangles, seconds_per_query FROM results \
+             WHERE algorithm = $1 AND query = $2 AND seconds_per_query IS NOT NULL \
+             ORDER BY created_us DESC LIMIT 50",
+        )
+        .bind(algorithm)
+        .bind(to_json(&query)?)
+        .fetch_all(&self.pool)
+        .await?;
+        Ok(rows.into_iter().map(|(triangles, seconds)| (triangles as u64, seconds)).collect())
+    }
+}

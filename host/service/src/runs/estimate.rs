@@ -1,0 +1,106 @@
+//! What a run would cost, from what earlier ones did.
+
+use ocb_core::instance::OTHER_UNITS;
+use ocb_core::sampling::controls;
+use ocb_lab::contestant::Contestant;
+
+use crate::Result;
+use crate::configurations::set_key;
+use crate::engine::Inner;
+use crate::measure::asked_in_another_unit;
+use crate::model::{AlgorithmSeconds, Estimate};
+use crate::runs::spec;
+use crate::runs::spec::Checked;
+use crate::store::now_us;
+
+/// Seconds per configuration before anything was found on this machine.
+const FIRST_CONFIGURATION: f64 = 2e-3;
+/// Seconds per query before an algorithm was measured on this machine.
+const FIRST_QUERY: f64 = 1e-4;
+/// Starting a runner and building both structures, per pass.
+const START: f64 = 0.5;
+
+/// Expected numbers of a checked request, and of what would be before it in the queue.
+pub async fn estimate(inner: &Inner, checked: &Checked) -> Result<Estimate> {
+    let (runs_ahead, wait_seconds) = queue_ahead(inner).await?;
+    Ok(Estimate { runs_ahead, wait_seconds, ..estimate_alone(inner, checked).await? })
+}
+
+/// Expected numbers of a checked request, as if nothing waited.
+pub async fn estimate_alone(inner: &Inner, checked: &Checked) -> Result<Estimate> {
+    let spec = &checked.spec;
+    let triangles = u64::from(checked.object_a.triangles) + u64::from(checked.object_b.triangles);
+    let key = set_key(&checked.object_a.sha256, &checked.object_b.sha256, spec)?;
+    let stored = inner.store.set(&key).await?;
+    let configurations = stored.as_ref().map_or(checked.configurations, |s| u64::from(s.info.configurations));
+    let configurations_stored = stored.is_some();
+    let configuration_seconds = match stored {
+        Some(_) => 0.0,
+        None => configurations as f64 * nearest(&inner.store.set_rates().await?, triangles, FIRST_CONFIGURATION),
+    };
+    let measured = configurations.min(spec.at_most.map_or(u64::MAX, u64::from));
+    let asked = measured + controls::count(measured);
+    let cost = |contestant: &Contestant, counted: bool, rates: &[(u64, f64)]| {
+        let timed = asked as f64 * f64::from(spec.passes) * nearest(rates, triangles, FIRST_QUERY);
+        let budget_limited = timed > spec.budget_seconds;
+        let timed = timed.min(spec.budget_seconds);
+        let round = timed / f64::from(spec.passes);
+        let in_other_units = OTHER_UNITS.len() / 2 * asked_in_another_unit(measured as usize);
+        let further_seconds = round * (in_other_units as f64 / measured.max(1) as f64 + f64::from(u8::from(counted)));
+        let starts = spec.passes + OTHER_UNITS.len() as u32 + u32::from(counted);
+        let seconds = timed + further_seconds + START * f64::from(starts);
+        AlgorithmSeconds { algorithm: contestant.info.id.clone(), seconds, budget_limited }
+    };
+    let mut measuring_seconds = Vec::new();
+    for contestant in &checked.contestants {
+        let rates = inner.store.result_rates(&contestant.info.id, spec.query).await?;
+        measuring_seconds.push(cost(contestant, contestant.info.counters, &rates));
+    }
+    // It takes part in every round, whether it was asked for or not.
+    let reference = spec::reference(spec, &inner.registry).filter(|it| !spec.algorithms.contains(&it.info.id));
+    let reference_seconds = match reference {
+        Some(it) => cost(&it, false, &inner.store.result_rates(&it.info.id, spec.query).await?).seconds,
+        None => 0.0,
+    };
+    let total_seconds =
+        configuration_seconds + measuring_seconds.iter().map(|m| m.seconds).sum::<f64>() + reference_seconds;
+    Ok(Estimate {
+        configurations,
+        configurations_stored,
+        configuration_seconds,
+        measuring_seconds,
+        total_seconds,
+        runs_ahead: 0,
+        wait_seconds: 0.0,
+        refused: None,
+    })
+}
+
+/// Runs ahead of an interactive one that is asked for now, and the seconds until they are done.
+async fn queue_ahead(inner: &Inner) -> Result<(u32, f64)> {
+    let running = inner.store.running().await?;
+    let (ahead, seconds) = inner.store.waiting(crate::engine::INTERACTIVE).await?;
+    let left =
+        |(_, started_us, expected): &(String, i64, f64)| (expected - (now_us() - started_us) as f64 / 1e6).max(1.0);
+    Ok((running.len() as u32 + ahead, running.iter().map(left).sum::<f64>() + seconds))
+}
+
+/// The rate seen with the most similar number of triangles. Rates are not scaled: how an algorithm grows with its
+/// objects is what the benchmark is there to find out.
+fn nearest(rates: &[(u64, f64)], triangles: u64, otherwise: f64) -> f64 {
+    let distance = |seen: u64| ((seen.max(1) as f64) / (triangles.max(1) as f64)).ln().abs();
+    rates.iter().min_by(|x, y| distance(x.0).total_cmp(&distance(y.0))).map_or(otherwise, |rate| rate.1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_most_similar_size_tells_the_rate() {
+        let rates = [(100, 1.0), (10_000, 2.0), (1_000_000, 3.0)];
+        assert_eq!(nearest(&rates, 9_000, 9.0), 2.0);
+        assert_eq!(nearest(&rates, 1, 9.0), 1.0);
+        assert_eq!(nearest(&[], 1, 9.0), 9.0);
+    }
+}

@@ -1,0 +1,123 @@
+//! The events of a run: replayed, then followed.
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use futures::Stream;
+use tokio::sync::broadcast::Receiver;
+
+use crate::Result;
+use crate::boxed;
+use crate::engine::Engine;
+use crate::model::{RunEvent, State};
+use crate::runs::log::{QUEUE, plain_event};
+use crate::store::now_us;
+
+/// The database is looked at this often even if no bell was heard: a missed ring must not end in silence.
+const LOOK_AGAIN: Duration = Duration::from_secs(5);
+/// The event of a run's end follows its state this closely.
+const LAST_WORD: Duration = Duration::from_millis(500);
+
+impl Engine {
+    /// The run's events behind `after_seq` (0: all), oldest first.
+    #[boxed]
+    pub async fn events(&self, id: &str, after_seq: i64) -> Result<Vec<RunEvent>> {
+        self.inner.run_row(id).await?;
+        self.inner.store.events(id, after_seq).await
+    }
+
+    /// Replays the run's events behind `after_seq`, then follows; ends behind the event in which the run ends.
+    pub async fn follow(
+        &self,
+        id: &str,
+        after_seq: i64,
+    ) -> Result<impl Stream<Item = Result<RunEvent>> + Send + 'static + use<>> {
+        // Listen first, read then: what happens in between is heard.
+        let bell = self.inner.bell.listen();
+        self.inner.run_row(id).await?;
+        let follower = Follower {
+            engine: self.clone(),
+            id: id.to_owned(),
+            after: after_seq,
+            read: VecDeque::new(),
+            bell,
+            place: None,
+            ended: false,
+        };
+        Ok(futures::stream::unfold(follower, async |mut follower| {
+            let event = follower.next().await?;
+            Some((event, follower))
+        }))
+    }
+}
+
+struct Follower {
+    engine: Engine,
+    id: String,
+    after: i64,
+    read: VecDeque<RunEvent>,
+    bell: Receiver<std::sync::Arc<str>>,
+    /// The runs ahead of a waiting one that were told last. Places are computed when somebody looks, and no event is kept.
+    place: Option<u32>,
+    ended: bool,
+}
+
+impl Follower {
+    async fn next(&mut self) -> Option<Result<RunEvent>> {
+        loop {
+            if let Some(event) = self.read.pop_front() {
+                self.after = event.seq;
+                self.ended = matches!(event.state, State::Done | State::Failed | State::Cancelled);
+                return Some(Ok(event));
+            }
+            if self.ended {
+                return None;
+            }
+            match self.engine.inner.store.events(&self.id, self.after).await {
+                Ok(events) => self.read.extend(events),
+                Err(e) => {
+                    self.ended = true;
+                    return Some(Err(e));
+                }
+            }
+            if self.read.is_empty() && self.place_has_changed().await {
+                let event = plain_event(State::Queued, self.place.unwrap_or(0));
+                return Some(Ok(RunEvent { seq: self.after, at_us: now_us(), ..event }));
+            }
+            if self.read.is_empty() && !self.more_may_come().await {
+                return None;
+            }
+        }
+    }
+
+    /// Looks at the place of a run that waits.
+    async fn place_has_changed(&mut self) -> bool {
+        // A database that cannot tell it now is asked again with the next look.
+        let now = self.engine.inner.store.runs_before(&self.id).await.unwrap_or(self.place);
+        let told = std::mem::replace(&mut self.place, now);
+        now.is_some() && now != told
+    }
+
+    /// Waits for news; false when the run has ended and everything was read.
+    async fn more_may_come(&mut self) -> bool {
+        match self.engine.inner.store.run(&self.id).await {
+            Ok(Some(run)) if matches!(run.state, State::Queued | State::Running) => {}
+            // The end is written a moment before its event: look once more before believing that there is none.
+            _ => {
+                tokio::time::sleep(LAST_WORD).await;
+                let last = self.engine.inner.store.events(&self.id, self.after).await.unwrap_or_default();
+                self.read.extend(last);
+                return !self.read.is_empty();
+            }
+        }
+        let heard = async {
+            while let Ok(run) = self.bell.recv().await {
+                if *run == *self.id || (*run == *QUEUE && self.place.is_some()) {
+                    return;
+                }
+            }
+        };
+        let _ = tokio::time::timeout(LOOK_AGAIN, heard).await;
+        true
+    }
+}

@@ -1,0 +1,124 @@
+//! Places in the queue: how many runs are served before one that waits.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use tokio::sync::Mutex;
+
+use crate::Result;
+use crate::store::Store;
+
+/// Turns of which there are so many are not counted anew for everybody who looks.
+const MANY: usize = 100;
+/// So long they stand.
+const STAND: Duration = Duration::from_secs(1);
+
+/// The turns at one priority as they were a moment ago, if they were many.
+pub(crate) type Known = Arc<Mutex<Option<(Instant, i64, Arc<Vec<Turn>>)>>>;
+
+/// Who waits for a turn.
+#[derive(Clone, Debug)]
+pub(crate) struct Turn {
+    turn: String,
+    /// So many runs.
+    waiting: i64,
+    since: Since,
+}
+
+/// The turn with the smallest is next: when it was served last, then what it waits with.
+type Since = (i64, i64, String);
+
+impl Store {
+    /// How many runs wait at this priority or a smaller one, and the seconds that they were expected to take.
+    pub async fn waiting(&self, priority: i64) -> Result<(u32, f64)> {
+        let text = "SELECT COUNT(*), COALESCE(SUM(expected_seconds), 0.0) FROM runs \
+                    WHERE state = 'queued' AND priority <= $1";
+        let (count, seconds): (i64, f64) = sqlx::query_as(text).bind(priority).fetch_one(&self.pool).await?;
+        Ok((count as u32, seconds))
+    }
+
+    /// How many runs are under way, or wait and are served before this one if nothing else is asked for; nothing when it does
+    /// not wait. Where many wait, others may have moved for a second.
+    pub async fn runs_before(&self, id: &str) -> Result<Option<u32>> {
+        let Some(waiting) = self.waiting_before(id).await? else { return Ok(None) };
+        Ok(Some(waiting + self.running().await?.len() as u32))
+    }
+
+    async fn waiting_before(&self, id: &str) -> Result<Option<u32>> {
+        let own: Option<(String, i64, i64, i64)> = sqlx::query_as(
+            "SELECT r.turn, r.priority, r.created_us, COALESCE(s.served_us, 0) \
+             FROM runs r LEFT JOIN served s ON s.owner = r.turn WHERE r.id = $1 AND r.state = 'queued'",
+        )
+        .bind(id)
+        .fetch_optional(&self.pool)
+        .await?;
+        let Some((turn, priority, created_us, served_us)) = own else { return Ok(None) };
+        let sooner: i64 = sqlx::query_scalar("SELECT COUNT(*) FROM runs WHERE state = 'queued' AND priority < $1")
+            .bind(priority)
+            .fetch_one(&self.pool)
+            .await?;
+        let (of_turn, first_us, first): (i64, Option<i64>, Option<String>) = sqlx::query_as(
+            "SELECT COUNT(CASE WHEN (created_us, id) < ($1, $2) THEN 1 END), MIN(created_us), MIN(id) FROM runs \
+             WHERE state = 'queued' AND priority = $3 AND turn = $4",
+        )
+        .bind(created_us)
+        .bind(id)
+        .bind(priority)
+        .bind(&turn)
+        .fetch_one(&self.pool)
+        .await?;
+        let since = (served_us, first_us.unwrap_or(created_us), first.unwrap_or_else(|| id.to_owned()));
+        let others = of_others(&turn, &since, of_turn, &self.turns(priority).await?);
+        Ok(Some((sooner + of_turn + others) as u32))
+    }
+
+    /// The turns at this priority. Who comes while they are counted waits for that and has them as well.
+    async fn turns(&self, priority: i64) -> Result<Arc<Vec<Turn>>> {
+        let mut known = self.turns.lock().await;
+        if let Some((counted, of, turns)) = &*known
+            && *of == priority
+            && counted.elapsed() < STAND
+        {
+            return Ok(turns.clone());
+        }
+        let turns: Vec<(String, i64, i64, i64, String)> = sqlx::query_as(
+            "SELECT t.turn, t.waiting, COALESCE(s.served_us, 0), t.first_us, t.first_id FROM \
+             (SELECT turn, COUNT(*) AS waiting, MIN(created_us) AS first_us, MIN(id) AS first_id FROM runs \
+             WHERE state = 'queued' AND priority = $1 GROUP BY turn) AS t LEFT JOIN served s ON s.owner = t.turn",
+        )
+        .bind(priority)
+        .fetch_all(&self.pool)
+        .await?;
+        let turn =
+            |(turn, waiting, served_us, first_us, first)| Turn { turn, waiting, since: (served_us, first_us, first) };
+        let turns: Arc<Vec<Turn>> = Arc::new(turns.into_iter().map(turn).collect());
+        *known = (turns.len() >= MANY).then(|| (Instant::now(), priority, turns.clone()));
+        Ok(turns)
+    }
+}
+
+/// How many runs of others come before the run of this turn that has so many of its own before it: turns go round, so that
+/// those whose turn is sooner have one more than it, as far as they have any.
+fn of_others(turn: &str, since: &Since, before: i64, turns: &[Turn]) -> i64 {
+    let others = turns.iter().filter(|other| other.turn != turn);
+    others.map(|other| other.waiting.min(before + i64::from(other.since < *since))).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_has_many_runs_does_not_keep_others_waiting() {
+        let turn =
+            |turn: &str, waiting, served_us| Turn { turn: turn.into(), waiting, since: (served_us, 1, turn.into()) };
+        let turns = [turn("a", 100, 5), turn("b", 2, 7), turn("c", 1, 0)];
+        // c1 a1 b1 a2 b2 a3 ...
+        let place = |name: &str, before| {
+            let own = turns.iter().find(|turn| turn.turn == name).unwrap();
+            before + of_others(name, &own.since, before, &turns)
+        };
+        assert_eq!([place("c", 0), place("a", 0), place("b", 0)], [0, 1, 2]);
+        assert_eq!([place("a", 1), place("b", 1), place("a", 2), place("a", 99)], [3, 4, 5, 102]);
+    }
+}

@@ -1,0 +1,92 @@
+//! Configuration sets by themselves, without a run.
+
+pub mod sql;
+
+use std::sync::Arc;
+
+use ocb_core::configuration::{Configuration, ConfigurationSet, Method};
+use ocb_core::mesh::Mesh;
+use ocb_core::oracle::Shape;
+
+use crate::Result;
+use crate::boxed;
+use crate::columns::{SetOf, set_parquet};
+use crate::configurations::{Gauge, describe, make, read_file, set_key};
+use crate::engine::{Engine, Inner};
+use crate::model::{RunSpec, SetInfo};
+use crate::runs::spec;
+
+/// A set that was asked for: checked, with all that is needed to find it.
+pub struct SetJob {
+    spec: RunSpec,
+    key: String,
+    meshes: [Arc<Mesh>; 2],
+    poses: Option<Vec<Configuration>>,
+    /// Number of configurations, before any is missed.
+    pub size: u64,
+    /// It was made before.
+    pub stored: Option<SetInfo>,
+}
+
+impl SetJob {
+    /// Finds and certifies it on all CPUs; `None` when it was stopped.
+    pub fn find(&self, gauge: &Gauge) -> Result<Option<ConfigurationSet>> {
+        let [a, b] = self.meshes.each_ref().map(|mesh| Shape::new(mesh.clone()));
+        Ok(make(&a, &b, self.meshes[0].longest_side(), &self.spec, self.poses.as_deref(), gauge)?)
+    }
+}
+
+impl Engine {
+    /// Checks a request for a set. Of the spec, the objects, the method and the separation count.
+    #[boxed]
+    pub async fn set_job(&self, spec: &RunSpec) -> Result<SetJob> {
+        let inner = &self.inner;
+        let size = spec::set_size(spec, &inner.store, &inner.blobs).await?;
+        let mesh_a = inner.objects.mesh(&spec.object_a).await?;
+        let mesh_b = match &spec.object_b {
+            Some(id) => inner.objects.mesh(id).await?,
+            None => mesh_a.clone(),
+        };
+        let poses = match &spec.method {
+            Method::File { sha256 } => Some(read_file(&inner.blobs.get(sha256).await?)?.poses),
+            _ => None,
+        };
+        let key = set_key(&mesh_a.sha256(), &mesh_b.sha256(), spec)?;
+        let stored = inner.store.set(&key).await?.map(|stored| stored.info);
+        Ok(SetJob { spec: spec.clone(), key, meshes: [mesh_a, mesh_b], poses, size, stored })
+    }
+
+    /// Keeps a set that was found in so many seconds; later runs and requests use it again.
+    #[boxed]
+    pub async fn keep_set(&self, job: &SetJob, set: &ConfigurationSet, seconds: f64) -> Result<SetInfo> {
+        let _keeping = self.inner.blobs.keeping().await;
+        self.inner.keep_set(&job.key, job.meshes.each_ref().map(AsRef::as_ref), set, seconds).await
+    }
+
+    /// A kept set with its truth as Parquet.
+    #[boxed]
+    pub async fn set_parquet(&self, info: &SetInfo) -> Result<Vec<u8>> {
+        self.inner.blobs.get(&info.sha256).await
+    }
+}
+
+impl Inner {
+    /// Keeps a new set under its key, while `Blobs::keeping` is held.
+    #[boxed]
+    pub async fn keep_set(
+        &self,
+        key: &str,
+        [a, b]: [&Mesh; 2],
+        set: &ConfigurationSet,
+        seconds: f64,
+    ) -> Result<SetInfo> {
+        let bytes = set_parquet(&SetOf { mesh_a: &a.sha256(), mesh_b: &b.sha256() }, set)?;
+        let length = bytes.len();
+        let blob = self.blobs.put(bytes).await?;
+        let triangles = [a.triangles().len(), b.triangles().len()];
+        let info = describe(set, &blob, triangles);
+        self.store.add_blob(&blob, length, "application/vnd.apache.parquet").await?;
+        self.store.keep_set(key, &info, &blob, triangles.iter().sum::<usize>() as u64, seconds).await?;
+        Ok(info)
+    }
+}

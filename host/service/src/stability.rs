@@ -1,0 +1,49 @@
+//! Where methods fail.
+
+pub mod sql;
+
+use std::sync::Arc;
+
+use crate::boxed;
+use crate::engine::Engine;
+use crate::measure::Stop;
+use crate::model::{Stability, StabilityTable};
+use crate::{EngineError, Result};
+use ocb_lab::stability::{self, Selection};
+
+impl Engine {
+    /// All families, relations and reported failures, with the newest result of every method that was tried.
+    #[boxed]
+    pub async fn stability(&self) -> Result<StabilityTable> {
+        Ok(StabilityTable { methods: self.inner.store.stability().await?, ..stability::table() })
+    }
+
+    /// Tries one algorithm, by its name with settings; `at` hears which part is begun. A whole run is kept for the tables.
+    pub async fn try_stability(
+        &self,
+        algorithm: &str,
+        selection: Selection,
+        stop: Stop,
+        at: impl Fn(&str) + Send + 'static,
+    ) -> Result<Stability> {
+        selection.check()?;
+        let unknown = || {
+            let known: Vec<String> = self.algorithms(None).into_iter().map(|a| a.id).collect();
+            EngineError::Invalid(format!("There is no algorithm {algorithm:?}; there are: {}.", known.join(", ")))
+        };
+        let contestant = self.inner.registry.choose(algorithm, None)?.ok_or_else(unknown)?;
+        let whole = selection.parts.is_empty() && selection.at.is_none() && selection.seed.is_none();
+        let inner = Arc::clone(&self.inner);
+        // A thread of its own: a jail ends with the thread that started it.
+        let (sender, found) = tokio::sync::oneshot::channel();
+        std::thread::spawn(move || {
+            // Who asked may have gone.
+            drop(sender.send(stability::run(inner.registry.runner(), &contestant, &selection, &stop, &at)));
+        });
+        let found = found.await.map_err(|_| EngineError::Fault("The stability run broke down.".into()))??;
+        if whole {
+            self.inner.store.keep_stability(&found).await?;
+        }
+        Ok(found)
+    }
+}

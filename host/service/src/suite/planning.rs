@@ -1,0 +1,242 @@
+//! The public benchmark: which results of the suite there are, which are missing, and queueing those.
+//!
+//! The runs of the suite are ordinary runs, so everything that shows, repeats and deletes runs works for them as well. Our own
+//! algorithms are measured when the operator runs `ocb suite run`, a developer's plugin when it becomes public. Otherwise a
+//! service that has just been installed would be busy for minutes with runs that nobody requested.
+
+use std::collections::{HashMap, HashSet};
+
+use crate::boxed;
+use crate::engine::{BACKGROUND, Engine, Inner};
+use crate::model::{AlgorithmInfo, Environment, PluginState, RunInfo, RunSpec, State, SuiteInfo, SuiteProgress};
+use crate::runs::Asking;
+use crate::store::RunRow;
+use crate::suite::scenario_of;
+use crate::{EngineError, Result};
+
+/// Algorithms of one run: whoever comes meanwhile waits for no more than these.
+pub(crate) const AT_ONCE: usize = 4;
+
+/// What is known of one algorithm in one scenario, here and now.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Known {
+    Measured,
+    Waiting,
+}
+
+impl Engine {
+    /// The suite, and how far each public algorithm has come with it on this machine.
+    #[boxed]
+    pub async fn suite(&self) -> Result<SuiteInfo> {
+        let suite = &self.inner.suite;
+        let known = self.inner.known().await?;
+        let scenarios = suite.scenarios();
+        let progress = |algorithm: AlgorithmInfo| {
+            let answered = scenarios.iter().filter(|spec| algorithm.queries.contains(&spec.query));
+            let of = |what| {
+                let has = |spec: &&RunSpec| known.of(&algorithm, spec) == Some(what);
+                answered.clone().filter(has).count() as u32
+            };
+            let (measured, waiting, of) = (of(Known::Measured), of(Known::Waiting), answered.clone().count() as u32);
+            SuiteProgress { algorithm: algorithm.id, name: algorithm.name, measured, waiting, of }
+        };
+        let document = &suite.document;
+        Ok(SuiteInfo {
+            version: document.version,
+            sha256: suite.sha256.clone(),
+            scenes: document.scenes.clone(),
+            separations: document.separations.clone(),
+            queries: document.queries.clone(),
+            configurations: document.configurations,
+            passes: document.passes,
+            scenarios: scenarios.len() as u32,
+            hardware_class: self.inner.machine.hardware_class.clone(),
+            oracle: ocb_core::oracle::VERSION,
+            progress: self.inner.public().into_iter().map(progress).collect(),
+        })
+    }
+
+    /// Queues what these public algorithms have not been measured on yet, on this machine and by this oracle; of all of
+    /// them when none is named. Whatever anybody waits for goes before it.
+    #[boxed]
+    pub async fn measure_suite(&self, only: &[String]) -> Result<Vec<RunInfo>> {
+        let _alone = self.inner.planning.lock().await;
+        self.queue_missing(only, &self.inner.known().await?).await
+    }
+
+    /// Queues what is not known of these, or of all. Whoever calls it is planning alone.
+    async fn queue_missing(&self, only: &[String], known: &AllKnown) -> Result<Vec<RunInfo>> {
+        let inner = &self.inner;
+        let public = inner.public();
+        if let Some(unknown) = only.iter().find(|id| public.iter().all(|a| a.id != **id)) {
+            return Err(EngineError::Invalid(format!(
+                "There is no public algorithm {unknown:?}; the suite is for public ones, as they are when nothing is set."
+            )));
+        }
+        inner.keep_suite().await?;
+        let mut queued = Vec::new();
+        for spec in inner.suite.scenarios() {
+            let wanted = |a: &&AlgorithmInfo| {
+                (only.is_empty() || only.contains(&a.id))
+                    && a.queries.contains(&spec.query)
+                    && known.of(a, &spec).is_none()
+            };
+            let missing: Vec<String> = public.iter().filter(wanted).map(|a| a.id.clone()).collect();
+            for some in missing.chunks(AT_ONCE) {
+                let spec = RunSpec { algorithms: some.to_vec(), ..spec.clone() };
+                let asking = Asking { priority: BACKGROUND, suite: Some(&inner.suite.sha256), ..Asking::default() };
+                queued.push(self.queue(spec, asking).await?.0);
+            }
+        }
+        Ok(queued)
+    }
+
+    /// Ends those of these runs of the suite that have not ended.
+    #[boxed]
+    pub async fn end_suite_runs(&self, runs: &[RunInfo]) -> Result<()> {
+        for run in runs {
+            let row = self.inner.run_row(&run.id).await?;
+            if row.suite.is_some() {
+                self.end(&row, None).await?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What developers brought and is public is measured on the suite, also where the service ended before it was queued. What
+    /// was measured on another hardware class, suite or oracle is for a campaign, which a curator begins.
+    pub(crate) async fn catch_up_with_the_suite(&self) -> Result<()> {
+        if !self.inner.config.featured {
+            return Ok(());
+        }
+        let rows = self.inner.store.submissions().await?;
+        let public = rows.iter().filter(|row| row.state == PluginState::Public);
+        let only = self.inner.of_these(public.flat_map(|row| &row.algorithms));
+        if only.is_empty() {
+            return Ok(());
+        }
+        let _alone = self.inner.planning.lock().await;
+        self.queue_missing(&only, &self.inner.known_anywhere().await?).await.map(drop)
+    }
+
+    /// Queues what is missing of these, as far as they are public.
+    pub(crate) async fn measure_brought(&self, brought: impl Iterator<Item = &AlgorithmInfo>) -> Result<()> {
+        let only = self.inner.of_these(brought);
+        if only.is_empty() { Ok(()) } else { self.measure_suite(&only).await.map(drop) }
+    }
+}
+
+/// Which plugin file of an algorithm has come how far in a scenario; a run that waits takes whatever is there then.
+#[derive(Default)]
+pub(crate) struct AllKnown {
+    files: HashMap<[String; 2], Vec<KnownFile>>,
+    /// Plugin files of which nothing is missing, whatever the scenario.
+    settled: HashSet<String>,
+}
+
+/// The hash of a plugin file, once it is measured, and how far it is.
+type KnownFile = (Option<String>, Known);
+
+impl AllKnown {
+    pub(crate) fn add(&mut self, spec: &RunSpec, algorithm: &str, file: Option<String>, known: Known) -> Result<()> {
+        self.files.entry([scenario(spec)?, algorithm.to_owned()]).or_default().push((file, known));
+        Ok(())
+    }
+
+    pub(crate) fn of(&self, algorithm: &AlgorithmInfo, spec: &RunSpec) -> Option<Known> {
+        if self.settled.contains(&algorithm.plugin_sha256) {
+            return Some(Known::Measured);
+        }
+        let all = self.files.get(&[scenario(spec).ok()?, algorithm.id.clone()])?;
+        let same = |file: &Option<String>| file.as_ref().is_none_or(|file| *file == algorithm.plugin_sha256);
+        let here = || all.iter().filter(|(file, _)| same(file)).map(|(_, known)| *known);
+        here().find(|known| *known == Known::Measured).or_else(|| here().next())
+    }
+}
+
+pub(crate) fn scenario(spec: &RunSpec) -> Result<String> {
+    serde_json::to_string(&scenario_of(spec)).map_err(|e| EngineError::fault("Naming a scenario failed", e))
+}
+
+impl Inner {
+    /// The algorithms that everybody may ask for, each in its newest version.
+    pub(crate) fn public(&self) -> Vec<AlgorithmInfo> {
+        let mut all = self.registry.algorithms(None);
+        all.retain(|algorithm| !algorithm.id.contains('@'));
+        all
+    }
+
+    /// The ids of these, as far as they are public.
+    fn of_these<'a>(&self, these: impl Iterator<Item = &'a AlgorithmInfo>) -> Vec<String> {
+        let these: Vec<&str> = these.map(|algorithm| algorithm.id.as_str()).collect();
+        let mut only: Vec<String> = self.public().into_iter().map(|algorithm| algorithm.id).collect();
+        only.retain(|id| these.contains(&id.as_str()));
+        only
+    }
+
+    /// Keeps the suite, so that results may lie under its hash.
+    pub(crate) async fn keep_suite(&self) -> Result<()> {
+        if self.store.keep_suite(&self.suite).await? {
+            return Ok(());
+        }
+        Err(EngineError::Invalid(format!(
+            "Another suite of the version {} was measured here; give this one another version.",
+            self.suite.document.version
+        )))
+    }
+
+    /// What is known of the suite here and now.
+    pub(crate) async fn known(&self) -> Result<AllKnown> {
+        let mut all = AllKnown::default();
+        for row in self.store.suite_runs().await?.iter().filter(|row| self.is_of_the_suite(row)) {
+            if row.state != State::Done || self.is_of_now(row) {
+                self.note(&mut all, row).await?;
+            }
+        }
+        Ok(all)
+    }
+
+    /// What was ever known of a suite, wherever it was measured.
+    async fn known_anywhere(&self) -> Result<AllKnown> {
+        let mut all = AllKnown::default();
+        for row in self.store.suite_runs().await? {
+            if self.is_of_the_suite(&row) {
+                self.note(&mut all, &row).await?;
+            } else {
+                all.settled.extend(self.store.results(&row.id).await?.into_iter().map(|stored| stored.plugin_sha256));
+            }
+        }
+        Ok(all)
+    }
+
+    async fn note(&self, all: &mut AllKnown, row: &RunRow) -> Result<()> {
+        if row.state != State::Done {
+            for algorithm in &row.spec.algorithms {
+                all.add(&row.spec, algorithm, None, Known::Waiting)?;
+            }
+            return Ok(());
+        }
+        for stored in self.store.results(&row.id).await? {
+            // Whose time was over before its first answer is asked again.
+            if stored.result.had_no_time() {
+                continue;
+            }
+            let algorithm = &stored.result.algorithm;
+            all.add(&row.spec, algorithm, Some(stored.plugin_sha256.clone()), Known::Measured)?;
+        }
+        Ok(())
+    }
+
+    fn is_of_the_suite(&self, row: &RunRow) -> bool {
+        row.suite.as_ref() == Some(&self.suite.sha256)
+    }
+
+    /// Measured on this machine's class, judged by this oracle, in a jail like this.
+    pub(crate) fn is_of_now(&self, row: &RunRow) -> bool {
+        let here = |machine: &Environment| {
+            machine.hardware_class == self.machine.hardware_class && machine.profile == self.registry.profile().as_str()
+        };
+        row.environment.as_ref().is_some_and(here)
+            && row.set.as_ref().is_some_and(|set| set.oracle == Some(ocb_core::oracle::VERSION))
+    }
+}
