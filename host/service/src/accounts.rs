@@ -9,13 +9,15 @@ pub mod sql;
 
 use std::time::Duration;
 
+use crate::audit::Note;
 use crate::boxed;
-use crate::engine::{Engine, Made};
+use crate::engine::Engine;
 use crate::model::{AccountInfo, AuditEntry, Cursor, NewToken, Page, Part, Role, Scope, TokenInfo, TokenRequest};
 use crate::plugins::signature;
+use crate::requests::Made;
 use crate::runs::draw;
 use crate::sha256_hex;
-use crate::store::{Note, now_us};
+use crate::store::now_us;
 use crate::{EngineError, Result};
 
 /// How long a browser stays logged in, and how long a token lives.

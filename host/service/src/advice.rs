@@ -8,12 +8,13 @@ use std::sync::Arc;
 use ocb_advisor::{Paper, Shelf};
 use ocb_core::mesh::{Mesh, obj};
 
+use crate::advice::sql::{AdviceRow, StoredPaper};
 use crate::advice::work::{Found, Job};
 use crate::boxed;
-use crate::engine::{Engine, Inner, Made};
+use crate::engine::{Engine, Inner};
 use crate::model::{AdviceInfo, AdviceSpec, Asked, Side, State};
 use crate::quotas::{Visitor, turn};
-use crate::store::{AdviceRow, StoredPaper};
+use crate::requests::Made;
 use crate::{EngineError, Result};
 
 /// Where certificates are kept below the data folder.

@@ -5,7 +5,10 @@ use sqlx::{Any, AnyConnection, Executor};
 use crate::Result;
 use crate::model::AuditEntry;
 use crate::sha256_hex;
-use crate::store::{A_FORMER_ACCOUNT, Store, now_us};
+use crate::store::{Store, now_us};
+
+/// Whose is what an account has left behind. No name: names have no spaces.
+pub const A_FORMER_ACCOUNT: &str = "a former account";
 
 type AuditRow = (i64, i64, String, String, String, String, String);
 

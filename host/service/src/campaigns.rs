@@ -13,16 +13,21 @@ pub mod sql;
 use std::collections::BTreeMap;
 
 use crate::accounts::{NAME_OF_OPERATOR, said};
+use crate::audit::Note;
 use crate::boxed;
-use crate::engine::{BACKGROUND, Engine, Inner, Made};
+use crate::campaigns::sql::CampaignRow;
+use crate::engine::{Engine, Inner};
 use crate::model::{
     AccountInfo, CampaignInfo, CampaignPreview, CampaignRequest, CampaignRuns, Compared, Cursor, Owner, Page, Part,
     State,
 };
 use crate::notices::notice;
+use crate::plugins::sql::THE_SERVICE;
+use crate::requests::Made;
 use crate::runs::Asking;
+use crate::runs::BACKGROUND;
 use crate::runs::log::plain_event;
-use crate::store::{CampaignRow, Note, THE_SERVICE, now_us};
+use crate::store::now_us;
 use crate::{EngineError, Result};
 
 impl Engine {

@@ -20,7 +20,7 @@ use ocb_core::statistics::bootstrap_interval;
 use crate::board::{Measured, of_run};
 use crate::engine::Inner;
 use crate::model::{AlgorithmResult, ChartKind, ChartRequest, State};
-use crate::store::RunRow;
+use crate::runs::sql::RunRow;
 use crate::{EngineError, Result};
 
 /// Points of the charts in memory, in all: about 40 MB.

@@ -1,16 +1,5 @@
 //! The one handle for server and command line.
 
-pub use crate::accounts::SESSION;
-pub use crate::board::ask::board_csv;
-pub use crate::campaigns::campaign_csv;
-pub use crate::charts::ask::{chart_csv, chart_parquet};
-pub use crate::owned::archive::Contents;
-pub use crate::plugins::notices::of_check;
-pub use crate::plugins::{MAX_PLUGIN_BYTES, conflict};
-pub use crate::quotas::Visitor;
-pub use crate::requests::Made;
-pub use crate::sets::SetJob;
-
 use std::fs::File;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -27,6 +16,7 @@ use tokio::task::JoinHandle;
 
 use crate::advice::work::Advices;
 use crate::blobs::Blobs;
+use crate::blocking::blocking;
 use crate::boxed;
 use crate::cache::Cache;
 use crate::columns::RecordColumns;
@@ -35,7 +25,7 @@ use crate::measure::Stop;
 use crate::model::{
     AlgorithmInfo, Ecdf, Estimate, Heatmap, HeatmapRequest, ObjectInfo, Page, Part, PluginReport, RunSpec, Status,
 };
-use crate::objects::{Objects, blocking};
+use crate::objects::Objects;
 use crate::plugins::registry::Registry;
 use crate::results::Format;
 use crate::runs::log::Bell;
@@ -43,11 +33,6 @@ use crate::runs::{dispatcher, estimate, spec};
 use crate::store::Store;
 use crate::suite::Suite;
 use crate::{EngineConfig, EngineError, Result, configurations};
-
-/// Priority of what somebody waits for.
-pub const INTERACTIVE: i64 = 1;
-/// Priority of the service's own runs.
-pub const BACKGROUND: i64 = 5;
 
 /// Runs, objects, algorithms and results behind one cheap-to-clone handle.
 ///

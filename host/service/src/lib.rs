@@ -7,6 +7,7 @@ mod accounts;
 mod advice;
 mod audit;
 mod blobs;
+mod blocking;
 pub mod board;
 mod cache;
 mod campaigns;
@@ -38,10 +39,11 @@ pub use config::{Ceilings, EngineConfig, Profile};
 pub use ocb_lab::{LabError, sha256_hex};
 use ocb_lab::{columns, configurations, machine, measure, replay};
 
-pub use engine::{
-    Contents, Engine, MAX_PLUGIN_BYTES, Made, SESSION, SetJob, Visitor, board_csv, campaign_csv, chart_csv,
-    chart_parquet,
-};
+pub use accounts::SESSION;
+pub use board::ask::board_csv;
+pub use campaigns::campaign_csv;
+pub use charts::ask::{chart_csv, chart_parquet};
+pub use engine::Engine;
 pub use error::{EngineError, Result};
 pub use mail::{MailServer, Pace};
 pub use ocb_chart as chart;
@@ -52,3 +54,8 @@ pub use ocb_lab::stability::Selection as StabilitySelection;
 pub use ocb_lab::truth;
 pub use ocb_model as model;
 pub use ocb_sandbox::{doctor, given};
+pub use owned::archive::Contents;
+pub use plugins::MAX_PLUGIN_BYTES;
+pub use quotas::Visitor;
+pub use requests::Made;
+pub use sets::SetJob;

@@ -6,7 +6,8 @@ use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::mail::one_line;
 use crate::model::{AccountInfo, Cursor, NoticeInfo, Page, Part};
-use crate::store::{Telling, now_us};
+use crate::notices::sql::Telling;
+use crate::store::now_us;
 use crate::{EngineError, Result};
 
 /// Notices of one account that are kept, and letters of their parts.

@@ -12,6 +12,7 @@ use ocb_sandbox::given;
 use tokio::sync::Semaphore;
 
 use crate::blobs::Blobs;
+use crate::blocking::blocking;
 use crate::cache::Cache;
 use crate::model::{Cursor, ObjectInfo, Page, Part, Visibility};
 use crate::store::{Store, now_us};
@@ -293,11 +294,6 @@ fn from_bytes(bytes: &[u8]) -> Result<Mesh> {
     let corners = |c: &[u8]| [index(&c[..4]), index(&c[4..8]), index(&c[8..])];
     Mesh::new(positions.chunks_exact(24).map(point).collect(), indices.chunks_exact(12).map(corners).collect())
         .map_err(|_| damaged())
-}
-
-/// Work that would block the runtime's threads.
-pub async fn blocking<T: Send + 'static>(work: impl FnOnce() -> Result<T> + Send + 'static) -> Result<T> {
-    tokio::task::spawn_blocking(work).await.map_err(|e| EngineError::fault("A worker thread ended", e))?
 }
 
 #[cfg(test)]

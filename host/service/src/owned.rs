@@ -9,7 +9,8 @@ use std::time::Duration;
 use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::model::{Owner, State, Things};
-use crate::store::{Belongings, now_us};
+use crate::owned::sql::Belongings;
+use crate::store::now_us;
 use crate::{EngineError, Result};
 
 /// How often it is looked whose time is over.

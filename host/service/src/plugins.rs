@@ -15,6 +15,7 @@ use ocb_lab::check::{check_manifest, is_free};
 use ocb_sandbox::text::one_line;
 
 use crate::accounts::said;
+use crate::audit::{A_FORMER_ACCOUNT, Note};
 use crate::boxed;
 use crate::engine::Engine;
 use crate::model::{
@@ -22,8 +23,9 @@ use crate::model::{
 };
 use crate::plugins::notices::of_decision;
 use crate::plugins::registry::brought;
+use crate::plugins::sql::SubmissionRow;
 use crate::sha256_hex;
-use crate::store::{A_FORMER_ACCOUNT, Note, SubmissionRow, now_us};
+use crate::store::now_us;
 use crate::{EngineError, Result};
 
 /// Largest plugin file that may be sent, and bytes of all that one account keeps.

@@ -7,7 +7,8 @@ use std::time::Duration;
 
 use crate::engine::{Engine, Inner};
 use crate::model::{Owner, RunSpec};
-use crate::store::{Granted, RunRow};
+use crate::runs::queue::Granted;
+use crate::runs::sql::RunRow;
 use crate::{EngineError, Result};
 
 /// The sender of a request over the network.

@@ -10,8 +10,9 @@ use std::time::Duration;
 use serde::Serialize;
 
 use crate::engine::Engine;
+use crate::requests::sql::Request;
 use crate::sha256_hex;
-use crate::store::{Request, now_us};
+use crate::store::now_us;
 use crate::{EngineError, Result};
 
 /// How long keys are remembered.

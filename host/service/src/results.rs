@@ -15,11 +15,12 @@ use ocb_core::mesh::Mesh;
 use ocb_core::selection::{Column, Columns};
 use ocb_core::statistics::{self, Outliers, Statistic};
 
+use crate::blocking::blocking;
 use crate::columns::{self, RecordColumns};
 use crate::engine::Inner;
 use crate::model::{Ecdf, Heatmap, HeatmapRequest, Measure, Side};
-use crate::objects::blocking;
-use crate::store::{RunRow, StoredResult};
+use crate::results::sql::StoredResult;
+use crate::runs::sql::RunRow;
 use crate::{EngineError, Result};
 
 /// Points of a distribution's curve at most.

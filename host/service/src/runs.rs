@@ -16,12 +16,18 @@ pub mod sql;
 use std::time::{Duration, Instant};
 
 use crate::boxed;
-use crate::engine::{Engine, INTERACTIVE};
+use crate::engine::Engine;
 use crate::model::{AccountInfo, Cursor, Page, Part, Role, RunInfo, RunSpec, State, Visibility};
 use crate::quotas::{Visitor, granted, turn};
 use crate::runs::log::{fresh_stages, plain_event};
-use crate::store::{RunRow, now_us};
+use crate::runs::sql::RunRow;
+use crate::store::now_us;
 use crate::{EngineError, Result};
+
+/// Priority of what somebody waits for.
+pub const INTERACTIVE: i64 = 1;
+/// Priority of the service's own runs.
+pub const BACKGROUND: i64 = 5;
 
 /// How long `cancel` waits for a run under way to end before it answers.
 const CANCEL_PATIENCE: Duration = Duration::from_secs(3);

@@ -16,19 +16,6 @@ use sqlx::{AnyPool, Executor, SqlSafeStr};
 
 use crate::{EngineError, Result};
 
-pub use crate::accounts::deletion::sql::A_FORMER_ACCOUNT;
-pub use crate::advice::sql::{AdviceRow, StoredPaper};
-pub use crate::audit::Note;
-pub use crate::campaigns::sql::CampaignRow;
-pub use crate::mail::sql::{MailLink, WaitingMail};
-pub use crate::notices::sql::Telling;
-pub use crate::owned::sql::Belongings;
-pub use crate::plugins::sql::{SubmissionRow, THE_SERVICE};
-pub use crate::requests::sql::Request;
-pub use crate::results::sql::StoredResult;
-pub use crate::runs::queue::Granted;
-pub use crate::runs::sql::RunRow;
-
 /// All tables of one data folder.
 #[derive(Clone)]
 pub struct Store {

@@ -10,7 +10,7 @@ use crate::engine::{Engine, Inner};
 use crate::model::{ObjectInfo, Owner, RunInfo, Visibility};
 use crate::objects::unknown;
 use crate::results::no_run;
-use crate::store::RunRow;
+use crate::runs::sql::RunRow;
 use crate::{EngineError, Result};
 
 impl Engine {

@@ -2,12 +2,13 @@
 
 pub mod sql;
 
+use crate::audit::Note;
 use crate::boxed;
 use crate::engine::Engine;
 use crate::mail::address;
 use crate::model::{AccountInfo, Choices, NewChoices, Owner};
 use crate::sha256_hex;
-use crate::store::{Note, now_us};
+use crate::store::now_us;
 use crate::{EngineError, Result};
 
 impl Engine {

@@ -3,11 +3,12 @@
 pub mod sql;
 
 use crate::accounts::NAME_OF_OPERATOR;
+use crate::audit::Note;
 use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::model::{AccountInfo, Leaving, LeavingCounts, Role, State, Visibility};
+use crate::owned::sql::Belongings;
 use crate::plugins::registry::brought::forget_file;
-use crate::store::{Belongings, Note};
 use crate::{EngineError, Result};
 
 impl Engine {

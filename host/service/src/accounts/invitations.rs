@@ -5,14 +5,16 @@ pub mod sql;
 use std::time::Duration;
 
 use crate::accounts::NAME_OF_OPERATOR;
+use crate::audit::Note;
 use crate::boxed;
-use crate::engine::{Engine, Made};
+use crate::engine::Engine;
 use crate::model::{
     AccountInfo, Cursor, InvitationInfo, InvitationRequest, InvitationState, NewInvitation, Page, Part, Role,
 };
+use crate::requests::Made;
 use crate::runs::draw;
 use crate::sha256_hex;
-use crate::store::{Note, now_us};
+use crate::store::now_us;
 use crate::{EngineError, Result};
 
 /// Days that an invitation may last, letters that say for whom it is, and how many may be open.

@@ -1,8 +1,9 @@
 //! Accounts and the keys that open them: sessions of browsers, tokens of programs.
 
+use crate::audit::Note;
 use crate::audit::append;
 use crate::model::{AccountInfo, Cursor, Role, Scope, TokenInfo};
-use crate::store::{Note, Store, from_json, now_us, to_json};
+use crate::store::{Store, from_json, now_us, to_json};
 use crate::{EngineError, Result};
 
 /// Columns of an account: id, name, role, wish, signing key, when it was made.

@@ -4,7 +4,7 @@ use crate::board::{self, Circumstances, Measured};
 use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::model::{Board, BoardRequest, State, Visibility};
-use crate::store::RunRow;
+use crate::runs::sql::RunRow;
 use crate::{Profile, Result, columns};
 
 /// Finished runs that are looked at, at most: the newest.

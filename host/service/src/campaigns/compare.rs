@@ -4,7 +4,8 @@ use crate::Result;
 use crate::board;
 use crate::engine::Inner;
 use crate::model::{AlgorithmResult, Compared, ComparedResult, Estimated};
-use crate::store::{RunRow, StoredResult};
+use crate::results::sql::StoredResult;
+use crate::runs::sql::RunRow;
 
 impl Inner {
     /// Each algorithm of each of these runs, as far as the viewer may see the run, with what was measured before.

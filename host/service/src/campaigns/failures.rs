@@ -3,12 +3,15 @@
 use nix::sys::signal::Signal;
 
 use crate::Result;
+use crate::audit::Note;
 use crate::board;
+use crate::campaigns::sql::CampaignRow;
 use crate::engine::Inner;
 use crate::model::{AlgorithmResult, OutcomeName, PluginState, RunSpec, State};
 use crate::plugins::notices::to_author;
+use crate::plugins::sql::{SubmissionRow, THE_SERVICE};
 use crate::runs::log::{fresh_stages, plain_event};
-use crate::store::{CampaignRow, Note, RunRow, SubmissionRow, THE_SERVICE};
+use crate::runs::sql::RunRow;
 
 impl Inner {
     /// Looks at what a run of a campaign found out of plugins that developers brought. Looked at again after a restart, it finds the

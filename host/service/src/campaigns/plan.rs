@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::engine::{Engine, Inner};
 use crate::model::{RunSpec, State, Visibility};
-use crate::store::RunRow;
+use crate::runs::sql::RunRow;
 use crate::suite::planning::{AT_ONCE, Known, scenario};
 use crate::{EngineError, Result};
 

@@ -4,10 +4,12 @@ use sqlx::Row;
 use sqlx::any::AnyRow;
 
 use crate::Result;
+use crate::audit::Note;
 use crate::audit::append;
 use crate::model::{CampaignRuns, Cursor, RunSpec, Stage, State};
+use crate::runs::sql::RunRow;
 use crate::runs::sql::{named_state, read_run, select_runs};
-use crate::store::{Note, RunRow, Store, now_us, to_json};
+use crate::store::{Store, now_us, to_json};
 
 /// One row of the table of campaigns.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -34,7 +34,7 @@ mod tests {
     use super::*;
     use crate::EngineConfig;
     use crate::model::State;
-    use crate::store::StoredResult;
+    use crate::results::sql::StoredResult;
     use crate::store::tests::{result, run};
 
     /// Some of five decisions were wrong.

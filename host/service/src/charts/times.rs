@@ -8,12 +8,12 @@ use ocb_core::statistics::{Statistic, maximum_interval};
 
 use super::{mean, series};
 use crate::Result;
+use crate::blocking::blocking;
 use crate::board::{Measured, Named};
 use crate::columns::RecordColumns;
 use crate::engine::Inner;
 use crate::model::AlgorithmResult;
-use crate::objects::blocking;
-use crate::store::RunRow;
+use crate::runs::sql::RunRow;
 
 /// Other runs beside this one, at most.
 const OTHERS: usize = 24;

@@ -8,10 +8,10 @@ use rayon::prelude::*;
 
 use super::{mean, series};
 use crate::Result;
+use crate::blocking::blocking;
 use crate::engine::Inner;
 use crate::model::{AlgorithmResult, ChartKind};
-use crate::objects::blocking;
-use crate::store::RunRow;
+use crate::runs::sql::RunRow;
 
 /// Steps of a power of ten into which tests are sorted.
 const STEPS: f64 = 4.0;

@@ -7,10 +7,11 @@ use std::time::Duration;
 
 use crate::Result;
 use crate::engine::Inner;
+use crate::mail::sql::{MailLink, WaitingMail};
 use crate::mail::{Letter, MailServer, Refused, deliver};
 use crate::runs::draw;
 use crate::sha256_hex;
-use crate::store::{MailLink, WaitingMail, now_us};
+use crate::store::now_us;
 
 /// The waiting mails are looked at this often even if nobody rings.
 const IDLE: Duration = Duration::from_secs(600);

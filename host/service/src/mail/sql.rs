@@ -4,8 +4,9 @@ use sqlx::Row;
 use sqlx::any::AnyRow;
 
 use crate::Result;
+use crate::audit::Note;
 use crate::audit::append;
-use crate::store::{Note, Store, now_us};
+use crate::store::{Store, now_us};
 
 /// A mail that waits.
 #[derive(Clone, Debug, PartialEq, Eq)]

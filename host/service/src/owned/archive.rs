@@ -7,11 +7,11 @@ use ocb_core::mesh::obj;
 use serde::Serialize;
 use tokio::runtime::Handle;
 
+use crate::advice::sql::StoredPaper;
+use crate::blocking::blocking;
 use crate::boxed;
 use crate::engine::Engine;
 use crate::model::{AccountInfo, Owner};
-use crate::objects::blocking;
-use crate::store::StoredPaper;
 use crate::{EngineError, Result};
 
 /// What goes into an archive beside objects, runs and advice.

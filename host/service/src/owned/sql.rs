@@ -3,8 +3,9 @@
 use sqlx::AnyConnection;
 
 use crate::Result;
+use crate::advice::sql::StoredPaper;
 use crate::model::Thing;
-use crate::store::{Store, StoredPaper, from_json, now_us};
+use crate::store::{Store, from_json, now_us};
 
 /// Runs, objects, advice and plugins of one owner.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

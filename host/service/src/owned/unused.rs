@@ -3,8 +3,9 @@
 use std::collections::{BTreeSet, HashSet};
 
 use crate::Result;
+use crate::advice::sql::StoredPaper;
 use crate::owned::sql::{Belongings, Unused};
-use crate::store::{Store, StoredPaper, from_json};
+use crate::store::{Store, from_json};
 
 /// Plugins that stay whatever goes.
 const GOING_PLUGIN: &str = "SELECT blob FROM submissions WHERE id = $1 \

@@ -7,12 +7,15 @@ use std::time::Duration;
 use ocb_lab::check::{Extent, Term, check_plugin};
 use tokio::runtime::Handle;
 
-use crate::engine::{Inner, conflict, of_check};
+use crate::audit::Note;
+use crate::engine::Inner;
 use crate::machine::MeasuringRight;
 use crate::measure::Stop;
 use crate::model::{CheckLine, CheckVerdict, PluginReport, PluginState};
+use crate::plugins::conflict;
+use crate::plugins::notices::of_check;
 use crate::plugins::registry::brought;
-use crate::store::{Note, SubmissionRow, THE_SERVICE};
+use crate::plugins::sql::{SubmissionRow, THE_SERVICE};
 use crate::{EngineError, Result};
 
 /// A check that was begun this often is not begun again: it may be what ends the service.

@@ -2,7 +2,7 @@
 
 use crate::model::{Action, NoticeInfo, PluginState};
 use crate::notices::notice;
-use crate::store::SubmissionRow;
+use crate::plugins::sql::SubmissionRow;
 
 /// What the author of a plugin is told of a curator's decision; nothing of the steps that are the author's alone.
 pub(crate) fn of_decision(row: &SubmissionRow, action: Action, reason: &str) -> Option<NoticeInfo> {

@@ -10,8 +10,8 @@ use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
 use ocb_lab::contestant::{Contestant, Runner, plugin_hash};
 use ocb_sandbox::Profile;
 
+use crate::blocking::blocking;
 use crate::model::AlgorithmInfo;
-use crate::objects::blocking;
 use crate::store::Store;
 use crate::{EngineConfig, Result};
 

@@ -3,10 +3,12 @@
 use sqlx::any::AnyRow;
 use sqlx::{Any, Executor, Row};
 
+use crate::audit::Note;
 use crate::audit::{append, notes_on};
 use crate::model::{AlgorithmInfo, AuditEntry, CheckLine, Manifest, PluginState};
+use crate::notices::sql::Telling;
 use crate::notices::sql::tell;
-use crate::store::{Note, Store, Telling, from_json, now_us, to_json};
+use crate::store::{Store, from_json, now_us, to_json};
 use crate::{EngineError, Result};
 
 /// Who acts when nobody does.

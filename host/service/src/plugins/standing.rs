@@ -6,7 +6,7 @@ use crate::Result;
 use crate::board::Measured;
 use crate::engine::Inner;
 use crate::model::PluginState;
-use crate::store::SubmissionRow;
+use crate::plugins::sql::SubmissionRow;
 
 /// Where a plugin file stands that has left the public benchmark.
 pub struct Standing {

@@ -12,10 +12,10 @@ use ocb_core::selection::{Body, Column, Columns, Selection};
 use ocb_core::statistics::quantile;
 
 use super::table::{Lane, Table};
+use crate::blocking::blocking;
 use crate::columns::{self, Numbers};
 use crate::engine::Inner;
 use crate::model::{Meeting, Selected, SelectedOf, WorstBy, WorstCase, WorstRequest};
-use crate::objects::blocking;
 use crate::{EngineError, Result};
 
 /// Longest list of the worst.

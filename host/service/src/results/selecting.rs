@@ -1,10 +1,10 @@
 //! Selections of configurations, and the worst of them.
 
 use crate::Result;
+use crate::blocking::blocking;
 use crate::boxed;
 use crate::engine::Engine;
 use crate::model::{Meeting, Selected, WorstCase, WorstRequest};
-use crate::objects::blocking;
 
 impl Engine {
     /// How many configurations of the run a selection holds, and what they cost each algorithm. Columns without `of` are

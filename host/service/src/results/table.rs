@@ -15,7 +15,7 @@ use ocb_core::selection::{Body, Column, Columns, Selection, distances};
 use super::not_yet;
 use crate::columns::RecordColumns;
 use crate::engine::Inner;
-use crate::store::RunRow;
+use crate::runs::sql::RunRow;
 use crate::{EngineError, Result};
 
 /// What is known of the configurations of a run.

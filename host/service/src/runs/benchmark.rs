@@ -22,9 +22,10 @@ use crate::engine::Inner;
 use crate::machine::{MakingWay, MeasuringRight};
 use crate::measure::{self, Asked, Measured, News, Part, Stop, Task};
 use crate::model::{AlgorithmResult, Environment, Preview, RunSpec, SetInfo, State};
+use crate::results::sql::StoredResult;
 use crate::runs::draw;
 use crate::runs::log::RunLog;
-use crate::store::{RunRow, StoredResult};
+use crate::runs::sql::RunRow;
 use crate::suite::{Suite, drawn_anew};
 use crate::{EngineError, Result};
 

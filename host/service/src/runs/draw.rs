@@ -9,8 +9,8 @@ use std::sync::Arc;
 use ocb_lab::contestant::Contestant;
 
 use crate::model::Draw;
+use crate::runs::sql::RunRow;
 use crate::sha256_hex;
-use crate::store::RunRow;
 
 /// Seeds are below this: a JavaScript reader keeps them exactly.
 const BITS: u32 = 53;

@@ -4,9 +4,10 @@ use ocb_core::configuration::{Method, Sampling};
 use ocb_core::query::{Query, Semantics};
 
 use crate::Result;
-use crate::engine::{BACKGROUND, Engine};
+use crate::engine::Engine;
 use crate::model::RunSpec;
 use crate::runs::Asking;
+use crate::runs::BACKGROUND;
 
 /// Configurations of the quick run.
 const CONFIGURATIONS: u32 = 2000;

@@ -9,16 +9,17 @@ use ocb_lab::check::is_free;
 use ocb_lab::contestant::{Contestant, read_plugin};
 use tokio::runtime::Handle;
 
+use crate::blocking::blocking;
 use crate::boxed;
 use crate::columns::{AnswerRow, read_answers, set_versions};
 use crate::engine::Engine;
 use crate::model::{Recipe, RecipeAlgorithm, RecipeObject, RecipeVersions, Replay, Replayed, State};
-use crate::objects::blocking;
 use crate::plugins::registry::brought;
 use crate::replay::{Packing, Questions, Unpacked};
 use crate::results::not_yet;
+use crate::results::sql::StoredResult;
+use crate::runs::sql::RunRow;
 use crate::sha256_hex;
-use crate::store::{RunRow, StoredResult};
 use crate::{EngineError, Result};
 
 impl Engine {

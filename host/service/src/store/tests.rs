@@ -1,5 +1,20 @@
 //! The contract of the store: every function, on SQLite and on PostgreSQL.
 
+/// The rows of all concepts.
+mod rows {
+    pub use crate::advice::sql::StoredPaper;
+    pub use crate::audit::A_FORMER_ACCOUNT;
+    pub use crate::audit::Note;
+    pub use crate::campaigns::sql::CampaignRow;
+    pub use crate::mail::sql::{MailLink, WaitingMail};
+    pub use crate::notices::sql::Telling;
+    pub use crate::owned::sql::Belongings;
+    pub use crate::plugins::sql::SubmissionRow;
+    pub use crate::requests::sql::Request;
+    pub use crate::results::sql::StoredResult;
+    pub use crate::runs::sql::RunRow;
+}
+
 use ocb_core::query::Query;
 
 mod campaigns;
@@ -20,6 +35,7 @@ use super::*;
 use crate::blobs::tests::from_harness;
 use crate::model::{AlgorithmInfo, Cursor, Draw, Environment, Estimated, ObjectInfo, Reference, Stability, State};
 use crate::runs::log::{fresh_stages, plain_event};
+use rows::*;
 
 /// How many rows there are of blobs, objects, sets, runs and results.
 pub(crate) async fn row_counts(store: &Store) -> [i64; 5] {

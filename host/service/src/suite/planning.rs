@@ -7,10 +7,11 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::boxed;
-use crate::engine::{BACKGROUND, Engine, Inner};
+use crate::engine::{Engine, Inner};
 use crate::model::{AlgorithmInfo, Environment, PluginState, RunInfo, RunSpec, State, SuiteInfo, SuiteProgress};
 use crate::runs::Asking;
-use crate::store::RunRow;
+use crate::runs::BACKGROUND;
+use crate::runs::sql::RunRow;
 use crate::suite::scenario_of;
 use crate::{EngineError, Result};
 

@@ -1,8 +1,8 @@
 //! Suites that were measured here, and their runs.
 
 use crate::Result;
+use crate::runs::sql::RunRow;
 use crate::runs::sql::read_run;
-use crate::store::RunRow;
 use crate::store::{Store, now_us};
 use crate::suite::Suite;
 

@@ -1,9 +1,10 @@
 //! What accounts have chosen, and the addresses that their mails go to.
 
 use crate::Result;
+use crate::audit::Note;
 use crate::audit::append;
 use crate::model::NewChoices;
-use crate::store::{Note, Store, now_us};
+use crate::store::{Store, now_us};
 
 /// What an account has chosen.
 #[derive(Clone, Debug, PartialEq, Eq)]

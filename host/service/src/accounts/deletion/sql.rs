@@ -1,13 +1,12 @@
 //! Deleting an account, all at once.
 
 use crate::Result;
-use crate::audit::append;
+use crate::audit::Note;
+use crate::audit::{A_FORMER_ACCOUNT, append};
 use crate::model::{AccountInfo, Role};
+use crate::owned::sql::Belongings;
 use crate::owned::sql::{Unused, take};
-use crate::store::{Belongings, Note, Store, now_us};
-
-/// Whose is what an account has left behind. No name: names have no spaces.
-pub const A_FORMER_ACCOUNT: &str = "a former account";
+use crate::store::{Store, now_us};
 
 impl Store {
     /// Deletes the account with what goes, leaves what stays as nobody's, and notes it. Gives the files that nobody uses any more;

@@ -1,9 +1,10 @@
 //! Invitations to be a developer.
 
 use crate::Result;
+use crate::audit::Note;
 use crate::audit::append;
 use crate::model::{Cursor, InvitationInfo, InvitationState, Role};
-use crate::store::{Note, Store, now_us};
+use crate::store::{Store, now_us};
 
 /// Columns of an invitation: id, for whom, by whom, made, expires, revoked, accepted, by whom.
 type InvitationRow = (String, String, Option<String>, i64, i64, Option<i64>, Option<i64>, Option<String>);

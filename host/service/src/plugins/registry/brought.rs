@@ -8,7 +8,8 @@ use ocb_lab::contestant::Contestant;
 
 use crate::blobs::Blobs;
 use crate::model::{AlgorithmInfo, Owner, PluginState};
-use crate::store::{Store, SubmissionRow};
+use crate::plugins::sql::SubmissionRow;
+use crate::store::Store;
 use crate::{EngineError, Result};
 
 /// An algorithm of a plugin that somebody brought.

@@ -2,6 +2,7 @@
 
 use super::super::*;
 use super::people::account;
+use super::rows::*;
 use super::{add, fresh_stages, run, spec};
 use crate::model::{CampaignRuns, Cursor, NewChoices, RunSpec, State};
 use crate::suite::Suite;

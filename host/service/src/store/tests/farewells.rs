@@ -2,6 +2,7 @@
 
 use super::super::*;
 use super::people::account;
+use super::rows::*;
 use super::submissions::submission;
 use super::{add, object, run};
 use crate::model::{

@@ -3,6 +3,7 @@
 use ocb_core::configuration::Class;
 
 use super::super::*;
+use super::rows::*;
 use crate::model::{
     AdviceInfo, Agreement, AlgorithmResult, ClassCount, Estimated, ObjectInfo, OutcomeInfo, OutcomeName, RunSpec,
     SetInfo, State, Visibility,

@@ -2,6 +2,7 @@
 
 use super::super::*;
 use super::people::account;
+use super::rows::*;
 use crate::accounts::choices::sql::ChoicesRow;
 use crate::model::{Cursor, NewChoices, NoticeInfo};
 

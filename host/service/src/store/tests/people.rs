@@ -1,6 +1,7 @@
 //! Accounts and the audit log, on both databases.
 
 use super::super::*;
+use super::rows::*;
 use super::{add, fresh_stages, object, run};
 use crate::model::{AccountInfo, Cursor, InvitationInfo, InvitationState, Role, Scope, TokenInfo};
 

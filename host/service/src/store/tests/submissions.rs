@@ -2,6 +2,7 @@
 
 use super::super::*;
 use super::people::{NOTE, account};
+use super::rows::*;
 use crate::model::{CheckLine, CheckVerdict, Cursor, NoticeInfo, PluginState};
 
 pub(super) fn submission(id: &str, account: &str, blob: &str) -> SubmissionRow {

@@ -1,6 +1,7 @@
 //! Suites and their runs, on both databases.
 
 use super::super::*;
+use super::rows::*;
 use super::{add, run};
 use crate::suite::Suite;
 

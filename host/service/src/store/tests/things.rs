@@ -1,6 +1,7 @@
 //! What an owner has, and taking it away, on both databases.
 
 use super::super::*;
+use super::rows::*;
 use super::{add, advice_info, object, result, run, set_info};
 use crate::model::Thing;
 use crate::owned::sql::Unused;

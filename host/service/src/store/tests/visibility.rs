@@ -1,6 +1,7 @@
 //! Who finds what in lists, on both databases.
 
 use super::super::*;
+use super::rows::*;
 use super::{add, object, run};
 use crate::model::{Cursor, State, Thing, Visibility};
 
