@@ -4,13 +4,13 @@ use std::io::{BufRead, IsTerminal};
 use std::process::ExitCode;
 
 use ocb_service::Engine;
-use ocb_service::model::{InvitationInfo, InvitationRequest, InvitationState, LeavingCounts, Page, Role};
+use ocb_service::model::{InvitationInfo, InvitationRequest, InvitationState, OwnedCounts, Page, Role};
 
 use crate::args::{AdminCommand, Store};
+use crate::data::agreed;
 use crate::failure::{Failure, Result};
 use crate::open::{self, Purpose};
 use crate::output;
-use crate::things::agreed;
 
 /// Makes an account of any role or deletes one, invites developers, or looks whether the audit log is whole.
 pub async fn admin(store: &Store, command: &AdminCommand, json: bool) -> Result<ExitCode> {
@@ -38,7 +38,7 @@ async fn create(engine: &Engine, name: &str, role: &str, json: bool) -> Result<(
 
 async fn delete(engine: &Engine, name: &str, yes: bool, json: bool) -> Result<()> {
     if !yes {
-        let told = engine.leaving(&engine.account_named(name).await?).await?;
+        let told = engine.deletion_preview(&engine.account_named(name).await?).await?;
         eprintln!("{}\n{}", said("goes ", &told.goes), said("stays", &told.stays));
         if !agreed()? {
             return Err(Failure::Input("Nothing was deleted; add --yes to delete it.".to_owned()));
@@ -56,8 +56,8 @@ async fn delete(engine: &Engine, name: &str, yes: bool, json: bool) -> Result<()
     ))
 }
 
-fn said(what: &str, counts: &LeavingCounts) -> String {
-    let LeavingCounts { runs, objects, advice, plugins } = counts;
+fn said(what: &str, counts: &OwnedCounts) -> String {
+    let OwnedCounts { runs, objects, advice, plugins } = counts;
     format!("{what}  runs: {runs}, objects: {objects}, pieces of advice: {advice}, plugins: {plugins}")
 }
 

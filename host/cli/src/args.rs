@@ -1,13 +1,13 @@
 //! What can be said on the command line.
 
 mod campaigns;
+mod data;
 mod looking;
 mod mail;
 mod plugins;
 mod runs;
 mod services;
 mod suite;
-mod things;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -15,13 +15,13 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub use campaigns::{CampaignArgs, CampaignCommand, CampaignOf};
+pub use data::{DataCommand, Deleted, PlaceArgs};
 pub use looking::{HeatmapArgs, SelectArgs, WorstArgs};
 pub use mail::MailArgs;
 pub use plugins::{AdminCommand, PluginCommand, SubmitArgs};
 pub use runs::{ReplayArgs, RunCommand};
 pub use services::{CiteArgs, CiteAs, Cited, LookArgs, ServiceArgs, Shown, VisibilityArgs};
 pub use suite::{SuiteCommand, SuiteRunArgs};
-pub use things::{Deleted, PlaceArgs, ThingsCommand};
 
 use ocb_service::Profile;
 
@@ -143,9 +143,9 @@ pub enum Command {
     /// Send a plugin to a service, which checks it.
     Submit(SubmitArgs),
     /// Look at what you have made, here or on a service, delete it, or take it along.
-    Things {
+    Data {
         #[command(subcommand)]
-        command: ThingsCommand,
+        command: DataCommand,
     },
     /// Tell how a run or a plugin on a service is cited: BibTeX, CFF, its stable link.
     Cite(CiteArgs),

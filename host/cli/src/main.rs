@@ -9,6 +9,7 @@ mod campaign;
 mod chart;
 mod choice;
 mod cite;
+mod data;
 mod doctor;
 mod failure;
 mod generate;
@@ -29,7 +30,6 @@ mod service;
 mod stability;
 mod submit;
 mod suite;
-mod things;
 mod truth;
 mod units;
 mod visibility;
@@ -77,7 +77,7 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Run { command } => run::run(&store, &command, json).await,
         Command::Replay(args) => replay::replay(&store, &args, json).await,
         Command::Submit(args) => submit::submit(&args, json).await,
-        Command::Things { command } => things::things(&store, &command, json).await,
+        Command::Data { command } => data::data(&store, &command, json).await,
         Command::Cite(args) => cite::cite(&args, json).await,
         Command::Visibility(args) => visibility::visibility(&args, json).await,
         Command::Admin { command } => admin::admin(&store, &command, json).await,

@@ -13,14 +13,15 @@ mod chart;
 mod choices;
 mod citation;
 mod contract;
+mod deletion;
 mod environment;
 mod estimate;
-mod farewell;
 mod heatmap;
 mod invitation;
 mod notice;
 mod object;
 mod outcome;
+mod owned;
 mod owner;
 mod page;
 mod people;
@@ -31,7 +32,6 @@ mod selecting;
 mod stability;
 mod submission;
 mod suite;
-mod things;
 mod timing;
 mod truth;
 mod unranked;
@@ -54,19 +54,20 @@ pub use chart::{ChartKind, ChartRequest};
 pub use choices::{Choices, NewAddress, NewChoices, OpenedLink};
 pub use citation::Citation;
 pub use contract::{ContractClass, Delivered, Order};
+pub use deletion::{DeleteAccount, DeletionPreview, OwnedCounts};
 pub use environment::Environment;
 pub use estimate::{AlgorithmSeconds, Estimate};
-pub use farewell::{Farewell, Leaving, LeavingCounts};
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
 pub use invitation::{Acceptance, InvitationInfo, InvitationRequest, InvitationState, NewInvitation};
 pub use notice::NoticeInfo;
 pub use object::ObjectInfo;
 pub use outcome::{OutcomeInfo, OutcomeName};
+pub use owned::{OwnedItem, OwnedItems};
 pub use owner::Owner;
 pub use page::{BadPage, Cursor, Page, Part};
 pub use people::{
-    AccountInfo, AuditEntry, Credentials, Identity, NewPassword, NewRole, NewToken, Role, Scope, SigningKey, TokenInfo,
-    TokenRequest, Wish,
+    AccountInfo, AuditEntry, Credentials, DeveloperRequest, Identity, NewPassword, NewRole, NewToken, Role, Scope,
+    SigningKey, TokenInfo, TokenRequest,
 };
 pub use plugin::{AlgorithmInfo, BuildInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport, Repro};
 pub use preview::{Beside, Preview};
@@ -78,7 +79,6 @@ pub use stability::{
 };
 pub use submission::{Action, Decision, Manifest, PluginInfo, PluginState};
 pub use suite::{BoardSuite, SuiteInfo, SuiteProgress};
-pub use things::{Thing, Things};
 pub use timing::{Draw, Reference, Timing, TimingCheck};
 pub use truth::{ContactRow, TruthRow};
 pub use unranked::{Controls, Unranked, UnrankedCause};

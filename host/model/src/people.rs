@@ -49,7 +49,7 @@ pub struct AccountInfo {
     /// What it may do.
     pub role: Role,
     /// Why its owner wants to be a developer, while that is undecided.
-    pub wish: Option<String>,
+    pub developer_request: Option<String>,
     /// The minisign key that its plugins may be signed with.
     pub signing_key: Option<String>,
     /// When it was made.
@@ -104,7 +104,7 @@ pub struct SigningKey {
 /// Why somebody wants to be a developer.
 #[derive(Clone, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Wish {
+pub struct DeveloperRequest {
     /// A sentence or two for the curators.
     pub reason: String,
 }

@@ -50,7 +50,7 @@ impl Engine {
             id: uuid::Uuid::new_v4().to_string(),
             name: name.to_owned(),
             role,
-            wish: None,
+            developer_request: None,
             signing_key: None,
             created_us: now_us(),
         };
@@ -201,12 +201,12 @@ impl Engine {
 
     /// Asks the curators to be made a developer.
     #[boxed]
-    pub async fn wish_to_develop(&self, account: &AccountInfo, reason: &str) -> Result<()> {
+    pub async fn request_developer_role(&self, account: &AccountInfo, reason: &str) -> Result<()> {
         let reason = said(reason, "say in a sentence or two what you want to submit")?;
         if account.role != Role::User {
             return Err(EngineError::Busy("This account may submit plugins already.".into()));
         }
-        self.inner.store.set_wish(&account.id, &reason).await?;
+        self.inner.store.set_developer_request(&account.id, &reason).await?;
         self.inner.store.note(&account.name, "asked to develop", &account.owner(), &reason).await
     }
 

@@ -24,8 +24,8 @@ use crate::model::{
 use crate::notices::notice;
 use crate::plugins::sql::THE_SERVICE;
 use crate::requests::Made;
-use crate::runs::Asking;
 use crate::runs::BACKGROUND;
+use crate::runs::RunContext;
 use crate::runs::log::plain_event;
 use crate::store::now_us;
 use crate::{EngineError, Result};
@@ -153,13 +153,13 @@ impl Engine {
                 if inner.campaign_row(id).await?.cancelled_us.is_some() {
                     break;
                 }
-                let asking = Asking {
+                let asking = RunContext {
                     owner: due.owner(),
                     priority: BACKGROUND,
                     suite: Some(inner.suite.sha256.as_str()).filter(|_| due.of_suite),
                     campaign: Some(id),
                     rerun_of: due.repeats.as_ref().map(|run| run.id.as_str()),
-                    ..Asking::default()
+                    ..RunContext::default()
                 };
                 match self.enqueue(due.spec.clone(), asking).await {
                     Err(e) if due.can_be_left_out(&e) => {
@@ -249,7 +249,7 @@ impl Inner {
 
     async fn end_waiting_of(&self, id: &str) -> Result<()> {
         for run in self.store.end_waiting_of_campaign(id).await? {
-            self.bell.tell(&self.store, &run, plain_event(State::Cancelled, 0)).await?;
+            self.run_events.tell(&self.store, &run, plain_event(State::Cancelled, 0)).await?;
         }
         Ok(())
     }

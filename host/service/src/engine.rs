@@ -28,7 +28,7 @@ use crate::model::{
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;
 use crate::results::Format;
-use crate::runs::log::Bell;
+use crate::runs::log::RunEvents;
 use crate::runs::{dispatcher, estimate, spec};
 use crate::store::Store;
 use crate::suite::Suite;
@@ -52,7 +52,7 @@ pub struct Inner {
     pub objects: Objects,
     pub registry: Registry,
     pub machine: Machine,
-    pub bell: Bell,
+    pub run_events: RunEvents,
     /// What public plugins are measured on.
     pub suite: Suite,
     /// Held while it is found out what of the suite is missing, until that is in the queue.
@@ -115,7 +115,7 @@ impl Engine {
         let inner = Arc::new(Inner {
             objects: Objects::new(store.clone(), blobs.clone(), config.stock_dir.clone()),
             machine: Machine::observe()?.noted(config.machine_note.as_deref()),
-            bell: Bell::new(),
+            run_events: RunEvents::new(),
             suite,
             planning: tokio::sync::Mutex::default(),
             publishing: tokio::sync::Mutex::default(),

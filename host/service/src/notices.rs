@@ -6,7 +6,7 @@ use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::mail::one_line;
 use crate::model::{AccountInfo, Cursor, NoticeInfo, Page, Part};
-use crate::notices::sql::Telling;
+use crate::notices::sql::NewNotice;
 use crate::store::now_us;
 use crate::{EngineError, Result};
 
@@ -22,15 +22,15 @@ impl Inner {
     /// Only a fault of the database; whoever tells of something that is done already logs it and goes on.
     #[boxed]
     pub async fn notify(&self, account: &str, notice: &NoticeInfo) -> Result<()> {
-        if self.store.add_notice(self.telling(account, notice)).await? {
+        if self.store.add_notice(self.new_notice(account, notice)).await? {
             self.post_soon();
         }
         Ok(())
     }
 
     /// How an account is told something in the transaction of what it is told of; `post_soon` when that is through.
-    pub fn telling<'a>(&self, account: &'a str, notice: &'a NoticeInfo) -> Telling<'a> {
-        Telling { account, notice, most: MOST, mailing: self.config.mail.is_some() }
+    pub fn new_notice<'a>(&self, account: &'a str, notice: &'a NoticeInfo) -> NewNotice<'a> {
+        NewNotice { account, notice, most: MOST, mailing: self.config.mail.is_some() }
     }
 
     /// Somebody was told something: there may be a mail to bring.

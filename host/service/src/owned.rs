@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use crate::boxed;
 use crate::engine::{Engine, Inner};
-use crate::model::{Owner, State, Things};
+use crate::model::{OwnedItems, Owner, State};
 use crate::owned::sql::Belongings;
 use crate::store::now_us;
 use crate::{EngineError, Result};
@@ -18,56 +18,56 @@ const LOOK: Duration = Duration::from_secs(3600);
 const DAY_US: i64 = 24 * 3600 * 1_000_000;
 
 impl Engine {
-    /// Everything that this owner has, which is what `remove_things` takes away.
+    /// Everything that this owner has, which is what `delete_all` takes away.
     #[boxed]
-    pub async fn things(&self, owner: &str) -> Result<Things> {
+    pub async fn owned_items(&self, owner: &str) -> Result<OwnedItems> {
         let all = self.inner.store.belongings(owner, None).await?;
         self.inner.told(owner, all).await
     }
 
     /// What goes with one of the owner's runs.
     #[boxed]
-    pub async fn things_of_run(&self, id: &str, owner: &str) -> Result<Things> {
+    pub async fn deletion_preview_of_run(&self, id: &str, owner: &str) -> Result<OwnedItems> {
         let run = self.inner.own_run(id, owner).await?;
         self.inner.told(owner, run).await
     }
 
     /// What goes with one of the owner's objects: it, and their runs and advice with it.
     #[boxed]
-    pub async fn things_of_object(&self, id: &str, owner: &str) -> Result<Things> {
+    pub async fn deletion_preview_of_object(&self, id: &str, owner: &str) -> Result<OwnedItems> {
         let object = self.inner.own_object(id, owner).await?;
         self.inner.told(owner, object).await
     }
 
     /// Takes away everything that this owner has, and tells what it was. Plugins stay: results belong to them.
     #[boxed]
-    pub async fn remove_things(&self, owner: &str) -> Result<Things> {
+    pub async fn delete_all(&self, owner: &str) -> Result<OwnedItems> {
         let all = self.inner.store.belongings(owner, None).await?;
         self.remove(owner, all).await
     }
 
     /// Takes away a run of this owner.
     #[boxed]
-    pub async fn remove_run(&self, id: &str, owner: &str) -> Result<Things> {
+    pub async fn remove_run(&self, id: &str, owner: &str) -> Result<OwnedItems> {
         let run = self.inner.own_run(id, owner).await?;
         self.remove(owner, run).await
     }
 
     /// Takes away an object of this owner, and their runs and advice with it.
     #[boxed]
-    pub async fn remove_object(&self, id: &str, owner: &str) -> Result<Things> {
+    pub async fn remove_object(&self, id: &str, owner: &str) -> Result<OwnedItems> {
         let object = self.inner.own_object(id, owner).await?;
         self.remove(owner, object).await
     }
 
     /// A guest's things stay as long again from now on.
     #[boxed]
-    pub async fn keep_longer(&self, owner: &str) -> Result<Things> {
+    pub async fn keep_longer(&self, owner: &str) -> Result<OwnedItems> {
         self.inner.store.keep_longer(owner).await?;
-        self.things(owner).await
+        self.owned_items(owner).await
     }
 
-    async fn remove(&self, owner: &str, what: Belongings) -> Result<Things> {
+    async fn remove(&self, owner: &str, what: Belongings) -> Result<OwnedItems> {
         self.end_all(owner, &what).await?;
         let told = self.inner.told(owner, what.clone()).await?;
         self.inner.take_away(&what).await?;
@@ -117,7 +117,7 @@ impl Engine {
                 }
             };
             if over {
-                self.remove_things(&owner).await?;
+                self.delete_all(&owner).await?;
                 swept += 1;
             }
         }
@@ -143,10 +143,16 @@ impl Inner {
         self.store.belongings(owner, Some(id)).await
     }
 
-    async fn told(&self, owner: &str, what: Belongings) -> Result<Things> {
+    async fn told(&self, owner: &str, what: Belongings) -> Result<OwnedItems> {
         let bytes = self.store.unused_without(&what).await?.iter().map(|file| file.bytes).sum();
         let kept_until_us = self.kept_until(owner).await?;
-        Ok(Things { runs: what.runs, objects: what.objects, advice: what.advice.len() as u32, bytes, kept_until_us })
+        Ok(OwnedItems {
+            runs: what.runs,
+            objects: what.objects,
+            advice: what.advice.len() as u32,
+            bytes,
+            kept_until_us,
+        })
     }
 
     /// When the things of this owner go by themselves: only guests', and only if they have any. All of them expire together,

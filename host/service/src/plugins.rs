@@ -255,8 +255,8 @@ impl Engine {
         // A check goes on while its end is asked for.
         let from = if action == Action::EndCheck { step.from } else { &[row.state] };
         for from in from {
-            let telling = notice.as_ref().map(|notice| self.inner.telling(&row.account, notice));
-            moved = moved || store.move_submission(id, *from, step.to, &reason, telling, Some(note)).await?;
+            let new_notice = notice.as_ref().map(|notice| self.inner.new_notice(&row.account, notice));
+            moved = moved || store.move_submission(id, *from, step.to, &reason, new_notice, Some(note)).await?;
         }
         if !moved {
             return Err(EngineError::Busy("Somebody else has just decided about this plugin; look again.".into()));

@@ -34,7 +34,7 @@ const CANCEL_PATIENCE: Duration = Duration::from_secs(3);
 
 /// Who asks for a run, and what for.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Asking<'a> {
+pub(crate) struct RunContext<'a> {
     /// Who owns it; the service when nobody does.
     pub owner: Option<&'a str>,
     /// Network of the request.
@@ -57,7 +57,7 @@ impl Engine {
     /// Checks the spec and queues the run.
     #[boxed]
     pub async fn submit(&self, spec: RunSpec, owner: Option<&str>) -> Result<RunInfo> {
-        let asking = Asking { owner, priority: INTERACTIVE, ..Asking::default() };
+        let asking = RunContext { owner, priority: INTERACTIVE, ..RunContext::default() };
         self.queue(spec, asking).await.map(|(run, _)| run)
     }
 
@@ -65,17 +65,17 @@ impl Engine {
     #[boxed]
     pub async fn submit_for(&self, spec: RunSpec, visitor: &Visitor, key: Option<&str>) -> Result<(RunInfo, bool)> {
         let (owner, address) = (Some(visitor.owner.as_str()), visitor.address.as_deref());
-        self.queue(spec, Asking { owner, address, priority: INTERACTIVE, key, ..Asking::default() }).await
+        self.queue(spec, RunContext { owner, address, priority: INTERACTIVE, key, ..RunContext::default() }).await
     }
 
-    pub(crate) async fn queue(&self, spec: RunSpec, asking: Asking<'_>) -> Result<(RunInfo, bool)> {
+    pub(crate) async fn queue(&self, spec: RunSpec, asking: RunContext<'_>) -> Result<(RunInfo, bool)> {
         let (id, new) = self.enqueue(spec, asking).await?;
         self.run(&id, asking.owner).await.map(|run| (run, new))
     }
 
     /// The same, for who needs its id alone.
-    pub(crate) async fn enqueue(&self, spec: RunSpec, asking: Asking<'_>) -> Result<(String, bool)> {
-        let Asking { owner, address, priority, featured, key, suite, campaign, rerun_of } = asking;
+    pub(crate) async fn enqueue(&self, spec: RunSpec, asking: RunContext<'_>) -> Result<(String, bool)> {
+        let RunContext { owner, address, priority, featured, key, suite, campaign, rerun_of } = asking;
         let checked = self.check(&spec, owner).await?;
         let asked_before = match (owner, key) {
             (Some(owner), Some(key)) => self.inner.store.run_of_request(owner, key).await?.is_some(),
@@ -122,7 +122,7 @@ impl Engine {
         if !self.inner.store.add_run(&row, &fresh_stages(&row.spec.algorithms), key).await? {
             return self.asked_before(&row, key.unwrap_or_default()).await.map(|run| (run, false));
         }
-        self.inner.bell.queue_moved();
+        self.inner.run_events.queue_moved();
         self.inner.wake.notify_one();
         Ok((row.id, true))
     }
@@ -167,7 +167,7 @@ impl Engine {
         if !self.inner.store.queue_again(&row, &fresh_stages(&row.spec.algorithms)).await? {
             return Err(nothing());
         }
-        self.inner.bell.queue_moved();
+        self.inner.run_events.queue_moved();
         self.inner.wake.notify_one();
         self.run(id, caller).await
     }
@@ -235,8 +235,8 @@ impl Engine {
         loop {
             let ended = row.after(State::Cancelled);
             if self.inner.store.end_run(id, State::Queued, ended, reason).await? {
-                self.inner.bell.tell(&self.inner.store, id, plain_event(ended, 0)).await?;
-                self.inner.bell.queue_moved();
+                self.inner.run_events.tell(&self.inner.store, id, plain_event(ended, 0)).await?;
+                self.inner.run_events.queue_moved();
                 break;
             }
             // Between the claim and the start there is a moment in which neither works; so it is tried until it does.

@@ -228,7 +228,7 @@ async fn a_run_ends_as_soon_as_the_database_can_record_it() {
         let ended = tokio::time::timeout(Duration::from_secs(60), common::finish(&engine, &run)).await;
         assert_eq!(ended.expect("it never ends").0.state, State::Done);
     }
-    engine.remove_things("guest").await.unwrap();
+    engine.delete_all("guest").await.unwrap();
     database.close().await;
     engine.shutdown().await;
 }

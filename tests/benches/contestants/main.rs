@@ -21,7 +21,7 @@ use ocb_service::{Engine, EngineConfig};
 use report::Row;
 
 /// What the command line says.
-struct Wish {
+struct Options {
     seconds: f64,
     count: u32,
     algorithms: Vec<String>,
@@ -39,7 +39,7 @@ const WORKLOADS: [(&str, f64, Option<f64>, Query); 5] = [
 
 #[tokio::main]
 async fn main() -> Result<(), Box<dyn Error>> {
-    let wish = wish()?;
+    let options = options()?;
     let folder = built()?.join("../contestants");
     fs::create_dir_all(&folder)?;
     let data = tempfile::tempdir()?;
@@ -54,9 +54,9 @@ async fn main() -> Result<(), Box<dyn Error>> {
     }
     let mut rows: Vec<Row> = Vec::new();
     let mut machine = String::new();
-    for object in &wish.objects {
+    for object in &options.objects {
         for workload in WORKLOADS {
-            let run = measure(&engine, &wish, object, workload).await?;
+            let run = measure(&engine, &options, object, workload).await?;
             if let Some(facts) = &run.environment {
                 machine = format!(
                     "{}, {} CPUs, clock {}, null round trip {:.0} ns",
@@ -76,25 +76,25 @@ async fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn wish() -> Result<Wish, Box<dyn Error>> {
-    let mut wish = Wish { seconds: 5.0, count: 1000, algorithms: Vec::new(), objects: Vec::new() };
+fn options() -> Result<Options, Box<dyn Error>> {
+    let mut options = Options { seconds: 5.0, count: 1000, algorithms: Vec::new(), objects: Vec::new() };
     let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
     while let Some(word) = words.next() {
         let mut value = || words.next().ok_or_else(|| format!("{word} needs a value"));
         match word.as_str() {
-            "--seconds" => wish.seconds = value()?.parse()?,
-            "--count" => wish.count = value()?.parse()?,
-            "--algorithm" => wish.algorithms.push(value()?),
-            _ => wish.objects.push(word),
+            "--seconds" => options.seconds = value()?.parse()?,
+            "--count" => options.count = value()?.parse()?,
+            "--algorithm" => options.algorithms.push(value()?),
+            _ => options.objects.push(word),
         }
     }
-    if wish.objects.is_empty() {
-        wish.objects.push("stock:torus-knot@20000".into());
+    if options.objects.is_empty() {
+        options.objects.push("stock:torus-knot@20000".into());
     }
-    if wish.algorithms.is_empty() {
-        wish.algorithms.push("all".into());
+    if options.algorithms.is_empty() {
+        options.algorithms.push("all".into());
     }
-    Ok(wish)
+    Ok(options)
 }
 
 /// Where runner and plugins lie: two folders above this program.
@@ -105,7 +105,7 @@ fn built() -> Result<PathBuf, Box<dyn Error>> {
 
 async fn measure(
     engine: &Engine,
-    wish: &Wish,
+    options: &Options,
     object: &str,
     (name, relative_distance, step, query): (&str, f64, Option<f64>, Query),
 ) -> Result<RunInfo, Box<dyn Error>> {
@@ -119,7 +119,9 @@ async fn measure(
     };
     let (method, relative_distance, step) = match given {
         Some(poses) => (engine.add_configurations(fs::read(poses)?).await?, 0.0, None),
-        None => (Method::Sphere { sampling: Sampling::Count { count: wish.count }, seed: 0 }, relative_distance, step),
+        None => {
+            (Method::Sphere { sampling: Sampling::Count { count: options.count }, seed: 0 }, relative_distance, step)
+        }
     };
     // Who does not answer this question is not asked it.
     let known = engine.algorithms(None);
@@ -136,9 +138,9 @@ async fn measure(
         relative_distance,
         step,
         ladder: false,
-        algorithms: wish.algorithms.iter().filter(|wanted| answers(wanted)).cloned().collect(),
+        algorithms: options.algorithms.iter().filter(|wanted| answers(wanted)).cloned().collect(),
         passes: 5,
-        budget_seconds: wish.seconds,
+        budget_seconds: options.seconds,
         seed: None,
         precision: None,
         at_most: None,

@@ -12,6 +12,7 @@ mod invitations;
 mod mails;
 mod notices;
 mod objects;
+mod owned;
 mod people;
 mod plugins;
 mod records;
@@ -20,7 +21,6 @@ mod selecting;
 mod service;
 mod stability;
 mod suite;
-mod things;
 
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
@@ -54,7 +54,7 @@ use crate::{App, events, layers, pages, upload};
         (name = "plugins", description = "What developers bring"),
         (name = "curation", description = "What curators decide"),
         (name = "advice", description = "How much of a model a question needs"),
-        (name = "things", description = "What one has made: how long it stays, and taking it away"),
+        (name = "data", description = "What one has made: how long it stays, and taking it away"),
         (name = "service", description = "The service itself"),
     )
 )]
@@ -71,18 +71,18 @@ fn api() -> OpenApiRouter<App> {
                 .layer(DefaultBodyLimit::max(upload::MAX_BODY_BYTES as usize))
                 .layer(middleware::from_fn(upload::refuse_gently)),
         )
-        .routes(routes!(objects::show_object, things::remove_object))
-        .routes(routes!(things::things_of_object))
+        .routes(routes!(objects::show_object, owned::remove_object))
+        .routes(routes!(owned::deletion_preview_of_object))
         .routes(routes!(objects::object_mesh))
         .routes(routes!(objects::change_object_visibility))
         .routes(routes!(algorithms::list_algorithms))
         .routes(routes!(runs::estimate_run))
         .routes(routes!(runs::list_runs, runs::start_run))
-        .routes(routes!(runs::show_run, things::remove_run))
-        .routes(routes!(things::things_of_run))
-        .routes(routes!(things::show_things, things::remove_things))
-        .routes(routes!(things::keep_longer))
-        .routes(routes!(things::take_along))
+        .routes(routes!(runs::show_run, owned::remove_run))
+        .routes(routes!(owned::deletion_preview_of_run))
+        .routes(routes!(owned::show_data, owned::delete_all))
+        .routes(routes!(owned::keep_longer))
+        .routes(routes!(owned::export_data))
         .routes(routes!(runs::cancel_run))
         .routes(routes!(runs::refine_run))
         .routes(routes!(runs::change_run_visibility))
@@ -109,7 +109,7 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(selecting::witnesses_arrow))
         .routes(routes!(runs::featured_run))
         .routes(routes!(account::show_account, account::make_account, account::delete_account))
-        .routes(routes!(account::show_leaving))
+        .routes(routes!(account::show_deletion_preview))
         .routes(routes!(account::log_in))
         .routes(routes!(account::log_out))
         .routes(routes!(account::log_out_everywhere))

@@ -17,7 +17,7 @@ fn an_account_is_made_and_deleted_and_its_name_is_given_to_nobody() {
     assert!(stderr.contains("runs: 0") && stderr.contains("Nothing was deleted; add --yes"), "{stderr}");
     let nothing = serde_json::json!({ "runs": 0, "objects": 0, "advice": 0, "plugins": 0 });
     let gone = desk.json(&["admin", "delete", "ADA", "--yes"]);
-    assert_eq!((&gone["goes"], &gone["stays"], &gone["hindrance"]), (&nothing, &nothing, &serde_json::Value::Null));
+    assert_eq!((&gone["goes"], &gone["stays"], &gone["blocked_by"]), (&nothing, &nothing, &serde_json::Value::Null));
     assert!(desk.refused(&["admin", "delete", "ada", "--yes"]).contains("There is no account"));
     let again = create("Ada", "user");
     assert!(!again.status.success() && String::from_utf8_lossy(&again.stderr).contains("taken"), "{again:?}");

@@ -6,7 +6,7 @@ use crate::accounts::NAME_OF_OPERATOR;
 use crate::audit::Note;
 use crate::boxed;
 use crate::engine::{Engine, Inner};
-use crate::model::{AccountInfo, Leaving, LeavingCounts, Role, State, Visibility};
+use crate::model::{AccountInfo, DeletionPreview, OwnedCounts, Role, State, Visibility};
 use crate::owned::sql::Belongings;
 use crate::plugins::registry::brought::forget_file;
 use crate::{EngineError, Result};
@@ -14,21 +14,21 @@ use crate::{EngineError, Result};
 impl Engine {
     /// What goes with an account and what stays, and what stands against deleting it; nothing happens.
     #[boxed]
-    pub async fn leaving(&self, account: &AccountInfo) -> Result<Leaving> {
+    pub async fn deletion_preview(&self, account: &AccountInfo) -> Result<DeletionPreview> {
         let (goes, stays) = self.inner.parted(account).await?;
-        self.inner.told_leaving(account, &goes, &stays).await
+        self.inner.preview_of(account, &goes, &stays).await
     }
 
     /// Deletes an account whose owner shows its password, and tells what has gone and what stays.
     #[boxed]
-    pub async fn delete_account(&self, account: &AccountInfo, password: &str) -> Result<Leaving> {
+    pub async fn delete_account(&self, account: &AccountInfo, password: &str) -> Result<DeletionPreview> {
         let account = self.account_with(&account.name, password).await?;
         self.delete(&account, &account.name).await
     }
 
     /// Deletes the account of this name for whoever has the data folder.
     #[boxed]
-    pub async fn delete_account_named(&self, name: &str) -> Result<Leaving> {
+    pub async fn delete_account_named(&self, name: &str) -> Result<DeletionPreview> {
         let account = self.account_named(name).await?;
         self.delete(&account, NAME_OF_OPERATOR).await
     }
@@ -41,23 +41,23 @@ impl Engine {
         self.inner.store.account(&id).await?.ok_or_else(missing)
     }
 
-    async fn delete(&self, account: &AccountInfo, actor: &str) -> Result<Leaving> {
+    async fn delete(&self, account: &AccountInfo, actor: &str) -> Result<DeletionPreview> {
         let (inner, owner) = (&self.inner, account.owner());
-        if let Some(hindrance) = inner.hindrance(account).await? {
-            return Err(EngineError::Busy(hindrance));
+        if let Some(blocked_by) = inner.blocked_by(account).await? {
+            return Err(EngineError::Busy(blocked_by));
         }
         let (goes, stays) = inner.parted(account).await?;
         self.end_all(&owner, &goes).await?;
         for plugin in &goes.plugins {
             inner.stop_current(Some(plugin), None);
         }
-        let told = inner.told_leaving(account, &goes, &stays).await?;
+        let told = inner.preview_of(account, &goes, &stays).await?;
         // Nobody stores a file meanwhile that is about to go.
         let alone = inner.blobs.removing().await;
         let note = Note { actor, action: "account deleted", subject: &owner, detail: "" };
         let Some(unused) = inner.store.delete_account(account, &goes, &stays, note).await? else {
             let gone = || "This account has just been deleted.".to_owned();
-            return Err(EngineError::Busy(inner.hindrance(account).await?.unwrap_or_else(gone)));
+            return Err(EngineError::Busy(inner.blocked_by(account).await?.unwrap_or_else(gone)));
         };
         for file in unused {
             // The account is gone, whatever becomes of a file.
@@ -97,14 +97,19 @@ impl Inner {
         Ok((goes, stays))
     }
 
-    async fn told_leaving(&self, account: &AccountInfo, goes: &Belongings, stays: &Belongings) -> Result<Leaving> {
+    async fn preview_of(
+        &self,
+        account: &AccountInfo,
+        goes: &Belongings,
+        stays: &Belongings,
+    ) -> Result<DeletionPreview> {
         let bytes = self.store.unused_without(goes).await?.iter().map(|file| file.bytes).sum();
-        let hindrance = self.hindrance(account).await?;
-        Ok(Leaving { goes: counted(goes), stays: counted(stays), bytes, hindrance })
+        let blocked_by = self.blocked_by(account).await?;
+        Ok(DeletionPreview { goes: counted(goes), stays: counted(stays), bytes, blocked_by })
     }
 
     /// Who decides for others goes only when somebody else can.
-    async fn hindrance(&self, account: &AccountInfo) -> Result<Option<String>> {
+    async fn blocked_by(&self, account: &AccountInfo) -> Result<Option<String>> {
         let what = match account.role {
             Role::User | Role::Developer => return Ok(None),
             Role::Curator => "plugins",
@@ -121,8 +126,8 @@ impl Inner {
     }
 }
 
-fn counted(what: &Belongings) -> LeavingCounts {
-    LeavingCounts {
+fn counted(what: &Belongings) -> OwnedCounts {
+    OwnedCounts {
         runs: what.runs.len() as u32,
         objects: what.objects.len() as u32,
         advice: what.advice.len() as u32,

@@ -9,9 +9,16 @@ use crate::{EngineError, Result};
 /// Columns of an account: id, name, role, wish, signing key, when it was made.
 type AccountRow = (String, String, String, Option<String>, Option<String>, i64);
 
-fn account((id, name, role, wish, signing_key, created_us): AccountRow) -> Result<AccountInfo> {
+fn account((id, name, role, developer_request, signing_key, created_us): AccountRow) -> Result<AccountInfo> {
     let unknown = || EngineError::Fault(format!("The database holds an account of the unknown role {role:?}."));
-    Ok(AccountInfo { id, name, role: Role::named(&role).ok_or_else(unknown)?, wish, signing_key, created_us })
+    Ok(AccountInfo {
+        id,
+        name,
+        role: Role::named(&role).ok_or_else(unknown)?,
+        developer_request,
+        signing_key,
+        created_us,
+    })
 }
 
 impl Store {
@@ -72,7 +79,7 @@ impl Store {
         Ok(())
     }
 
-    /// Gives the account a role, settles its wish, and notes it; false when there is no such account.
+    /// Gives the account a role, settles its request for the developer role, and notes it; false when there is no such account.
     pub async fn set_role(&self, id: &str, role: Role, note: Note<'_>) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
         let done = sqlx::query("UPDATE accounts SET role = $1, wish = NULL WHERE id = $2 AND deleted_us IS NULL")
@@ -102,9 +109,9 @@ impl Store {
     }
 
     /// Notes why the account's owner wants to be a developer.
-    pub async fn set_wish(&self, id: &str, wish: &str) -> Result<()> {
+    pub async fn set_developer_request(&self, id: &str, reason: &str) -> Result<()> {
         sqlx::query("UPDATE accounts SET wish = $1 WHERE id = $2 AND deleted_us IS NULL")
-            .bind(wish)
+            .bind(reason)
             .bind(id)
             .execute(&self.pool)
             .await?;

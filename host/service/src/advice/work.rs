@@ -43,7 +43,7 @@ impl Default for Advices {
 pub struct Job {
     stop: AtomicBool,
     /// Rung when it is stopped, for one that waits.
-    bell: Notify,
+    changed: Notify,
     info: Mutex<AdviceInfo>,
     /// Whose it is: an account, the guests of an address.
     turn: String,
@@ -56,7 +56,7 @@ impl Advices {
     /// A request that waits from now on.
     pub fn add(&self, info: AdviceInfo, turn: String) -> Arc<Job> {
         let id = info.id.clone();
-        let job = Arc::new(Job { stop: AtomicBool::new(false), bell: Notify::new(), info: Mutex::new(info), turn });
+        let job = Arc::new(Job { stop: AtomicBool::new(false), changed: Notify::new(), info: Mutex::new(info), turn });
         locked(&self.jobs).insert(id, job.clone());
         job
     }
@@ -92,12 +92,12 @@ impl Job {
     /// Ends it soon.
     pub fn stop(&self) {
         self.stop.store(true, Ordering::Relaxed);
-        self.bell.notify_one();
+        self.changed.notify_one();
     }
 
     /// Returns when it was stopped.
     pub async fn ended(&self) {
-        self.bell.notified().await;
+        self.changed.notified().await;
     }
 
     /// `None` when it was stopped.

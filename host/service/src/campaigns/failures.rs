@@ -46,8 +46,8 @@ impl Inner {
         let told =
             "It is measured no more on this hardware class until a curator brings it back; its results on others stay.";
         let notice = to_author(plugin, &format!("is excluded on the hardware class {class}"), told, report);
-        let telling = self.telling(&plugin.account, &notice);
-        if !self.store.exclude_submission(id, class, failed_us, Some(telling), note).await? {
+        let new_notice = self.new_notice(&plugin.account, &notice);
+        if !self.store.exclude_submission(id, class, failed_us, Some(new_notice), note).await? {
             return Ok(());
         }
         self.post_soon();
@@ -71,7 +71,7 @@ impl Inner {
             }
             let told = "What it was to measure is not public any more.";
             if self.store.end_run(&run.id, State::Queued, State::Cancelled, Some(told)).await? {
-                self.bell.tell(&self.store, &run.id, plain_event(State::Cancelled, 0)).await?;
+                self.run_events.tell(&self.store, &run.id, plain_event(State::Cancelled, 0)).await?;
                 if let Some(campaign) = &run.campaign {
                     self.end_campaign_when_through(campaign).await?;
                 }

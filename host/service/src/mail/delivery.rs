@@ -1,5 +1,5 @@
 //! Bringing one mail to the server. It counts from the server's word that it has the mail on; what happens behind that word, such
-//! as a farewell that is never answered, sends nothing twice.
+//! as a QUIT that is never answered, sends nothing twice.
 
 use std::time::Duration;
 
@@ -11,8 +11,8 @@ use lettre::transport::smtp::response::Code;
 
 use super::{MailServer, Security, one_line};
 
-/// For the farewell, which is polite and no more.
-const FAREWELL: Duration = Duration::from_secs(2);
+/// For QUIT, whose answer changes nothing.
+const QUIT_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// Why the server does not have the mail.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -34,7 +34,7 @@ pub async fn deliver(server: &MailServer, mail: &Message) -> Result<(), Refused>
             return Err(Refused { reason, for_good: false });
         }
     };
-    tokio::spawn(async move { tokio::time::timeout(FAREWELL, connection.quit()).await.is_ok() });
+    tokio::spawn(async move { tokio::time::timeout(QUIT_TIMEOUT, connection.quit()).await.is_ok() });
     Ok(())
 }
 

@@ -15,7 +15,7 @@ fn notice((id, subject, text, link, created_us, read_us): NoticeRow) -> NoticeIn
 
 /// A notice to come. With what it tells of in one transaction, a crash leaves both or neither.
 #[derive(Clone, Copy, Debug)]
-pub struct Telling<'a> {
+pub struct NewNotice<'a> {
     /// Id of the account.
     pub account: &'a str,
     /// What it is told.
@@ -27,8 +27,8 @@ pub struct Telling<'a> {
 }
 
 /// Adds a notice; false when there is no such account.
-pub(crate) async fn tell(connection: &mut AnyConnection, telling: Telling<'_>) -> Result<bool> {
-    let Telling { account, notice, most, mailing } = telling;
+pub(crate) async fn tell(connection: &mut AnyConnection, new_notice: NewNotice<'_>) -> Result<bool> {
+    let NewNotice { account, notice, most, mailing } = new_notice;
     let added = sqlx::query(
         "INSERT INTO notices (id, account, subject, text, link, created_us) \
          SELECT $1, id, $2, $3, $4, $5 FROM accounts WHERE id = $6 AND deleted_us IS NULL",
@@ -67,9 +67,9 @@ pub(crate) async fn tell(connection: &mut AnyConnection, telling: Telling<'_>) -
 
 impl Store {
     /// Adds a notice; false when there is no such account.
-    pub async fn add_notice(&self, telling: Telling<'_>) -> Result<bool> {
+    pub async fn add_notice(&self, new_notice: NewNotice<'_>) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
-        let told = tell(&mut transaction, telling).await?;
+        let told = tell(&mut transaction, new_notice).await?;
         transaction.commit().await?;
         Ok(told)
     }

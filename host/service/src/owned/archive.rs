@@ -39,7 +39,7 @@ impl Engine {
     async fn packed(&self, owner: &str, contents: Contents) -> Result<File> {
         let mut packer = Packer::new(&self.inner.config.data)?;
         let all = self.inner.store.belongings(owner, None).await?;
-        packer.json("things.json", &self.things(owner).await?)?;
+        packer.json("items.json", &self.owned_items(owner).await?)?;
         for object in &all.objects {
             let folder = format!("objects/{}", object.id);
             packer.json(&format!("{folder}/object.json"), &self.object(&object.id, Some(owner)).await?)?;

@@ -4,16 +4,16 @@ use sqlx::AnyConnection;
 
 use crate::Result;
 use crate::advice::sql::StoredPaper;
-use crate::model::Thing;
+use crate::model::OwnedItem;
 use crate::store::{Store, from_json, now_us};
 
 /// Runs, objects, advice and plugins of one owner.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Belongings {
     /// Newest first.
-    pub runs: Vec<Thing>,
+    pub runs: Vec<OwnedItem>,
     /// Newest first.
-    pub objects: Vec<Thing>,
+    pub objects: Vec<OwnedItem>,
     /// Their ids.
     pub advice: Vec<String>,
     /// Theirs, too; only an account that is deleted takes plugins along.
@@ -54,9 +54,10 @@ impl Store {
             .bind(&named)
             .fetch_all(&self.pool)
             .await?;
-        let run = |(id, a, b): (String, String, String)| Thing { id, name: format!("{a} x {b}") };
-        let object =
-            |(id, info): (String, String)| Ok(Thing { id, name: from_json::<crate::model::ObjectInfo>(&info)?.name });
+        let run = |(id, a, b): (String, String, String)| OwnedItem { id, name: format!("{a} x {b}") };
+        let object = |(id, info): (String, String)| {
+            Ok(OwnedItem { id, name: from_json::<crate::model::ObjectInfo>(&info)?.name })
+        };
         Ok(Belongings {
             runs: runs.into_iter().map(run).collect(),
             objects: objects.into_iter().map(object).collect::<Result<_>>()?,
@@ -108,7 +109,7 @@ pub(crate) async fn take(connection: &mut AnyConnection, what: &Belongings) -> R
     // Every statement writes, also the first: a transaction that has read cannot write any more on SQLite when somebody
     // else has written since.
     let mut files = Vec::new();
-    for Thing { id, .. } in &what.runs {
+    for OwnedItem { id, .. } in &what.runs {
         for text in ["DELETE FROM run_events WHERE run_id = $1", "DELETE FROM run_stages WHERE run_id = $1"] {
             sqlx::query(text).bind(id).execute(&mut *connection).await?;
         }
@@ -116,7 +117,7 @@ pub(crate) async fn take(connection: &mut AnyConnection, what: &Belongings) -> R
         files.extend(column(&mut *connection, records, id).await?);
         files.extend(column(&mut *connection, "DELETE FROM runs WHERE id = $1 RETURNING set_blob", id).await?);
     }
-    for Thing { id, .. } in &what.objects {
+    for OwnedItem { id, .. } in &what.objects {
         leave_hidden(&mut *connection, id).await?;
         files.extend(column(&mut *connection, "DELETE FROM objects WHERE id = $1 RETURNING blob", id).await?);
     }

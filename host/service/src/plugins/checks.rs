@@ -109,8 +109,8 @@ async fn end(inner: &Inner, row: &SubmissionRow, state: PluginState, reason: &st
     let note = Note { actor: THE_SERVICE, action, subject: &row.id, detail: reason };
     let notice = of_check(row, state, reason);
     for from in [PluginState::Uploaded, PluginState::Vetted] {
-        let telling = inner.telling(&row.account, &notice);
-        if inner.store.move_submission(&row.id, from, state, reason, Some(telling), Some(note)).await? {
+        let new_notice = inner.new_notice(&row.account, &notice);
+        if inner.store.move_submission(&row.id, from, state, reason, Some(new_notice), Some(note)).await? {
             inner.post_soon();
         }
     }

@@ -6,7 +6,7 @@ use sqlx::{Any, Executor, Row};
 use crate::audit::Note;
 use crate::audit::{append, notes_on};
 use crate::model::{AlgorithmInfo, AuditEntry, CheckLine, Manifest, PluginState};
-use crate::notices::sql::Telling;
+use crate::notices::sql::NewNotice;
 use crate::notices::sql::tell;
 use crate::store::{Store, from_json, now_us, to_json};
 use crate::{EngineError, Result};
@@ -141,7 +141,7 @@ impl Store {
         from: PluginState,
         to: PluginState,
         reason: &str,
-        telling: Option<Telling<'_>>,
+        new_notice: Option<NewNotice<'_>>,
         note: Option<Note<'_>>,
     ) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
@@ -157,8 +157,8 @@ impl Store {
         .execute(&mut *transaction)
         .await?;
         let moved = done.rows_affected() == 1;
-        if let Some(telling) = telling.filter(|_| moved) {
-            tell(&mut transaction, telling).await?;
+        if let Some(new_notice) = new_notice.filter(|_| moved) {
+            tell(&mut transaction, new_notice).await?;
         }
         if let Some(note) = note.filter(|_| moved) {
             append(&mut transaction, note).await?;
@@ -174,7 +174,7 @@ impl Store {
         id: &str,
         class: &str,
         failed_us: i64,
-        telling: Option<Telling<'_>>,
+        new_notice: Option<NewNotice<'_>>,
         note: Note<'_>,
     ) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
@@ -190,8 +190,8 @@ impl Store {
         .execute(&mut *transaction)
         .await?;
         let moved = done.rows_affected() == 1;
-        if let Some(telling) = telling.filter(|_| moved) {
-            tell(&mut transaction, telling).await?;
+        if let Some(new_notice) = new_notice.filter(|_| moved) {
+            tell(&mut transaction, new_notice).await?;
         }
         if moved {
             append(&mut transaction, note).await?;

@@ -49,7 +49,7 @@ pub enum End {
 pub fn run(inner: &Arc<Inner>, id: &str, stop: &Stop, handle: &Handle) -> Result<End> {
     let row =
         handle.block_on(inner.store.run(id))?.ok_or_else(|| EngineError::Fault(format!("The run {id} is gone.")))?;
-    let log = RunLog::begin(id, &row.spec.algorithms, inner.store.clone(), inner.bell.clone(), handle.clone())?;
+    let log = RunLog::begin(id, &row.spec.algorithms, inner.store.clone(), inner.run_events.clone(), handle.clone())?;
     let mut bench = Bench { inner, row, stop, log };
     let ended = bench.stages().map_err(EngineError::for_visitors);
     match &ended {

@@ -27,7 +27,7 @@ const LONGEST_BACK_OFF: Duration = Duration::from_secs(60);
 pub async fn recover(inner: &Inner) -> Result<()> {
     let (queued, failed) = inner.store.recover(MAX_ATTEMPTS).await?;
     for run in &failed {
-        inner.bell.tell(&inner.store, run, plain_event(State::Failed, 0)).await?;
+        inner.run_events.tell(&inner.store, run, plain_event(State::Failed, 0)).await?;
     }
     checks::recover(inner).await?;
     if !queued.is_empty() {
@@ -112,14 +112,14 @@ async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
     if inner.closing() {
         stop.stop();
     }
-    inner.bell.queue_moved();
+    inner.run_events.queue_moved();
     let ended = run_in_time(inner, id, &stop).await;
     inner.set_current(None);
     let (state, message) = match ended {
         Ok(End::Done) => (State::Done, None),
         Ok(End::Stopped) if inner.closing() => {
             inner.store.put_back(id).await?;
-            return inner.bell.tell(&inner.store, id, plain_event(State::Queued, 0)).await;
+            return inner.run_events.tell(&inner.store, id, plain_event(State::Queued, 0)).await;
         }
         Ok(End::Stopped) => (State::Cancelled, stop.reason()),
         Err(e) => {
@@ -138,7 +138,7 @@ async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
     if let Err(e) = inner.run_of_campaign_ended(id).await {
         tracing::error!("run {id}: its campaign could not take note of its end: {e}");
     }
-    inner.bell.queue_moved();
+    inner.run_events.queue_moved();
     Ok(())
 }
 
@@ -174,7 +174,7 @@ async fn note_end(inner: &Inner, id: &str, state: State, message: Option<&str>) 
     };
     let state = row.after(state);
     inner.store.end_run(id, State::Running, state, message).await?;
-    inner.bell.tell(&inner.store, id, plain_event(state, 0)).await
+    inner.run_events.tell(&inner.store, id, plain_event(state, 0)).await
 }
 
 fn too_long(longest: Duration) -> String {

@@ -6,8 +6,8 @@ use ocb_core::query::{Query, Semantics};
 use crate::Result;
 use crate::engine::Engine;
 use crate::model::RunSpec;
-use crate::runs::Asking;
 use crate::runs::BACKGROUND;
+use crate::runs::RunContext;
 
 /// Configurations of the quick run.
 const CONFIGURATIONS: u32 = 2000;
@@ -45,7 +45,7 @@ impl Engine {
             precision: None,
             at_most: None,
         };
-        self.queue(spec, Asking { priority: BACKGROUND, featured: true, ..Asking::default() }).await?;
+        self.queue(spec, RunContext { priority: BACKGROUND, featured: true, ..RunContext::default() }).await?;
         Ok(())
     }
 }

@@ -13,7 +13,7 @@ use crate::model::{RunEvent, State};
 use crate::runs::log::{QUEUE, plain_event};
 use crate::store::now_us;
 
-/// The database is looked at this often even if no bell was heard: a missed ring must not end in silence.
+/// The database is looked at this often even if no change was announced: a missed one must not end in silence.
 const LOOK_AGAIN: Duration = Duration::from_secs(5);
 /// The event of a run's end follows its state this closely.
 const LAST_WORD: Duration = Duration::from_millis(500);
@@ -33,14 +33,14 @@ impl Engine {
         after_seq: i64,
     ) -> Result<impl Stream<Item = Result<RunEvent>> + Send + 'static + use<>> {
         // Listen first, read then: what happens in between is heard.
-        let bell = self.inner.bell.listen();
+        let changes = self.inner.run_events.listen();
         self.inner.run_row(id).await?;
         let follower = Follower {
             engine: self.clone(),
             id: id.to_owned(),
             after: after_seq,
             read: VecDeque::new(),
-            bell,
+            changes,
             place: None,
             ended: false,
         };
@@ -56,7 +56,7 @@ struct Follower {
     id: String,
     after: i64,
     read: VecDeque<RunEvent>,
-    bell: Receiver<std::sync::Arc<str>>,
+    changes: Receiver<std::sync::Arc<str>>,
     /// The runs ahead of a waiting one that were told last. Places are computed when somebody looks, and no event is kept.
     place: Option<u32>,
     ended: bool,
@@ -111,7 +111,7 @@ impl Follower {
             }
         }
         let heard = async {
-            while let Ok(run) = self.bell.recv().await {
+            while let Ok(run) = self.changes.recv().await {
                 if *run == *self.id || (*run == *QUEUE && self.place.is_some()) {
                     return;
                 }

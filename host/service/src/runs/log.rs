@@ -18,11 +18,11 @@ pub const QUEUE: &str = "";
 
 /// Wakes those who follow runs: the id of a run that has a new event.
 #[derive(Clone)]
-pub struct Bell {
+pub struct RunEvents {
     sender: broadcast::Sender<Arc<str>>,
 }
 
-impl Bell {
+impl RunEvents {
     /// With room for a burst; whoever misses some rings reads the events from the database anyway.
     pub fn new() -> Self {
         Self { sender: broadcast::Sender::new(256) }
@@ -75,7 +75,7 @@ pub fn fresh_stages(algorithms: &[String]) -> Vec<Stage> {
 pub struct RunLog {
     run: String,
     store: Store,
-    bell: Bell,
+    run_events: RunEvents,
     handle: Handle,
     stages: Vec<Stage>,
     meters: Vec<Meter>,
@@ -83,14 +83,20 @@ pub struct RunLog {
 
 impl RunLog {
     /// All lanes begin anew: what an earlier attempt left is found again in the store, quickly.
-    pub fn begin(run: &str, algorithms: &[String], store: Store, bell: Bell, handle: Handle) -> Result<Self> {
+    pub fn begin(
+        run: &str,
+        algorithms: &[String],
+        store: Store,
+        run_events: RunEvents,
+        handle: Handle,
+    ) -> Result<Self> {
         let stages = fresh_stages(algorithms);
         let meters = stages.iter().map(|_| Meter::new()).collect();
-        let log = Self { run: run.to_owned(), store, bell, handle, stages, meters };
+        let log = Self { run: run.to_owned(), store, run_events, handle, stages, meters };
         for lane in 0..log.stages.len() {
             log.write(lane)?;
         }
-        log.handle.block_on(log.bell.tell(&log.store, &log.run, plain_event(State::Running, 0)))?;
+        log.handle.block_on(log.run_events.tell(&log.store, &log.run, plain_event(State::Running, 0)))?;
         Ok(log)
     }
 
@@ -169,7 +175,7 @@ impl RunLog {
         self.write(lane)?;
         let stage = Some(self.stages[lane].clone());
         let event = RunEvent { stage, result, ..plain_event(State::Running, 0) };
-        self.handle.block_on(self.bell.tell(&self.store, &self.run, event))
+        self.handle.block_on(self.run_events.tell(&self.store, &self.run, event))
     }
 
     fn write(&self, lane: usize) -> Result<()> {

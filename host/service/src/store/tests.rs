@@ -7,7 +7,7 @@ mod rows {
     pub use crate::audit::Note;
     pub use crate::campaigns::sql::CampaignRow;
     pub use crate::mail::sql::{MailLink, WaitingMail};
-    pub use crate::notices::sql::Telling;
+    pub use crate::notices::sql::NewNotice;
     pub use crate::owned::sql::Belongings;
     pub use crate::plugins::sql::SubmissionRow;
     pub use crate::requests::sql::Request;
@@ -18,14 +18,14 @@ mod rows {
 use ocb_core::query::Query;
 
 mod campaigns;
-mod farewells;
+mod deletion;
 mod fixtures;
 mod lists;
 mod mails;
+mod owned;
 mod people;
 mod submissions;
 mod suites;
-mod things;
 mod visibility;
 
 use fixtures::{add, advice_info, object, set_info, spec};
@@ -132,13 +132,13 @@ on_both!(
 
 mod contract {
     pub use super::campaigns::*;
-    pub use super::farewells::*;
+    pub use super::deletion::*;
     pub use super::lists::*;
     pub use super::mails::*;
+    pub use super::owned::*;
     pub use super::people::*;
     pub use super::submissions::*;
     pub use super::suites::*;
-    pub use super::things::*;
     pub use super::visibility::*;
     use super::*;
 

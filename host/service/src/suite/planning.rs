@@ -9,8 +9,8 @@ use std::collections::{HashMap, HashSet};
 use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::model::{AlgorithmInfo, Environment, PluginState, RunInfo, RunSpec, State, SuiteInfo, SuiteProgress};
-use crate::runs::Asking;
 use crate::runs::BACKGROUND;
+use crate::runs::RunContext;
 use crate::runs::sql::RunRow;
 use crate::suite::scenario_of;
 use crate::{EngineError, Result};
@@ -85,7 +85,8 @@ impl Engine {
             let missing: Vec<String> = public.iter().filter(wanted).map(|a| a.id.clone()).collect();
             for some in missing.chunks(AT_ONCE) {
                 let spec = RunSpec { algorithms: some.to_vec(), ..spec.clone() };
-                let asking = Asking { priority: BACKGROUND, suite: Some(&inner.suite.sha256), ..Asking::default() };
+                let asking =
+                    RunContext { priority: BACKGROUND, suite: Some(&inner.suite.sha256), ..RunContext::default() };
                 queued.push(self.queue(spec, asking).await?.0);
             }
         }

@@ -1,6 +1,6 @@
 import { answer, http, nothing, part, whole, type Part } from './client'
 import type {
-  AccountInfo, Choices, Credentials, Decision, Identity, InvitationInfo, Leaving, NewChoices, NewInvitation, NewToken, NoticeInfo, PluginInfo, Role, Scope,
+  AccountInfo, Choices, Credentials, Decision, Identity, InvitationInfo, DeletionPreview, NewChoices, NewInvitation, NewToken, NoticeInfo, PluginInfo, Role, Scope,
   TokenInfo,
 } from './types'
 
@@ -18,9 +18,9 @@ export const changePassword = (body: { old: string; new: string }): Promise<void
   nothing(http.POST('/api/v1/account/password', { body }))
 
 /** What would go with the account and what would stay. */
-export const getLeaving = (): Promise<Leaving> => answer(http.GET('/api/v1/account/leaving'))
+export const getDeletionPreview = (): Promise<DeletionPreview> => answer(http.GET('/api/v1/account/deletion-preview'))
 
-export const deleteAccount = (password: string): Promise<Leaving> => answer(http.DELETE('/api/v1/account', { body: { password } }))
+export const deleteAccount = (password: string): Promise<DeletionPreview> => answer(http.DELETE('/api/v1/account', { body: { password } }))
 
 export const askToDevelop = (reason: string): Promise<void> =>
   nothing(http.POST('/api/v1/account/developer', { body: { reason } }))

@@ -15,7 +15,7 @@ export interface paths {
         /**
          * Deletes the account for good: how it is entered, what it was told and has chosen, its tokens, and whatever of its things is
          *     not public. What is public stays, because it is cited, and belongs to a former account without a name. Nobody gets the name
-         *     again. `GET /things.tar` takes everything along first.
+         *     again. `GET /data.tar` takes everything along first.
          */
         delete: operations["delete_account"];
         options?: never;
@@ -113,7 +113,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/account/leaving": {
+    "/api/v1/account/deletion-preview": {
         parameters: {
             query?: never;
             header?: never;
@@ -121,7 +121,7 @@ export interface paths {
             cookie?: never;
         };
         /** What would go with the account and what would stay, and why it cannot be deleted, if so. */
-        get: operations["show_leaving"];
+        get: operations["show_deletion_preview"];
         put?: never;
         post?: never;
         delete?: never;
@@ -722,7 +722,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/objects/{id}/things": {
+    "/api/v1/objects/{id}/deletion-preview": {
         parameters: {
             query?: never;
             header?: never;
@@ -730,7 +730,7 @@ export interface paths {
             cookie?: never;
         };
         /** What goes with an object: the visitor's runs and advice with it. */
-        get: operations["things_of_object"];
+        get: operations["deletion_preview_of_object"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1221,7 +1221,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/runs/{id}/things": {
+    "/api/v1/runs/{id}/deletion-preview": {
         parameters: {
             query?: never;
             header?: never;
@@ -1229,7 +1229,7 @@ export interface paths {
             cookie?: never;
         };
         /** What goes with a run. */
-        get: operations["things_of_run"];
+        get: operations["deletion_preview_of_run"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1360,7 +1360,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/things": {
+    "/api/v1/data": {
         parameters: {
             query?: never;
             header?: never;
@@ -1368,20 +1368,20 @@ export interface paths {
             cookie?: never;
         };
         /** Everything that the visitor has made, which is what `DELETE` takes away, and until when it stays. */
-        get: operations["show_things"];
+        get: operations["show_data"];
         put?: never;
         post?: never;
         /**
          * Takes away everything that the visitor has made, with the stored files that nobody else uses; runs under way end. Plugins
          *     stay, because results belong to them.
          */
-        delete: operations["remove_things"];
+        delete: operations["delete_all"];
         options?: never;
         head?: never;
         patch?: never;
         trace?: never;
     };
-    "/api/v1/things.tar": {
+    "/api/v1/data.tar": {
         parameters: {
             query?: never;
             header?: never;
@@ -1402,7 +1402,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/things/keep": {
+    "/api/v1/data/keep": {
         parameters: {
             query?: never;
             header?: never;
@@ -1444,7 +1444,7 @@ export interface components {
             /** @description The minisign key that its plugins may be signed with. */
             signing_key?: string | null;
             /** @description Why its owner wants to be a developer, while that is undecided. */
-            wish?: string | null;
+            developer_request?: string | null;
         };
         /**
          * @description A measure of accuracy.
@@ -2668,7 +2668,7 @@ export interface components {
          *       "password": "correct horse battery staple"
          *     }
          */
-        Farewell: {
+        DeleteAccount: {
             /** @description The password, once more. */
             password: string;
         };
@@ -2821,7 +2821,7 @@ export interface components {
          *         "plugins": 1,
          *         "runs": 12
          *       },
-         *       "hindrance": null,
+         *       "blocked_by": null,
          *       "stays": {
          *         "advice": 0,
          *         "objects": 1,
@@ -2830,21 +2830,21 @@ export interface components {
          *       }
          *     }
          */
-        Leaving: {
+        DeletionPreview: {
             /**
              * Format: int64
              * @description Bytes of the stored files that go: those that nobody else uses.
              */
             bytes: number;
             /** @description What is not public is deleted, with everything that the account was told and has chosen. */
-            goes: components["schemas"]["LeavingCounts"];
+            goes: components["schemas"]["OwnedCounts"];
             /** @description Why the account cannot be deleted now, and how to mend that. */
-            hindrance?: string | null;
+            blocked_by?: string | null;
             /** @description What is public stays, because it is cited, and belongs to a former account without a name. A plugin stays once it was public. */
-            stays: components["schemas"]["LeavingCounts"];
+            stays: components["schemas"]["OwnedCounts"];
         };
         /** @description How many of each. */
-        LeavingCounts: {
+        OwnedCounts: {
             /**
              * Format: int32
              * @description Pieces of advice.
@@ -4181,14 +4181,14 @@ export interface components {
             wrong: number;
         };
         /** @description A run or an object, as lists call it. */
-        Thing: {
+        OwnedItem: {
             /** @description Its id. */
             id: string;
             /** @description Its name; of a run, those of its objects. */
             name: string;
         };
         /** @description Runs, objects and advice of one owner: all of them, or those that go with one of them. */
-        Things: {
+        OwnedItems: {
             /**
              * Format: int32
              * @description How many pieces of advice.
@@ -4205,9 +4205,9 @@ export interface components {
              */
             kept_until_us?: number | null;
             /** @description Objects, newest first. */
-            objects: components["schemas"]["Thing"][];
+            objects: components["schemas"]["OwnedItem"][];
             /** @description Runs with their results, newest first. */
-            runs: components["schemas"]["Thing"][];
+            runs: components["schemas"]["OwnedItem"][];
         };
         /** @description One side of eps*. */
         Threshold: {
@@ -4454,7 +4454,7 @@ export interface components {
          */
         Visibility: "private" | "unlisted" | "public";
         /** @description Why somebody wants to be a developer. */
-        Wish: {
+        DeveloperRequest: {
             /** @description A sentence or two for the curators. */
             reason: string;
         };
@@ -4668,7 +4668,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["Farewell"];
+                "application/json": components["schemas"]["DeleteAccount"];
             };
         };
         responses: {
@@ -4678,7 +4678,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Leaving"];
+                    "application/json": components["schemas"]["DeletionPreview"];
                 };
             };
             /** @description The body or the address cannot be read */
@@ -5136,7 +5136,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["Wish"];
+                "application/json": components["schemas"]["DeveloperRequest"];
             };
         };
         responses: {
@@ -5335,7 +5335,7 @@ export interface operations {
             };
         };
     };
-    show_leaving: {
+    show_deletion_preview: {
         parameters: {
             query?: never;
             header?: never;
@@ -5349,7 +5349,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Leaving"];
+                    "application/json": components["schemas"]["DeletionPreview"];
                 };
             };
             /** @description Nobody is logged in */
@@ -7855,7 +7855,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Things"];
+                    "application/json": components["schemas"]["OwnedItems"];
                 };
             };
             /** @description The address cannot be read */
@@ -7962,7 +7962,7 @@ export interface operations {
             };
         };
     };
-    things_of_object: {
+    deletion_preview_of_object: {
         parameters: {
             query?: never;
             header?: never;
@@ -7980,7 +7980,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Things"];
+                    "application/json": components["schemas"]["OwnedItems"];
                 };
             };
             /** @description The address cannot be read */
@@ -8882,7 +8882,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Things"];
+                    "application/json": components["schemas"]["OwnedItems"];
                 };
             };
             /** @description The address cannot be read */
@@ -10109,7 +10109,7 @@ export interface operations {
             };
         };
     };
-    things_of_run: {
+    deletion_preview_of_run: {
         parameters: {
             query?: never;
             header?: never;
@@ -10127,7 +10127,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Things"];
+                    "application/json": components["schemas"]["OwnedItems"];
                 };
             };
             /** @description The address cannot be read */
@@ -10554,7 +10554,7 @@ export interface operations {
             };
         };
     };
-    show_things: {
+    show_data: {
         parameters: {
             query?: never;
             header?: never;
@@ -10568,7 +10568,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Things"];
+                    "application/json": components["schemas"]["OwnedItems"];
                 };
             };
             /** @description The token in `Authorization` opens nothing */
@@ -10582,7 +10582,7 @@ export interface operations {
             };
         };
     };
-    remove_things: {
+    delete_all: {
         parameters: {
             query?: never;
             header?: never;
@@ -10597,7 +10597,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Things"];
+                    "application/json": components["schemas"]["OwnedItems"];
                 };
             };
             /** @description The token in `Authorization` opens nothing */
@@ -10681,7 +10681,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Things"];
+                    "application/json": components["schemas"]["OwnedItems"];
                 };
             };
             /** @description The token in `Authorization` opens nothing */

@@ -6,8 +6,8 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{AppendHeaders, IntoResponse, Response};
 use axum_extra::extract::CookieJar;
 use ocb_service::model::{
-    AccountInfo, Credentials, Farewell, Identity, Leaving, NewPassword, NewToken, Role, SigningKey, TokenInfo,
-    TokenRequest, Wish,
+    AccountInfo, Credentials, DeleteAccount, DeletionPreview, DeveloperRequest, Identity, NewPassword, NewToken, Role,
+    SigningKey, TokenInfo, TokenRequest,
 };
 
 use crate::App;
@@ -130,21 +130,24 @@ pub(crate) async fn change_password(
 }
 
 /// What would go with the account and what would stay, and why it cannot be deleted, if so.
-#[utoipa::path(get, path = "/account/leaving", tag = "account",
+#[utoipa::path(get, path = "/account/deletion-preview", tag = "account",
     responses(
-        (status = 200, body = Leaving),
+        (status = 200, body = DeletionPreview),
         (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
     ))]
-pub(crate) async fn show_leaving(State(app): State<App>, Member(account): Member) -> Result<Answer<Leaving>> {
-    Ok(Answer(app.engine.leaving(&account).await?))
+pub(crate) async fn show_deletion_preview(
+    State(app): State<App>,
+    Member(account): Member,
+) -> Result<Answer<DeletionPreview>> {
+    Ok(Answer(app.engine.deletion_preview(&account).await?))
 }
 
 /// Deletes the account for good: how it is entered, what it was told and has chosen, its tokens, and whatever of its things is
 /// not public. What is public stays, because it is cited, and belongs to a former account without a name. Nobody gets the name
-/// again. `GET /things.tar` takes everything along first.
-#[utoipa::path(delete, path = "/account", tag = "account", request_body = Farewell,
+/// again. `GET /data.tar` takes everything along first.
+#[utoipa::path(delete, path = "/account", tag = "account", request_body = DeleteAccount,
     responses(
-        (status = 200, description = "What has gone and what stays; nobody is logged in any more", body = Leaving),
+        (status = 200, description = "What has gone and what stays; nobody is logged in any more", body = DeletionPreview),
         (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
         (status = 403, description = "The password is another one", body = Problem, content_type = "application/problem+json"),
         (status = 409, description = "Nobody else could decide in its place, or a run is just ending", body = Problem, content_type = "application/problem+json"),
@@ -155,7 +158,7 @@ pub(crate) async fn delete_account(
     State(app): State<App>,
     Member(account): Member,
     headers: HeaderMap,
-    Json(asked): Json<Farewell>,
+    Json(asked): Json<DeleteAccount>,
 ) -> Result<Response> {
     app.limits.count(LOG_IN, &account.name)?;
     let told = app.engine.delete_account(&account, &asked.password).await?;
@@ -164,7 +167,7 @@ pub(crate) async fn delete_account(
 }
 
 /// Asks the curators to be made a developer, who submits plugins.
-#[utoipa::path(post, path = "/account/developer", tag = "account", request_body = Wish,
+#[utoipa::path(post, path = "/account/developer", tag = "account", request_body = DeveloperRequest,
     responses(
         (status = 204, description = "Asked"),
         (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
@@ -174,9 +177,9 @@ pub(crate) async fn delete_account(
 pub(crate) async fn ask_to_develop(
     State(app): State<App>,
     Member(account): Member,
-    Json(wish): Json<Wish>,
+    Json(request): Json<DeveloperRequest>,
 ) -> Result<StatusCode> {
-    app.engine.wish_to_develop(&account, &wish.reason).await?;
+    app.engine.request_developer_role(&account, &request.reason).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 

@@ -3,12 +3,12 @@
 //! The engine starts the runner and asks plugins, so `cargo build --release` must have built them before; `make test`
 //! does so.
 
+mod account_deletion;
 mod advice;
 mod authority;
 mod campaigns;
 mod citations;
 mod errors;
-mod farewells;
 mod invitations;
 mod lists;
 mod mail;
@@ -17,6 +17,7 @@ mod mail_tls;
 mod mails_off;
 mod notices;
 mod objects;
+mod owned;
 mod pages;
 mod people;
 mod privacy;
@@ -27,6 +28,5 @@ mod runs;
 mod stream;
 mod suite;
 mod support;
-mod things;
 mod uploads;
 mod visitors;

@@ -115,13 +115,13 @@ async fn curators_welcome_developers_and_administrators_make_curators() {
     let user = member(&service, "newcomer", Role::User).await;
     let curator = member(&service, "curator", Role::Curator).await;
     let administrator = member(&service, "admin", Role::Administrator).await;
-    let wish = json!({ "reason": "I have a faster tree." });
-    let asked = user.post("/api/v1/account/developer").json(&wish).send().await.expect("an answer");
+    let request = json!({ "reason": "I have a faster tree." });
+    let asked = user.post("/api/v1/account/developer").json(&request).send().await.expect("an answer");
     assert_eq!(asked.status(), StatusCode::NO_CONTENT);
     let accounts = curator.json("/api/v1/accounts").await;
     let of =
         |name: &str| accounts.as_array().expect("a list").iter().find(|a| a["name"] == name).expect("there").clone();
-    assert_eq!(of("newcomer")["wish"], "I have a faster tree.");
+    assert_eq!(of("newcomer")["developer_request"], "I have a faster tree.");
     let give = |by: &Guest, to: &str, role: &str| {
         let path = format!("/api/v1/accounts/{}/role", of(to)["id"].as_str().expect("an id"));
         by.post(&path).json(&json!({ "role": role })).send()
@@ -163,7 +163,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "post /objects",
             "get /objects/{id}",
             "delete /objects/{id}",
-            "get /objects/{id}/things",
+            "get /objects/{id}/deletion-preview",
             "get /objects/{id}/mesh.glb",
             "put /objects/{id}/visibility",
             "get /openapi.json",
@@ -175,7 +175,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "post /runs",
             "get /runs/{id}",
             "delete /runs/{id}",
-            "get /runs/{id}/things",
+            "get /runs/{id}/deletion-preview",
             "post /runs/{id}/cancel",
             "post /runs/{id}/refine",
             "get /runs/{id}/chart",
@@ -201,17 +201,17 @@ const DOORS: &[(&str, &[&str])] = &[
             "get /stability",
             "get /status",
             "get /suite",
-            "get /things",
-            "get /things.tar",
-            "delete /things",
-            "post /things/keep",
+            "get /data",
+            "get /data.tar",
+            "delete /data",
+            "post /data/keep",
         ],
     ),
     (
         "logged in",
         &[
             "delete /account",
-            "get /account/leaving",
+            "get /account/deletion-preview",
             "put /account/address",
             "delete /account/address",
             "post /account/address/confirmation",

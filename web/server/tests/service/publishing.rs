@@ -169,8 +169,8 @@ async fn what_is_no_plugin_is_refused_before_anything_is_kept() {
 }
 
 /// A key for tests, and what minisign wrote of [`SIGNED`] with it.
-const KEY: &str = include_str!("../../../../host/service/src/signature/minisign.pub");
-const SIGNATURE: &str = include_str!("../../../../host/service/src/signature/elf.minisig");
+const KEY: &str = include_str!("../../../../host/service/src/plugins/signature/minisign.pub");
+const SIGNATURE: &str = include_str!("../../../../host/service/src/plugins/signature/elf.minisig");
 const SIGNED: &[u8] = b"\x7fELF and nothing behind it";
 
 #[tokio::test]

@@ -59,7 +59,7 @@ async fn what_is_made_under_a_key_is_made_once() {
     assert_eq!(maker.json("/api/v1/account/tokens").await.as_array().map(Vec::len), Some(1));
     let program = service.guest();
     let with =
-        |made: &Value| program.get("/api/v1/things").bearer_auth(made["secret"].as_str().expect("a secret")).send();
+        |made: &Value| program.get("/api/v1/data").bearer_auth(made["secret"].as_str().expect("a secret")).send();
     problem(with(&first).await.expect("an answer"), 401).await;
     assert_eq!(with(&second).await.expect("an answer").status(), StatusCode::OK);
     problem(under("k", token("u")).await, 422).await;
@@ -98,7 +98,7 @@ async fn a_guest_does_not_fill_the_queue() {
     // What was asked for is found again, and others have room.
     assert_eq!(made(under("night", ask(&guest)).await, StatusCode::OK).await["id"], waiting["id"]);
     other.start(&small_spec()).await;
-    let gone = guest.request(Method::DELETE, "/api/v1/things").send().await.expect("an answer");
+    let gone = guest.request(Method::DELETE, "/api/v1/data").send().await.expect("an answer");
     assert_eq!(gone.status(), StatusCode::OK);
     guest.start(&small_spec()).await;
     service.stop().await;

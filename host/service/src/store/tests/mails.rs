@@ -20,7 +20,7 @@ async fn two_accounts(store: &Store) {
 }
 
 async fn tell(store: &Store, account: &str, notice: &NoticeInfo, most: usize, mailing: bool) -> bool {
-    store.add_notice(Telling { account, notice, most, mailing }).await.unwrap()
+    store.add_notice(NewNotice { account, notice, most, mailing }).await.unwrap()
 }
 
 async fn ids(store: &Store, account: &str) -> Vec<String> {

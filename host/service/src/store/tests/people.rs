@@ -6,7 +6,14 @@ use super::{add, fresh_stages, object, run};
 use crate::model::{AccountInfo, Cursor, InvitationInfo, InvitationState, Role, Scope, TokenInfo};
 
 pub(super) fn account(id: &str, name: &str) -> AccountInfo {
-    AccountInfo { id: id.into(), name: name.into(), role: Role::User, wish: None, signing_key: None, created_us: 1 }
+    AccountInfo {
+        id: id.into(),
+        name: name.into(),
+        role: Role::User,
+        developer_request: None,
+        signing_key: None,
+        created_us: 1,
+    }
 }
 
 fn key(id: &str, expires_us: i64) -> TokenInfo {
@@ -23,8 +30,8 @@ pub async fn accounts_have_one_name_and_keys_of_their_own(store: Store) {
     store.set_password("1", "new").await.unwrap();
     assert_eq!(store.password_of("ada").await.unwrap(), Some(("1".into(), "new".into())));
     assert_eq!(store.password_of("bob").await.unwrap(), None);
-    store.set_wish("1", "please").await.unwrap();
-    assert_eq!(store.account("1").await.unwrap().unwrap().wish.as_deref(), Some("please"));
+    store.set_developer_request("1", "please").await.unwrap();
+    assert_eq!(store.account("1").await.unwrap().unwrap().developer_request.as_deref(), Some("please"));
     assert!(store.set_role("1", Role::Developer, NOTE).await.unwrap());
     assert!(!store.set_role("9", Role::User, NOTE).await.unwrap());
     assert_eq!(store.notes_on("x").await.unwrap().len(), 1, "what did not happen is not noted");

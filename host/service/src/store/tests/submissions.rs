@@ -90,8 +90,8 @@ pub async fn a_decision_and_its_notice_stand_or_fall_together(store: Store) {
         "id": "n", "subject": "s", "text": "t", "link": "/p/p", "created_us": 1, "read_us": null,
     }))
     .unwrap();
-    let telling = Telling { account: "1", notice: &notice, most: 9, mailing: true };
-    let decide = |from, to| store.move_submission("p", from, to, "why", Some(telling), Some(NOTE));
+    let new_notice = NewNotice { account: "1", notice: &notice, most: 9, mailing: true };
+    let decide = |from, to| store.move_submission("p", from, to, "why", Some(new_notice), Some(NOTE));
     let told = async || store.notices("1", &Cursor::start(), 9).await.unwrap().len();
     assert!(!decide(PluginState::Awaiting, PluginState::Public).await.unwrap());
     assert_eq!(told().await, 0, "of what did not happen nobody is told");
@@ -99,12 +99,12 @@ pub async fn a_decision_and_its_notice_stand_or_fall_together(store: Store) {
     assert_eq!((told().await, store.notes_on("x").await.unwrap().len()), (1, 2));
     // The notice cannot be kept, because there is one of this id: then nothing was decided, and nothing noted.
     decide(PluginState::Public, PluginState::Suspended).await.unwrap_err();
-    store.exclude_submission("p", "class", i64::MAX, Some(telling), NOTE).await.unwrap_err();
+    store.exclude_submission("p", "class", i64::MAX, Some(new_notice), NOTE).await.unwrap_err();
     assert_eq!(store.submission("p").await.unwrap().unwrap().state, PluginState::Public);
     assert_eq!((told().await, store.notes_on("x").await.unwrap().len()), (1, 2));
     let another = NoticeInfo { id: "m".into(), ..notice.clone() };
-    let telling = Telling { notice: &another, ..telling };
-    assert!(store.exclude_submission("p", "class", i64::MAX, Some(telling), NOTE).await.unwrap());
+    let new_notice = NewNotice { notice: &another, ..new_notice };
+    assert!(store.exclude_submission("p", "class", i64::MAX, Some(new_notice), NOTE).await.unwrap());
     assert_eq!((told().await, store.notes_on("x").await.unwrap().len()), (2, 3));
 }
 

@@ -3,7 +3,7 @@
 use super::super::*;
 use super::rows::*;
 use super::{add, object, run};
-use crate::model::{Cursor, State, Thing, Visibility};
+use crate::model::{Cursor, OwnedItem, State, Visibility};
 
 pub async fn only_what_is_public_is_in_the_lists_of_others(store: Store) {
     store.add_blob("m", 1, "x").await.unwrap();
@@ -52,7 +52,7 @@ pub async fn what_an_object_hid_stays_hidden_without_it(store: Store) {
         for run in [&with, &by] {
             store.set_run_visibility(run, of_run).await.unwrap();
         }
-        let objects = vec![Thing { id: this, name: String::new() }];
+        let objects = vec![OwnedItem { id: this, name: String::new() }];
         let what = Belongings { objects, ..Belongings::default() };
         // Looking at what would go changes nothing.
         store.unused_without(&what).await.unwrap();

@@ -1,15 +1,15 @@
-import type { Leaving } from '../api/types'
-import { counted } from './things'
+import type { DeletionPreview } from '../api/types'
+import { counted } from './owned'
 
 /** What goes with an account, as a sentence. */
-export function goesInWords({ goes }: Pick<Leaving, 'goes'>): string {
+export function goesInWords({ goes }: Pick<DeletionPreview, 'goes'>): string {
   const things = counted(goes)
   const account = 'your password, sessions, tokens, address, choices and notices'
   return things === null ? `For good go ${account}.` : `For good go ${things}, and ${account}.`
 }
 
 /** What stays of it. */
-export function staysInWords({ stays }: Pick<Leaving, 'stays'>): string {
+export function staysInWords({ stays }: Pick<DeletionPreview, 'stays'>): string {
   const things = counted(stays)
   if (things === null) return 'Nothing of yours is public, so nothing stays. What should stay, make public first.'
   const written = stays.plugins > 0 ? ' What you wrote about a plugin when you sent it stays with it.' : ''

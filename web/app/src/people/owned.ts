@@ -1,10 +1,10 @@
-import type { LeavingCounts, Things } from '../api/types'
+import type { OwnedCounts, OwnedItems } from '../api/types'
 import { bytes, count } from '../ui/format'
 
 const several = (n: number, one: string, more: string): string[] => (n === 0 ? [] : [`${count(n)} ${n === 1 ? one : more}`])
 
 /** How many of each, as the part of a sentence; null when there is nothing. */
-export function counted({ runs, objects, advice, plugins }: LeavingCounts): string | null {
+export function counted({ runs, objects, advice, plugins }: OwnedCounts): string | null {
   const parts = [
     ...several(runs, 'run', 'runs'),
     ...several(objects, 'object', 'objects'),
@@ -17,7 +17,7 @@ export function counted({ runs, objects, advice, plugins }: LeavingCounts): stri
 }
 
 /** What goes, as a sentence. */
-export function inWords({ runs, objects, advice, bytes: size }: Pick<Things, 'runs' | 'objects' | 'advice' | 'bytes'>): string {
+export function inWords({ runs, objects, advice, bytes: size }: Pick<OwnedItems, 'runs' | 'objects' | 'advice' | 'bytes'>): string {
   const all = counted({ runs: runs.length, objects: objects.length, advice, plugins: 0 })
   if (all === null) return 'There is nothing to delete.'
   return `${all} will be gone for good${size > 0 ? `, with ${bytes(size)} of files that nobody else uses` : ''}.`

@@ -1,13 +1,13 @@
-//! `ocb things`: what one has made, here or on a service: looking at it, deleting it, taking it along.
+//! `ocb data`: what one has made, here or on a service: looking at it, deleting it, taking it along.
 
 use std::io::{BufRead, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
 use ocb_service::Engine;
-use ocb_service::model::Things;
+use ocb_service::model::OwnedItems;
 
-use crate::args::{Deleted, PlaceArgs, ServiceArgs, Store, ThingsCommand};
+use crate::args::{DataCommand, Deleted, PlaceArgs, ServiceArgs, Store};
 use crate::failure::{Failure, Result};
 use crate::open::{self, OWNER, Purpose};
 use crate::{output, run, units};
@@ -19,14 +19,13 @@ enum Place {
 }
 
 /// Shows, deletes or packs.
-pub async fn things(store: &Store, command: &ThingsCommand, json: bool) -> Result<ExitCode> {
-    let (ThingsCommand::Show { place } | ThingsCommand::Delete { place, .. } | ThingsCommand::TakeAlong { place, .. }) =
-        command;
+pub async fn data(store: &Store, command: &DataCommand, json: bool) -> Result<ExitCode> {
+    let (DataCommand::Show { place } | DataCommand::Delete { place, .. } | DataCommand::Export { place, .. }) = command;
     let place = Place::open(store, place).await?;
     let done = match command {
-        ThingsCommand::Show { .. } => show(&place, json).await,
-        ThingsCommand::Delete { what, id, yes, .. } => delete(&place, *what, id.as_deref(), *yes, json).await,
-        ThingsCommand::TakeAlong { output, .. } => take_along(&place, output, json).await,
+        DataCommand::Show { .. } => show(&place, json).await,
+        DataCommand::Delete { what, id, yes, .. } => delete(&place, *what, id.as_deref(), *yes, json).await,
+        DataCommand::Export { output, .. } => export(&place, output, json).await,
     };
     if let Place::Here(engine) = place {
         engine.shutdown().await;
@@ -35,14 +34,14 @@ pub async fn things(store: &Store, command: &ThingsCommand, json: bool) -> Resul
 }
 
 async fn show(place: &Place, json: bool) -> Result<()> {
-    let things = place.things(Deleted::All, "").await?;
+    let things = place.owned_items(Deleted::All, "").await?;
     if json { output::print_json(&things) } else { output::print(&list(&things)) }
 }
 
 async fn delete(place: &Place, what: Deleted, id: Option<&str>, yes: bool, json: bool) -> Result<()> {
     let id = place.named(what, id.unwrap_or_default()).await?;
     if !yes {
-        let goes = place.things(what, &id).await?;
+        let goes = place.owned_items(what, &id).await?;
         eprintln!("{}", list(&goes));
         if !agreed()? {
             return Err(Failure::Input("Nothing was deleted; add --yes to delete it.".to_owned()));
@@ -55,7 +54,7 @@ async fn delete(place: &Place, what: Deleted, id: Option<&str>, yes: bool, json:
     output::print(&format!("Deleted: {}", count(&gone)))
 }
 
-async fn take_along(place: &Place, path: &Path, json: bool) -> Result<()> {
+async fn export(place: &Place, path: &Path, json: bool) -> Result<()> {
     let bytes = match place {
         Place::Here(engine) => {
             let mut packed = engine.archive(OWNER, ocb_service::Contents::ALL).await?;
@@ -63,7 +62,7 @@ async fn take_along(place: &Place, path: &Path, json: bool) -> Result<()> {
             let mut file = std::fs::File::create(path).map_err(unwritten)?;
             std::io::copy(&mut packed, &mut file).map_err(unwritten)?
         }
-        Place::There(service) => service.service().save("/api/v1/things.tar", path).await?,
+        Place::There(service) => service.service().save("/api/v1/data.tar", path).await?,
     };
     if json {
         return output::print_json(&serde_json::json!({ "file": path, "bytes": bytes }));
@@ -87,29 +86,29 @@ impl Place {
         }
     }
 
-    async fn things(&self, what: Deleted, id: &str) -> Result<Things> {
+    async fn owned_items(&self, what: Deleted, id: &str) -> Result<OwnedItems> {
         match self {
             Self::Here(engine) => Ok(match what {
-                Deleted::Run => engine.things_of_run(id, OWNER).await?,
-                Deleted::Object => engine.things_of_object(id, OWNER).await?,
-                Deleted::All => engine.things(OWNER).await?,
+                Deleted::Run => engine.deletion_preview_of_run(id, OWNER).await?,
+                Deleted::Object => engine.deletion_preview_of_object(id, OWNER).await?,
+                Deleted::All => engine.owned_items(OWNER).await?,
             }),
             Self::There(service) => {
                 let path = match what {
-                    Deleted::All => "/api/v1/things".to_owned(),
-                    one => format!("{}/things", path_of(one, id)),
+                    Deleted::All => "/api/v1/data".to_owned(),
+                    one => format!("{}/deletion-preview", path_of(one, id)),
                 };
                 service.service().get(&path).await
             }
         }
     }
 
-    async fn remove(&self, what: Deleted, id: &str) -> Result<Things> {
+    async fn remove(&self, what: Deleted, id: &str) -> Result<OwnedItems> {
         match self {
             Self::Here(engine) => Ok(match what {
                 Deleted::Run => engine.remove_run(id, OWNER).await?,
                 Deleted::Object => engine.remove_object(id, OWNER).await?,
-                Deleted::All => engine.remove_things(OWNER).await?,
+                Deleted::All => engine.delete_all(OWNER).await?,
             }),
             Self::There(service) => service.service().delete(&path_of(what, id)).await,
         }
@@ -120,7 +119,7 @@ fn path_of(what: Deleted, id: &str) -> String {
     match what {
         Deleted::Run => format!("/api/v1/runs/{id}"),
         Deleted::Object => format!("/api/v1/objects/{id}"),
-        Deleted::All => "/api/v1/things".to_owned(),
+        Deleted::All => "/api/v1/data".to_owned(),
     }
 }
 
@@ -137,7 +136,7 @@ pub fn agreed() -> Result<bool> {
 }
 
 /// A line for each, then the sum.
-fn list(things: &Things) -> String {
+fn list(things: &OwnedItems) -> String {
     let all = [("run", &things.runs), ("object", &things.objects)];
     let lines = all.into_iter().flat_map(|(kind, all)| all.iter().map(move |thing| (kind, thing)));
     let mut text: Vec<String> = lines.map(|(kind, thing)| format!("{kind}  {}  {}", thing.id, thing.name)).collect();
@@ -145,7 +144,7 @@ fn list(things: &Things) -> String {
     text.join("\n")
 }
 
-fn count(things: &Things) -> String {
+fn count(things: &OwnedItems) -> String {
     let several = |n: usize, one: &str, more: &str| format!("{n} {}", if n == 1 { one } else { more });
     format!(
         "{}, {}, {}; {} of files that nobody else uses",

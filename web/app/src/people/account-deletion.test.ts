@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest'
-import { goesInWords, staysInWords } from './farewell'
+import { goesInWords, staysInWords } from './account-deletion'
 
-describe('a farewell in words', () => {
+describe('the deletion of an account in words', () => {
   const none = { runs: 0, objects: 0, advice: 0, plugins: 0 }
   it('says what goes, things or not', () => {
     expect(goesInWords({ goes: none })).toBe('For good go your password, sessions, tokens, address, choices and notices.')

@@ -44,16 +44,16 @@ async fn what_is_public_outlives_its_account_and_the_rest_is_gone() {
     (long["method"]["sampling"]["count"], long["passes"]) = (20_000.into(), 5.into());
     let under_way = owner.start(&long).await;
 
-    let before = owner.json("/api/v1/account/leaving").await;
+    let before = owner.json("/api/v1/account/deletion-preview").await;
     assert_eq!((&before["goes"], &before["stays"]), (&counts(2, 1, 1, 1), &counts(1, 0, 0, 1)));
-    assert!(before["bytes"].as_u64() > Some(0) && before["hindrance"].is_null(), "{before:#}");
+    assert!(before["bytes"].as_u64() > Some(0) && before["blocked_by"].is_null(), "{before:#}");
     problem(leave(&stranger, PASSWORD).await, 401).await;
     problem(leave(owner, "some other password").await, 403).await;
     let nothing = owner.request(Method::DELETE, "/api/v1/account").json(&json!({})).send().await.expect("an answer");
     problem(nothing, 422).await;
     let foreign = owner.request(Method::DELETE, "/api/v1/account").header("origin", "https://evil.example");
     problem(foreign.json(&json!({ "password": PASSWORD })).send().await.expect("an answer"), 403).await;
-    assert_eq!(owner.json("/api/v1/account/leaving").await["goes"]["runs"], 2, "nothing has happened yet");
+    assert_eq!(owner.json("/api/v1/account/deletion-preview").await["goes"]["runs"], 2, "nothing has happened yet");
 
     let blobs = service.blobs();
     let gone = leave(owner, PASSWORD).await;
@@ -116,12 +116,12 @@ async fn the_last_who_decides_cannot_leave_and_is_told_how_to() {
     let curator = member(&service, "curator", Role::Curator).await;
     // Nothing of theirs has gone when they are refused.
     let object = uploaded(&administrator).await;
-    let hindrance = administrator.json("/api/v1/account/leaving").await["hindrance"].clone();
+    let blocked_by = administrator.json("/api/v1/account/deletion-preview").await["blocked_by"].clone();
     let told = problem(leave(&administrator, PASSWORD).await, 409).await;
     assert!(told.starts_with("This is the last administrator here") && told.contains("ocb admin create"), "{told}");
-    assert_eq!(hindrance, told);
+    assert_eq!(blocked_by, told);
     administrator.json(&format!("/api/v1/objects/{object}")).await;
-    assert_eq!(curator.json("/api/v1/account/leaving").await["hindrance"], Value::Null);
+    assert_eq!(curator.json("/api/v1/account/deletion-preview").await["blocked_by"], Value::Null);
     well(leave(&curator, PASSWORD).await).await;
     let next = member(&service, "next", Role::Administrator).await;
     well(leave(&administrator, PASSWORD).await).await;

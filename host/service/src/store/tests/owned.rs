@@ -3,7 +3,7 @@
 use super::super::*;
 use super::rows::*;
 use super::{add, advice_info, object, result, run, set_info};
-use crate::model::Thing;
+use crate::model::OwnedItem;
 use crate::owned::sql::Unused;
 use ocb_core::query::Query;
 
@@ -29,7 +29,7 @@ pub async fn what_is_taken_away_takes_the_files_that_nobody_else_uses(store: Sto
     store.end_advice(&info, &[vec![paper], vec![]]).await.unwrap();
 
     let with_object = store.belongings("me", Some("o")).await.unwrap();
-    let ids = |things: &[Thing]| things.iter().map(|thing| thing.id.clone()).collect::<Vec<_>>();
+    let ids = |things: &[OwnedItem]| things.iter().map(|thing| thing.id.clone()).collect::<Vec<_>>();
     assert_eq!((ids(&with_object.runs), ids(&with_object.objects)), (vec!["r".to_owned()], vec!["o".to_owned()]));
     assert_eq!(with_object.advice, ["v"]);
     assert_eq!(store.belongings("me", None).await.unwrap().runs.len(), 2);

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
 
-/// `ocb things`
+/// `ocb data`
 #[derive(Debug, Subcommand)]
-pub enum ThingsCommand {
+pub enum DataCommand {
     /// Show all runs and objects of yours.
     Show {
         #[command(flatten)]
@@ -27,7 +27,7 @@ pub enum ThingsCommand {
         place: PlaceArgs,
     },
     /// Write everything of yours into one archive: objects, runs with configurations and records, advice, plugins.
-    TakeAlong {
+    Export {
         /// File to write (.tar).
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,

@@ -8,7 +8,7 @@ const PASSWORD = 'a long enough password'
 
 test('an account is deleted, and what was public stays without a name', async (t) => {
   const [owner, other] = [await visitor(t), await visitor(t, { scheme: 'dark' })]
-  await enter(owner, 'leaving-soon', PASSWORD, true)
+  await enter(owner, 'deleted-soon', PASSWORD, true)
   const spec = {
     object_a: 'stock:torus-knot@600', query: 'proximity', passes: 2, algorithms: ['box-tree', 'brute-force'],
     method: { kind: 'sphere', sampling: { kind: 'count', count: 60 } }, relative_distance: 0.1,
@@ -19,11 +19,11 @@ test('an account is deleted, and what was public stays without a name', async (t
   await owner.api(`/runs/${runs[0]}/visibility`, { method: 'PUT', data: { visibility: 'public' } })
 
   await owner.at('leave').click()
-  await owner.at('leaving-goes').getByText('For good go 1 run, and your password').waitFor()
-  await owner.at('leaving-stays').getByText('1 run will stay, and name nobody').waitFor()
+  await owner.at('deletion-goes').getByText('For good go 1 run, and your password').waitFor()
+  await owner.at('deletion-stays').getByText('1 run will stay, and name nobody').waitFor()
   await owner.accessible('an account that is to be deleted')
-  await owner.picture('farewell')
-  const [download] = await Promise.all([owner.page.waitForEvent('download'), owner.at('leave-take-along').click()])
+  await owner.picture('account-deletion')
+  const [download] = await Promise.all([owner.page.waitForEvent('download'), owner.at('export-first').click()])
   assert.ok((await readFile(await download.path())).includes('opencollbench/account.json'), 'the archive has the account')
   await owner.at('leave-not').click()
   await owner.at('leave').click()
@@ -36,12 +36,12 @@ test('an account is deleted, and what was public stays without a name', async (t
   await owner.accessible('an account and a wrong password')
   await owner.at('leave-password').fill(PASSWORD)
   await owner.at('leave-now').click()
-  await owner.at('account-deleted').getByText('The account leaving-soon is deleted and you are logged out').waitFor()
+  await owner.at('account-deleted').getByText('The account deleted-soon is deleted and you are logged out').waitFor()
   await owner.at('account-enter').waitFor()
-  await owner.accessible('the account page after a farewell')
-  await owner.picture('farewell-done')
+  await owner.accessible('the account page after the deletion')
+  await owner.picture('account-deleted')
   assert.equal((await owner.api('/account')).account, null)
-  await owner.at('account-name').fill('leaving-soon')
+  await owner.at('account-name').fill('deleted-soon')
   await owner.at('account-password').fill(PASSWORD)
   await owner.at('account-enter').click()
   await owner.at('account-problem').getByText('Wrong user name or password').waitFor()
@@ -58,8 +58,8 @@ test('the last curator is told why they cannot leave', async (t) => {
   const curator = await visitor(t, { scheme: 'dark' })
   await enter(curator, 'curator', password, false)
   await curator.at('leave').click()
-  await curator.at('leaving-hindrance').getByText('This is the last curator here').waitFor()
+  await curator.at('deletion-blocked').getByText('This is the last curator here').waitFor()
   assert.equal(await curator.at('leave-now').count(), 0)
   await curator.accessible('an account that cannot be deleted')
-  await curator.picture('farewell-last')
+  await curator.picture('deletion-blocked')
 })

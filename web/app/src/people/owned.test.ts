@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import { inWords } from './things'
+import { inWords } from './owned'
 
 describe('what goes, in words', () => {
   const thing = { id: 'x', name: 'x' }

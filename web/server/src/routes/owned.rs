@@ -4,7 +4,7 @@ use axum::extract::State;
 use axum::response::Response;
 use axum::{Extension, Json};
 use ocb_service::Contents;
-use ocb_service::model::{Scope, Things};
+use ocb_service::model::{OwnedItems, Scope};
 
 use crate::App;
 use crate::extract::Path;
@@ -12,37 +12,37 @@ use crate::guest::{Guest, Token};
 use crate::problem::{Problem, Result};
 
 /// Everything that the visitor has made, which is what `DELETE` takes away, and until when it stays.
-#[utoipa::path(get, path = "/things", tag = "things", responses((status = 200, body = Things)))]
-pub(crate) async fn show_things(State(app): State<App>, Guest(guest): Guest) -> Result<Json<Things>> {
-    Ok(Json(app.engine.things(&guest).await?))
+#[utoipa::path(get, path = "/data", tag = "data", responses((status = 200, body = OwnedItems)))]
+pub(crate) async fn show_data(State(app): State<App>, Guest(guest): Guest) -> Result<Json<OwnedItems>> {
+    Ok(Json(app.engine.owned_items(&guest).await?))
 }
 
 /// Takes away everything that the visitor has made, with the stored files that nobody else uses; runs under way end. Plugins
 /// stay, because results belong to them.
-#[utoipa::path(delete, path = "/things", tag = "things",
+#[utoipa::path(delete, path = "/data", tag = "data",
     responses(
-        (status = 200, description = "What has gone", body = Things),
+        (status = 200, description = "What has gone", body = OwnedItems),
         (status = 409, description = "A run is just ending", body = Problem, content_type = "application/problem+json"),
     ))]
-pub(crate) async fn remove_things(State(app): State<App>, Guest(guest): Guest) -> Result<Json<Things>> {
-    Ok(Json(app.engine.remove_things(&guest).await?))
+pub(crate) async fn delete_all(State(app): State<App>, Guest(guest): Guest) -> Result<Json<OwnedItems>> {
+    Ok(Json(app.engine.delete_all(&guest).await?))
 }
 
 /// Keeps what a guest has made for as long again, from now on.
-#[utoipa::path(post, path = "/things/keep", tag = "things", responses((status = 200, body = Things)))]
-pub(crate) async fn keep_longer(State(app): State<App>, Guest(guest): Guest) -> Result<Json<Things>> {
+#[utoipa::path(post, path = "/data/keep", tag = "data", responses((status = 200, body = OwnedItems)))]
+pub(crate) async fn keep_longer(State(app): State<App>, Guest(guest): Guest) -> Result<Json<OwnedItems>> {
     Ok(Json(app.engine.keep_longer(&guest).await?))
 }
 
 /// Everything that the visitor has made, to take along: objects, runs with their configurations and records, advice with its
 /// reduced objects, plugins with their reports, the account and its notices. A token gets no account data, and plugins only with their
 /// scope.
-#[utoipa::path(get, path = "/things.tar", tag = "things",
+#[utoipa::path(get, path = "/data.tar", tag = "data",
     responses(
         (status = 200, description = "A folder per thing, JSON beside OBJ and Parquet", body = [u8], content_type = "application/x-tar"),
         (status = 429, description = "Too many archives are being sent", body = Problem, content_type = "application/problem+json"),
     ))]
-pub(crate) async fn take_along(
+pub(crate) async fn export_data(
     State(app): State<App>,
     Guest(guest): Guest,
     token: Option<Extension<Token>>,
@@ -55,26 +55,26 @@ pub(crate) async fn take_along(
 }
 
 /// What goes with a run.
-#[utoipa::path(get, path = "/runs/{id}/things", tag = "things",
+#[utoipa::path(get, path = "/runs/{id}/deletion-preview", tag = "data",
     params(("id" = String, Path, description = "Run id")),
     responses(
-        (status = 200, description = "What DELETE of the run takes away", body = Things),
+        (status = 200, description = "What DELETE of the run takes away", body = OwnedItems),
         (status = 403, description = "Somebody else's run", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
     ))]
-pub(crate) async fn things_of_run(
+pub(crate) async fn deletion_preview_of_run(
     State(app): State<App>,
     Guest(guest): Guest,
     Path(id): Path<String>,
-) -> Result<Json<Things>> {
-    Ok(Json(app.engine.things_of_run(&id, &guest).await?))
+) -> Result<Json<OwnedItems>> {
+    Ok(Json(app.engine.deletion_preview_of_run(&id, &guest).await?))
 }
 
 /// Takes away a run with its results and the stored files that nobody else uses; one under way ends.
-#[utoipa::path(delete, path = "/runs/{id}", tag = "things",
+#[utoipa::path(delete, path = "/runs/{id}", tag = "data",
     params(("id" = String, Path, description = "Run id")),
     responses(
-        (status = 200, description = "What has gone", body = Things),
+        (status = 200, description = "What has gone", body = OwnedItems),
         (status = 403, description = "Somebody else's run", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
         (status = 409, description = "It is just ending", body = Problem, content_type = "application/problem+json"),
@@ -83,31 +83,31 @@ pub(crate) async fn remove_run(
     State(app): State<App>,
     Guest(guest): Guest,
     Path(id): Path<String>,
-) -> Result<Json<Things>> {
+) -> Result<Json<OwnedItems>> {
     Ok(Json(app.engine.remove_run(&id, &guest).await?))
 }
 
 /// What goes with an object: the visitor's runs and advice with it.
-#[utoipa::path(get, path = "/objects/{id}/things", tag = "things",
+#[utoipa::path(get, path = "/objects/{id}/deletion-preview", tag = "data",
     params(("id" = String, Path, description = "Object id")),
     responses(
-        (status = 200, description = "What DELETE of the object takes away", body = Things),
+        (status = 200, description = "What DELETE of the object takes away", body = OwnedItems),
         (status = 403, description = "Somebody else's object", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
     ))]
-pub(crate) async fn things_of_object(
+pub(crate) async fn deletion_preview_of_object(
     State(app): State<App>,
     Guest(guest): Guest,
     Path(id): Path<String>,
-) -> Result<Json<Things>> {
-    Ok(Json(app.engine.things_of_object(&id, &guest).await?))
+) -> Result<Json<OwnedItems>> {
+    Ok(Json(app.engine.deletion_preview_of_object(&id, &guest).await?))
 }
 
 /// Takes away an object, and the visitor's runs and advice with it; runs of others keep their numbers, and show no object.
-#[utoipa::path(delete, path = "/objects/{id}", tag = "things",
+#[utoipa::path(delete, path = "/objects/{id}", tag = "data",
     params(("id" = String, Path, description = "Object id")),
     responses(
-        (status = 200, description = "What has gone", body = Things),
+        (status = 200, description = "What has gone", body = OwnedItems),
         (status = 403, description = "Somebody else's object", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
         (status = 409, description = "A run with it is just ending", body = Problem, content_type = "application/problem+json"),
@@ -116,6 +116,6 @@ pub(crate) async fn remove_object(
     State(app): State<App>,
     Guest(guest): Guest,
     Path(id): Path<String>,
-) -> Result<Json<Things>> {
+) -> Result<Json<OwnedItems>> {
     Ok(Json(app.engine.remove_object(&id, &guest).await?))
 }

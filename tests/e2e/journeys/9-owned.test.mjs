@@ -22,7 +22,7 @@ test('what one has made is kept, taken along and taken away', async (t) => {
   await guest.accessible('my runs')
   await guest.picture('things')
 
-  const [download] = await Promise.all([guest.page.waitForEvent('download'), guest.at('take-along').click()])
+  const [download] = await Promise.all([guest.page.waitForEvent('download'), guest.at('export-data').click()])
   const archive = await readFile(await download.path())
   assert.equal(archive.subarray(257, 262).toString(), 'ustar')
   assert.ok(archive.includes(`opencollbench/runs/${runs[0]}/run.json`), 'the archive has the run')

@@ -9,22 +9,22 @@ use utoipa::ToSchema;
     "goes": { "runs": 12, "objects": 3, "advice": 1, "plugins": 1 },
     "stays": { "runs": 2, "objects": 1, "advice": 0, "plugins": 1 },
     "bytes": 7_340_032,
-    "hindrance": null
+    "blocked_by": null
 }))]
-pub struct Leaving {
+pub struct DeletionPreview {
     /// What is not public is deleted, with everything that the account was told and has chosen.
-    pub goes: LeavingCounts,
+    pub goes: OwnedCounts,
     /// What is public stays, because it is cited, and belongs to a former account without a name. A plugin stays once it was public.
-    pub stays: LeavingCounts,
+    pub stays: OwnedCounts,
     /// Bytes of the stored files that go: those that nobody else uses.
     pub bytes: u64,
     /// Why the account cannot be deleted now, and how to mend that.
-    pub hindrance: Option<String>,
+    pub blocked_by: Option<String>,
 }
 
 /// How many of each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-pub struct LeavingCounts {
+pub struct OwnedCounts {
     /// Runs with their results.
     pub runs: u32,
     /// Objects.
@@ -39,7 +39,7 @@ pub struct LeavingCounts {
 #[derive(Clone, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 #[schema(example = json!({ "password": "correct horse battery staple" }))]
-pub struct Farewell {
+pub struct DeleteAccount {
     /// The password, once more.
     pub password: String,
 }

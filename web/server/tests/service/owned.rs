@@ -43,7 +43,7 @@ async fn an_object_goes_with_what_was_made_with_it_and_with_no_file_of_others() 
 
     // Shown first, to its owner alone; nothing goes by looking.
     let path = format!("/api/v1/objects/{object}");
-    let shown = owner.json(&format!("{path}/things")).await;
+    let shown = owner.json(&format!("{path}/deletion-preview")).await;
     assert_eq!((&shown["runs"][0]["id"], shown["runs"].as_array().map(Vec::len)), (&json!(run), Some(1)));
     assert_eq!(shown["objects"], json!([{ "id": object, "name": "mine" }]));
     let bytes = shown["bytes"].as_u64().expect("bytes");
@@ -87,15 +87,15 @@ async fn a_run_under_way_ends_when_it_is_taken_away() {
 async fn guests_things_go_after_thirty_days_unless_they_ask_and_those_of_accounts_stay() {
     let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let (guest, member) = (service.guest(), member(&service, "member", Role::User).await);
-    assert_eq!(guest.json("/api/v1/things").await["kept_until_us"], Value::Null, "nothing is kept yet");
+    assert_eq!(guest.json("/api/v1/data").await["kept_until_us"], Value::Null, "nothing is kept yet");
     let (object, kept) = (uploaded(&guest).await, uploaded(&member).await);
-    let until = guest.json("/api/v1/things").await["kept_until_us"].as_i64().expect("a time");
+    let until = guest.json("/api/v1/data").await["kept_until_us"].as_i64().expect("a time");
     assert!((until - now_us() - 30 * DAY_US).abs() < DAY_US, "{until}");
-    assert_eq!(member.json("/api/v1/things").await["kept_until_us"], Value::Null);
+    assert_eq!(member.json("/api/v1/data").await["kept_until_us"], Value::Null);
 
     let sweep = async |day: i64| service.engine.sweep_once(now_us() + day * DAY_US).await.expect("it sweeps");
     assert_eq!(sweep(29).await, 0);
-    let asked = guest.post("/api/v1/things/keep").send().await.expect("an answer");
+    let asked = guest.post("/api/v1/data/keep").send().await.expect("an answer");
     assert_eq!(asked.status(), StatusCode::OK);
     let longer = asked.json::<Value>().await.expect("JSON")["kept_until_us"].as_i64().expect("a time");
     assert!(longer > until, "{longer} {until}");
@@ -104,7 +104,7 @@ async fn guests_things_go_after_thirty_days_unless_they_ask_and_those_of_account
     gone(&guest, &format!("/api/v1/objects/{object}")).await;
     assert_eq!(sweep(31).await, 0, "whoever has nothing is not swept again");
     member.bytes(&format!("/api/v1/objects/{kept}/mesh.glb")).await;
-    let all = remove(&member, "/api/v1/things").await;
+    let all = remove(&member, "/api/v1/data").await;
     assert_eq!(all["objects"].as_array().map(Vec::len), Some(1));
     assert_eq!(service.blobs(), 0);
     service.stop().await;
@@ -114,7 +114,7 @@ async fn guests_things_go_after_thirty_days_unless_they_ask_and_those_of_account
 async fn everything_is_taken_along_in_one_archive() {
     let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let made = Made::by(member(&service, "owner", Role::Developer).await).await;
-    let (bytes, media_type) = made.owner.bytes("/api/v1/things.tar").await;
+    let (bytes, media_type) = made.owner.bytes("/api/v1/data.tar").await;
     assert_eq!(media_type, "application/x-tar");
     let mut archive = tar::Archive::new(&bytes[..]);
     let mut files = BTreeMap::new();
@@ -152,8 +152,7 @@ async fn everything_is_taken_along_in_one_archive() {
         let asked = json!({ "name": scopes.to_string(), "scopes": scopes });
         let token = made.owner.post("/api/v1/account/tokens").json(&asked).send().await.expect("an answer");
         let token: Value = token.json().await.expect("JSON");
-        let program =
-            service.guest().get("/api/v1/things.tar").bearer_auth(token["secret"].as_str().expect("a secret"));
+        let program = service.guest().get("/api/v1/data.tar").bearer_auth(token["secret"].as_str().expect("a secret"));
         let bytes = program.send().await.expect("an answer").bytes().await.expect("an archive");
         let mut archive = tar::Archive::new(&bytes[..]);
         let paths: Vec<String> = archive
@@ -166,7 +165,7 @@ async fn everything_is_taken_along_in_one_archive() {
         assert!(!["account", "choices", "notices"].iter().any(|file| has(file)), "{paths:?}");
     }
     // A stranger's holds nothing of it.
-    let (empty, _) = service.guest().bytes("/api/v1/things.tar").await;
+    let (empty, _) = service.guest().bytes("/api/v1/data.tar").await;
     assert_eq!(tar::Archive::new(&empty[..]).entries().expect("an archive").count(), 1, "only the list of nothing");
     service.stop().await;
 }

@@ -6,16 +6,16 @@ use super::rows::*;
 use super::submissions::submission;
 use super::{add, object, run};
 use crate::model::{
-    AccountInfo, CheckLine, CheckVerdict, Cursor, InvitationInfo, InvitationState, NewChoices, NoticeInfo, PluginState,
-    Role, Scope, Thing, TokenInfo,
+    AccountInfo, CheckLine, CheckVerdict, Cursor, InvitationInfo, InvitationState, NewChoices, NoticeInfo, OwnedItem,
+    PluginState, Role, Scope, TokenInfo,
 };
 use crate::owned::sql::Unused;
 use crate::suite::Suite;
 
 const NOTE: Note<'static> = Note { actor: "Ada", action: "did", subject: "x", detail: "" };
 
-fn thing(id: &str) -> Thing {
-    Thing { id: id.into(), name: String::new() }
+fn thing(id: &str) -> OwnedItem {
+    OwnedItem { id: id.into(), name: String::new() }
 }
 
 /// How many rows of every table hold something of the account by its id, as an owner, or by its address.
@@ -52,7 +52,7 @@ async fn somebody(store: &Store, id: &str, name: &str) -> AccountInfo {
         "id": format!("n{id}"), "subject": "s", "text": "t", "link": "/runs", "created_us": 1, "read_us": null,
     }))
     .unwrap();
-    assert!(store.add_notice(Telling { account: id, notice: &notice, most: 9, mailing: true }).await.unwrap());
+    assert!(store.add_notice(NewNotice { account: id, notice: &notice, most: 9, mailing: true }).await.unwrap());
     let request = Request { owner: &owner, resource: "token", key: "k", digest: "d" };
     store.request(request, "1").await.unwrap();
     store.keep_longer(&owner).await.unwrap();
@@ -137,7 +137,7 @@ pub async fn an_account_goes_at_once_and_what_is_public_is_nobodys(store: Store)
     store.add_off_link(link).await.unwrap();
     let notice = store.notices("2", &Cursor::start(), 1).await.unwrap().remove(0);
     let told = NoticeInfo { id: "late".into(), ..notice };
-    assert!(!store.add_notice(Telling { account: "1", notice: &told, most: 9, mailing: true }).await.unwrap());
+    assert!(!store.add_notice(NewNotice { account: "1", notice: &told, most: 9, mailing: true }).await.unwrap());
     assert_eq!(rows_of(&store, "1").await, 0);
     // Its name is nobody else's.
     assert!(!store.add_account(&account("3", "ADA"), "hash").await.unwrap());

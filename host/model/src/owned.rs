@@ -5,7 +5,7 @@ use utoipa::ToSchema;
 
 /// A run or an object, as lists call it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-pub struct Thing {
+pub struct OwnedItem {
     /// Its id.
     pub id: String,
     /// Its name; of a run, those of its objects.
@@ -14,11 +14,11 @@ pub struct Thing {
 
 /// Runs, objects and advice of one owner: all of them, or those that go with one of them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-pub struct Things {
+pub struct OwnedItems {
     /// Runs with their results, newest first.
-    pub runs: Vec<Thing>,
+    pub runs: Vec<OwnedItem>,
     /// Objects, newest first.
-    pub objects: Vec<Thing>,
+    pub objects: Vec<OwnedItem>,
     /// How many pieces of advice.
     pub advice: u32,
     /// Bytes of the stored files that go with them: those that nobody else uses.

@@ -35,30 +35,30 @@ fn what_the_command_line_made_is_shown_taken_along_and_deleted() {
     let desk = Desk::new();
     let bench = ["bench", "stock:torus-knot@600", "--algorithm", "box-tree", "--count", "20", "--passes", "1"];
     let run = desk.json(&bench)["id"].as_str().expect("an id").to_owned();
-    let shown = desk.run(&["things", "show"]).stdout;
+    let shown = desk.run(&["data", "show"]).stdout;
     assert!(shown.contains(&run) && shown.contains("1 run, 0 objects"), "{shown}");
     let tar = desk.path("all.tar").to_str().expect("text").to_owned();
-    let taken = desk.json(&["things", "take-along", "-o", &tar]);
+    let taken = desk.json(&["data", "export", "-o", &tar]);
     assert_eq!(taken["bytes"].as_u64(), std::fs::metadata(&tar).ok().map(|file| file.len()));
     let bytes = std::fs::read(&tar).expect("a file");
     let name = format!("opencollbench/runs/{run}/run.json");
     assert!(bytes.windows(name.len()).any(|part| part == name.as_bytes()), "{name} is in the archive");
 
     // Without a terminal and without --yes nothing goes, and it is told what would.
-    let Ended { code, stdout, stderr } = desk.run(&["things", "delete", "run", "latest"]);
+    let Ended { code, stdout, stderr } = desk.run(&["data", "delete", "run", "latest"]);
     assert_eq!((code, stdout.as_str()), (2, ""), "{stderr}");
     assert!(stderr.contains(&run) && stderr.contains("Nothing was deleted; add --yes"), "{stderr}");
-    assert_eq!(desk.json(&["things", "show"])["runs"][0]["id"], run);
-    let gone = desk.json(&["things", "delete", "run", "latest", "--yes"]);
+    assert_eq!(desk.json(&["data", "show"])["runs"][0]["id"], run);
+    let gone = desk.json(&["data", "delete", "run", "latest", "--yes"]);
     assert_eq!(gone["runs"][0]["id"], run);
-    assert_eq!(desk.json(&["things", "show"])["runs"], serde_json::json!([]));
-    assert!(desk.refused(&["things", "delete", "run", &run, "--yes"]).contains(&run));
-    assert!(desk.refused(&["things", "delete", "run"]).contains("ID"));
-    assert!(desk.run(&["things", "delete", "all", "--yes"]).stdout.starts_with("Deleted: 0 runs, 0 objects"));
+    assert_eq!(desk.json(&["data", "show"])["runs"], serde_json::json!([]));
+    assert!(desk.refused(&["data", "delete", "run", &run, "--yes"]).contains(&run));
+    assert!(desk.refused(&["data", "delete", "run"]).contains("ID"));
+    assert!(desk.run(&["data", "delete", "all", "--yes"]).stdout.starts_with("Deleted: 0 runs, 0 objects"));
 }
 
 fn things<'a>(args: &[&'a str], account: &[&'a str]) -> Vec<&'a str> {
-    [&["things"], args, account].concat()
+    [&["data"], args, account].concat()
 }
 
 #[test]
@@ -86,10 +86,10 @@ fn what_an_account_has_on_a_service_is_its_own() {
     let account = ["--server", &service.url, "--token", token.as_str().expect("a secret")];
     assert_eq!(desk.json(&things(&["show"], &account))["runs"][0]["id"], run);
     let tar = desk.path("all.tar").to_str().expect("text").to_owned();
-    assert!(desk.json(&things(&["take-along", "-o", &tar], &account))["bytes"].as_u64() > Some(1024));
+    assert!(desk.json(&things(&["export", "-o", &tar], &account))["bytes"].as_u64() > Some(1024));
     assert_eq!(desk.json(&things(&["delete", "run", run, "--yes"], &account))["runs"][0]["id"], run);
     assert!(desk.refused(&things(&["delete", "run", run, "--yes"], &account)).contains("There is no run"));
-    assert!(desk.refused(&["things", "show", "--server", &service.url]).contains("--token"));
+    assert!(desk.refused(&["data", "show", "--server", &service.url]).contains("--token"));
     let link = desk.refused(&["cite", "run", run, "--server", &service.url]);
     assert!(link.contains("There is no run"), "{link}");
     assert!(!desk.path("data").exists(), "nothing is made here");
