@@ -32,25 +32,34 @@ pub struct Extent {
     pub repro: Option<Repro>,
 }
 
+/// What a check under way tells.
+#[derive(Clone, Copy, Debug)]
+pub enum Step<'a> {
+    /// Another line of the report.
+    Line(&'a CheckLine),
+    /// The file loads in the jail and describes its algorithms; what follows is about their answers.
+    Loads,
+}
+
 /// One check under way.
 struct Checking<'c> {
     report: PluginReport,
-    /// Hears every line as it is found; says whether to go on.
-    tell: &'c mut dyn FnMut(&CheckLine) -> bool,
+    /// Hears every step as it is made; says whether to go on.
+    tell: &'c mut dyn FnMut(Step<'_>) -> bool,
     stopped: bool,
     term: &'c Term<'c>,
     /// Nothing that takes longer than a second, such as looking for a small repro.
     quick: bool,
 }
 
-/// Makes the report within the term. Blocks, so it wants a thread of its own. `tell` hears every line as it is found, and
-/// gives false when nobody wants to know any more.
+/// Makes the report within the term. Blocks, so it wants a thread of its own. `tell` hears every step, and returns
+/// false to end the check.
 pub fn check_plugin(
     runner: &Runner,
     file: &Path,
     extent: &Extent,
     term: &Term<'_>,
-    tell: &mut dyn FnMut(&CheckLine) -> bool,
+    tell: &mut dyn FnMut(Step<'_>) -> bool,
 ) -> Result<PluginReport> {
     if !file.exists() {
         return Err(LabError::Invalid(format!("There is no file {}.", file.display())));
@@ -129,6 +138,7 @@ impl Checking<'_> {
                 let names: Vec<&str> = self.report.algorithms.iter().map(|a| a.id.as_str()).collect();
                 let evidence = format!("Loads in the jail and describes {}.", names.join(", "));
                 self.line("load and describe", CheckVerdict::Pass, evidence, None);
+                self.stopped |= !(self.tell)(Step::Loads);
                 Ok(true)
             }
             Err(ending) if ending.outcome.ours() => Err(LabError::Fault(ending.to_string())),
@@ -168,7 +178,7 @@ impl Checking<'_> {
     }
 
     fn add(&mut self, line: CheckLine) {
-        self.stopped |= !(self.tell)(&line);
+        self.stopped |= !(self.tell)(Step::Line(&line));
         self.report.lines.push(line);
     }
 

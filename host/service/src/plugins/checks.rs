@@ -4,14 +4,14 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
-use ocb_lab::check::{Extent, Term, check_plugin};
+use ocb_lab::check::{Extent, Step, Term, check_plugin};
 use tokio::runtime::Handle;
 
 use crate::audit::Note;
 use crate::engine::Inner;
 use crate::machine::MeasuringRight;
 use crate::measure::Stop;
-use crate::model::{CheckLine, CheckVerdict, PluginReport, PluginState};
+use crate::model::{CheckVerdict, PluginReport, PluginState};
 use crate::plugins::conflict;
 use crate::plugins::notices::of_check;
 use crate::plugins::registry::brought;
@@ -60,18 +60,18 @@ fn check(
         }
     };
     let (mut seq, mut fault) = (0, None);
-    let mut tell = |line: &CheckLine| {
-        seq += 1;
+    let mut tell = |step: Step<'_>| {
         let kept = handle.block_on(async {
-            inner.store.add_line(&row.id, seq, line).await?;
-            // The file may be loaded: what follows is about its answers.
-            if line.check == "load and describe" && line.verdict == CheckVerdict::Pass {
-                inner
-                    .store
-                    .move_submission(&row.id, PluginState::Uploaded, PluginState::Vetted, "", None, None)
-                    .await?;
+            match step {
+                Step::Line(line) => {
+                    seq += 1;
+                    inner.store.add_line(&row.id, seq, line).await
+                }
+                Step::Loads => {
+                    let (from, to) = (PluginState::Uploaded, PluginState::Vetted);
+                    inner.store.move_submission(&row.id, from, to, "", None, None).await.map(|_| ())
+                }
             }
-            Ok(())
         });
         if let Err(e) = kept {
             fault = Some(e);
