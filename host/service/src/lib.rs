@@ -20,6 +20,7 @@ mod error;
 mod mail;
 mod notices;
 mod objects;
+mod open;
 mod owned;
 mod plugins;
 mod quotas;

@@ -1,5 +1,6 @@
 //! Objects: made on demand, shipped with the service, or added by somebody.
 
+mod ask;
 pub mod sql;
 
 use std::path::PathBuf;

@@ -1,5 +1,6 @@
 //! Plugins that developers bring: sending, looking, deciding.
 
+mod algorithms;
 pub mod checks;
 pub mod lists;
 pub mod notices;
@@ -64,7 +65,7 @@ impl Engine {
         }
         if !bytes.starts_with(b"\x7fELF") {
             return Err(EngineError::Invalid(format!(
-                "{file:?} is no plugin: it is no ELF file; build a shared library (.so) for Linux."
+                "{file:?} is no plugin: it is not an ELF file; build a shared library (.so) for Linux."
             )));
         }
         let signed_by = signature.map(|signature| signed_by(account, &bytes, signature)).transpose()?;

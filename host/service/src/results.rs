@@ -1,5 +1,6 @@
 //! From stored records to heatmaps, charts and files.
 
+mod ask;
 mod selected;
 pub mod selecting;
 pub mod sql;

@@ -9,6 +9,7 @@ use ocb_core::mesh::Mesh;
 use ocb_core::oracle::Shape;
 
 use crate::Result;
+use crate::blocking::blocking;
 use crate::boxed;
 use crate::columns::{SetOf, set_parquet};
 use crate::configurations::{Gauge, describe, make, read_file, set_key};
@@ -37,6 +38,22 @@ impl SetJob {
 }
 
 impl Engine {
+    /// Keeps a file of configurations (a Parquet set of ours, JSON, CSV or raw f64 matrices) and gives the method that
+    /// names it in a [`RunSpec`].
+    #[boxed]
+    pub async fn add_configurations(&self, bytes: Vec<u8>) -> Result<Method> {
+        let bytes = blocking(move || {
+            read_file(&bytes)?;
+            Ok(bytes)
+        })
+        .await?;
+        let length = bytes.len();
+        let _keeping = self.inner.blobs.keeping().await;
+        let sha256 = self.inner.blobs.put(bytes).await?;
+        self.inner.store.add_blob(&sha256, length, "application/octet-stream").await?;
+        Ok(Method::File { sha256 })
+    }
+
     /// Checks a request for a set. Of the spec, the objects, the method and the separation count.
     #[boxed]
     pub async fn set_job(&self, spec: &RunSpec) -> Result<SetJob> {

@@ -22,7 +22,7 @@ pub struct Store {
     pub(crate) pool: AnyPool,
     /// Begins a transaction whose reads all see the same moment.
     pub(crate) one_moment: &'static str,
-    pub(crate) turns: crate::runs::places::Known,
+    pub(crate) turns: crate::runs::turn::Known,
 }
 
 impl Store {
@@ -60,7 +60,7 @@ impl Store {
         migrations().run(&pool).await.map_err(|e| EngineError::fault("Migrating the database failed", e))?;
         // SQLite's transactions see one moment anyway, PostgreSQL's have to ask for it.
         let one_moment = if sqlite { "BEGIN" } else { "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY" };
-        Ok(Self { pool, one_moment, turns: crate::runs::places::Known::default() })
+        Ok(Self { pool, one_moment, turns: crate::runs::turn::Known::default() })
     }
 
     /// Closes all connections; what was written is on disk.

@@ -123,10 +123,10 @@ async fn a_file_that_is_no_plugin_is_reported() {
     let report = engine.check_plugin(&file, common::quick()).await.unwrap();
     assert!(!report.passed);
     assert_eq!(report.lines.len(), 1);
-    assert!(report.lines[0].evidence.contains("no ELF file"), "{}", report.lines[0].evidence);
+    assert!(report.lines[0].evidence.contains("not an ELF file"), "{}", report.lines[0].evidence);
     assert!(report.lines[0].hint.is_some());
     let absent = engine.check_plugin(&data.path().join("absent.so"), common::quick()).await.unwrap_err();
-    check_sentence(&absent, "There is no file");
+    check_sentence(&absent, "does not exist");
 }
 
 #[tokio::test]

@@ -89,7 +89,7 @@ async fn many_slow_algorithms_share_one_limit() {
     assert!(took < 5 * limit, "{took:?}");
     assert!(!report.passed);
     let late: Vec<_> =
-        report.lines.iter().filter(|line| line.evidence.starts_with("Not reached within the limit")).collect();
+        report.lines.iter().filter(|line| line.evidence.starts_with("Not finished within the limit")).collect();
     assert_eq!(late.len(), 64, "each algorithm had its turn: {:?}", report.lines);
     assert!(late.iter().all(|line| line.verdict == CheckVerdict::Fail && line.evidence.contains("12 seconds")));
     assert!(late[0].hint.as_ref().unwrap().contains("fewer algorithms"));

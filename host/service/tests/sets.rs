@@ -119,7 +119,7 @@ async fn a_set_does_not_depend_on_the_threads() {
     let often = json!({ "kind": "random", "count": 9, "hit_share": 0.9 });
     let job = engine.set_job(&spec(&speck, often, json!({}))).await.expect("a good spec");
     let error = job.find(&Gauge::default()).map(|_| ()).expect_err("no box").to_string();
-    assert!(error.contains("in no box"), "{error}");
+    assert!(error.contains("no box gives"), "{error}");
     assert!(job.find(&stopped).expect("no fault").is_none());
 }
 
@@ -148,7 +148,7 @@ async fn what_cannot_be_is_refused_in_one_sentence() {
     let fine = json!({ "kind": "grid", "sampling": { "kind": "steps", "rotate": 180.0, "move": 0.3 } });
     let job = engine.set_job(&spec("stock:sponge@600", fine, json!({}))).await.expect("it may be");
     let error = job.find(&Gauge::default()).map(|_| ()).expect_err("too fine").to_string();
-    assert!(error.contains("places for each rotation"), "{error}");
+    assert!(error.contains("positions for each rotation"), "{error}");
     // Far objects would cost without limit.
     let far = json!([[1, 0, 0, 1e9, 0, 1, 0, 0, 0, 0, 1, 0]]).to_string();
     let method = engine.add_configurations(far.into_bytes()).await.expect("finite poses");

@@ -134,7 +134,7 @@ mod tests {
     #[test]
     fn only_the_plugins_own_failures_take_it_out() {
         let crash = result("Signaled", "The plugin crashed (SIGSEGV, signal 11).", false, 0);
-        let well = result("Completed", "The plugin answered everything it was asked.", false, 0);
+        let well = result("Completed", "The plugin answered every query.", false, 0);
         assert_eq!(failing(&crash, true, None).as_deref(), Some("The plugin crashed (SIGSEGV, signal 11)."));
         for name in
             ["Failed", "LoadError", "TimedOut", "OutOfMemory", "OutputLimit", "SyscallDenied", "ProtocolViolation"]
@@ -146,7 +146,8 @@ mod tests {
         killed.outcome.signal = Some(9);
         // What it says itself spares nobody.
         for name in ["Failed", "Signaled"] {
-            let liar = result(name, "The plugin gave up while it answered a query: SIGKILL, signal 9.", false, 0);
+            let liar =
+                result(name, "The plugin reported an error while loading: SIGKILL, signal 9.", false, 0);
             assert!(failing(&liar, true, Some(&well)).is_some(), "{name}");
         }
         for innocent in [

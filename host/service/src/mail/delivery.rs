@@ -9,7 +9,8 @@ use lettre::transport::smtp::client::{AsyncSmtpConnection, Certificate, TlsParam
 use lettre::transport::smtp::extension::ClientId;
 use lettre::transport::smtp::response::Code;
 
-use super::{MailServer, Security, one_line};
+use super::letter::one_line;
+use super::server::{MailServer, Security};
 
 /// For QUIT, whose answer changes nothing.
 const QUIT_TIMEOUT: Duration = Duration::from_secs(2);

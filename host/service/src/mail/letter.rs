@@ -6,7 +6,7 @@ use lettre::Message;
 use lettre::message::header::{HeaderName, HeaderValue};
 use lettre::message::{Mailbox, SinglePart};
 
-use super::{MailServer, address};
+use super::server::{MailServer, address};
 use crate::{EngineError, Result};
 
 /// A mail before it is written.

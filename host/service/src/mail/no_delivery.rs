@@ -4,7 +4,7 @@ use std::convert::Infallible;
 
 use lettre::Message;
 
-use super::MailServer;
+use super::server::MailServer;
 
 /// Why the server does not have the mail.
 #[derive(Clone, Debug, PartialEq, Eq)]

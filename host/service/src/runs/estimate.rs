@@ -4,14 +4,14 @@ use ocb_core::instance::OTHER_UNITS;
 use ocb_core::sampling::controls;
 use ocb_lab::contestant::Contestant;
 
-use crate::Result;
 use crate::configurations::set_key;
-use crate::engine::Inner;
+use crate::engine::{Engine, Inner};
 use crate::measure::asked_in_another_unit;
-use crate::model::{AlgorithmSeconds, Estimate};
+use crate::model::{AlgorithmSeconds, Estimate, RunSpec};
 use crate::runs::spec;
 use crate::runs::spec::Checked;
 use crate::store::now_us;
+use crate::{EngineError, Result, boxed};
 
 /// Seconds per configuration before anything was found on this machine.
 const FIRST_CONFIGURATION: f64 = 2e-3;
@@ -19,6 +19,31 @@ const FIRST_CONFIGURATION: f64 = 2e-3;
 const FIRST_QUERY: f64 = 1e-4;
 /// Starting a runner and building both structures, per pass.
 const START: f64 = 0.5;
+
+impl Engine {
+    /// Number of configurations, expected time and wait of a run that is not asked for yet; checks the spec as `submit`.
+    #[boxed]
+    pub async fn estimate(&self, spec: &RunSpec, viewer: Option<&str>) -> Result<Estimate> {
+        estimate(&self.inner, &self.check(spec, viewer).await?).await
+    }
+
+    /// The same for a visitor, with what their limits say of it.
+    #[boxed]
+    pub async fn estimate_for(&self, spec: &RunSpec, owner: &str) -> Result<Estimate> {
+        let checked = self.check(spec, Some(owner)).await?;
+        let expected = estimate(&self.inner, &checked).await?;
+        match self.inner.may_be_asked_for(owner, &checked.spec, expected.total_seconds) {
+            Ok(()) => Ok(expected),
+            Err(EngineError::Invalid(why)) => Ok(Estimate { refused: Some(why), ..expected }),
+            Err(e) => Err(e),
+        }
+    }
+
+    pub(crate) async fn check(&self, spec: &RunSpec, viewer: Option<&str>) -> Result<Checked> {
+        let inner = &self.inner;
+        spec::check(spec, &inner.objects, &inner.registry, &inner.store, &inner.blobs, viewer).await
+    }
+}
 
 /// Expected numbers of a checked request, and of what would be before it in the queue.
 pub async fn estimate(inner: &Inner, checked: &Checked) -> Result<Estimate> {

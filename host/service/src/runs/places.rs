@@ -3,30 +3,14 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use tokio::sync::Mutex;
-
 use crate::Result;
+use crate::runs::turn::{Since, Turn};
 use crate::store::Store;
 
 /// Turns of which there are so many are not counted anew for everybody who looks.
 const MANY: usize = 100;
 /// So long they stand.
 const STAND: Duration = Duration::from_secs(1);
-
-/// The turns at one priority as they were a moment ago, if they were many.
-pub(crate) type Known = Arc<Mutex<Option<(Instant, i64, Arc<Vec<Turn>>)>>>;
-
-/// Who waits for a turn.
-#[derive(Clone, Debug)]
-pub(crate) struct Turn {
-    turn: String,
-    /// So many runs.
-    waiting: i64,
-    since: Since,
-}
-
-/// The turn with the smallest is next: when it was served last, then what it waits with.
-type Since = (i64, i64, String);
 
 impl Store {
     /// How many runs wait at this priority or a smaller one, and the seconds that they were expected to take.
