@@ -28,8 +28,13 @@ const SLOW_SENDERS: usize = 50;
 /// What the honest visitor looks at, below the address of the service.
 const LOOKED_AT: [&str; 6] =
     ["/", "/board", "/api/v1/status", "/api/v1/objects", "/api/v1/algorithms", "/api/v1/featured"];
+/// The hostile visitors reach a limit within this time, however soon the honest one's run is done.
+const TO_A_LIMIT: Duration = Duration::from_secs(60);
 /// The service has no more memory than this at any time, KiB.
 const MEMORY_KIB: u64 = 250 << 10;
+
+/// How many requests of the hostile visitors were answered with which status.
+type Answers = Mutex<BTreeMap<u16, u64>>;
 
 #[test]
 fn one_honest_visitor_goes_on_beside_hostile_ones() {
@@ -49,7 +54,7 @@ fn one_honest_visitor_goes_on_beside_hostile_ones() {
     fill_the_queue(&data, owners);
 
     let service = Service::start_with(&data, &PLUGINS);
-    let (stop, answers) = (AtomicBool::new(false), Mutex::default());
+    let (stop, answers) = (AtomicBool::new(false), Answers::default());
     let (beside, turns) = std::thread::scope(|scope| {
         for number in 0..ADDRESSES {
             let (service, stop, answers) = (&service, &stop, &answers);
@@ -58,7 +63,7 @@ fn one_honest_visitor_goes_on_beside_hostile_ones() {
         scope.spawn(|| send_slowly(&service, &stop));
         // Also when something fails below.
         let _ended = Ended(&stop);
-        let turns = scope.spawn(|| turns(&service, owners, minutes, &stop));
+        let turns = scope.spawn(|| turns(&service, owners, minutes, &stop, &answers));
         let mut beside = Vec::new();
         while !turns.is_finished() {
             beside.push(journey(&honest, &service));
@@ -135,12 +140,14 @@ fn journey(honest: &Guest, service: &Service) -> f64 {
 }
 
 /// Runs of a second honest visitor, one after the other, each of which has to start in its turn; how many there were.
-fn turns(service: &Service, owners: u64, minutes: u64, stop: &AtomicBool) -> usize {
+fn turns(service: &Service, owners: u64, minutes: u64, stop: &AtomicBool, answers: &Answers) -> usize {
     let honest = Guest::from_address("198.51.100.8");
     // Every other visitor has one turn before it, and one run is under way; one more may come between two looks.
     let most = owners + ADDRESSES + 2;
     let (begun, mut done) = (Instant::now(), 0);
-    while done == 0 || begun.elapsed() < Duration::from_secs(60 * minutes) {
+    let refused = || answers.lock().unwrap_or_else(PoisonError::into_inner).contains_key(&429);
+    let lasting = || begun.elapsed() < Duration::from_secs(60 * minutes) || !refused() && begun.elapsed() < TO_A_LIMIT;
+    while done == 0 || lasting() {
         let id = honest.submit(service, &run(20, 1.0));
         let end = Instant::now() + Duration::from_secs(600 + 10 * most);
         loop {
@@ -161,7 +168,7 @@ fn turns(service: &Service, owners: u64, minutes: u64, stop: &AtomicBool) -> usi
 }
 
 /// A visitor who never shows a cookie, from one network: runs, objects, advice, and names that nobody has.
-fn flood(service: &Service, number: u64, stop: &AtomicBool, answers: &Mutex<BTreeMap<u16, u64>>) {
+fn flood(service: &Service, number: u64, stop: &AtomicBool, answers: &Answers) {
     let address = format!("203.0.113.{number}");
     let advice = json!({"object_a": "stock:torus-knot@600", "question": {"kind": "distance", "tolerance": 0.01}});
     for turn in 0_usize.. {
