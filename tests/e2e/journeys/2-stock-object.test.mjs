@@ -70,7 +70,7 @@ test('each way of finding configurations has its fields, its estimate and its co
   await v.picture('builder-random')
   await v.at('start').click()
   await runId(v.page)
-  const facts = v.page.getByRole('region', { name: 'Measured under' })
+  const facts = v.page.getByRole('region', { name: 'Conditions' })
   await facts.waitFor({ timeout: 120_000 })
   const text = await facts.textContent()
   for (const words of ['random, 150 poses, 25 % colliding', 'Coverage', 'Entropy']) assert.ok(text.includes(words), `${words} in ${text}`)

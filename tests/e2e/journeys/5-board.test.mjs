@@ -59,7 +59,7 @@ test('the board compares what was measured, filters it, and can be linked and ta
 
   // These are runs of people, and the page says so; what the suite asks stands beside it.
   await v.at('board-people').waitFor()
-  await v.page.getByText(/What suite \d+ asks/).click()
+  await v.page.getByText(/Contents of suite \d+/).click()
   assert.match(await v.page.locator('section[aria-label=Suite] dl').textContent(), /torus-knot@4000 against itself/)
 
   for (const width of [390, 1280, 1440]) {

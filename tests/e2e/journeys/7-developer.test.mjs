@@ -61,7 +61,7 @@ test('a developer publishes a plugin, a curator decides, a user benchmarks it', 
   await curator.at('request-ada').waitFor()
   await curator.accessible('the page of curators')
   await curator.at('welcome-ada').click()
-  await curator.page.getByText('Nobody asks.').waitFor()
+  await curator.page.getByText('No pending requests.').waitFor()
 
   // A plugin that misses collisions gets no further, and says which.
   await submit(developer, plugin(folder, 'liar', '    if (a->triangle_count > 0) result->hit = pose_b[3] > pose_a[3];'), '0.9')

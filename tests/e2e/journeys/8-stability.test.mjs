@@ -35,7 +35,7 @@ async function failing(v) {
 test('nothing tried yet says what to do', async (t) => {
   const v = await visitor(t)
   await v.go('/stability')
-  await v.page.getByText('No method was tried yet').waitFor()
+  await v.page.getByText('No algorithm has been tested yet').waitFor()
   await v.accessible('the empty stability page')
 })
 

@@ -9,7 +9,7 @@ test('a question finds its level of detail, and cancelling ends the work', async
   await v.at('stock-card-torus-knot').locator('input').check({ force: true })
   await v.accessible('the advisor’s form')
   await v.at('tolerance').fill('0')
-  await v.page.getByText('The largest error is more than 0 %').waitFor()
+  await v.page.getByText('The largest error must be more than 0 %').waitFor()
   assert.ok(await v.at('ask').isDisabled())
   await v.at('tolerance').fill('2')
   await v.at('ask').click()
@@ -43,7 +43,7 @@ test('a question finds its level of detail, and cancelling ends the work', async
   await v.at('asks-clearance').check({ force: true })
   await v.at('ask').click()
   await v.at('cancel').click()
-  await v.page.getByText('This was cancelled').waitFor()
+  await v.page.getByText('This advice was cancelled').waitFor()
   await v.page.goBack()
 })
 

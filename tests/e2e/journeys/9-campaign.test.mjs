@@ -25,7 +25,7 @@ test('a curator has stored results measured again and watches them stand side by
   const [curator, guest] = [await visitor(t, { base: service.url, scheme: 'dark' }), await visitor(t, { base: service.url })]
 
   await guest.go('/campaigns')
-  await guest.page.getByText('Nothing was measured again yet.').waitFor()
+  await guest.page.getByText('There are no campaigns yet.').waitFor()
   await guest.accessible('no campaigns')
   assert.equal(await guest.at('campaign-begin').count(), 0, 'the button is for curators')
 
@@ -67,6 +67,6 @@ test('a curator has stored results measured again and watches them stand side by
   await guest.at('comparison').waitFor()
   await guest.accessible('a campaign that a guest looks at')
   await curator.go('/campaigns')
-  await curator.at('campaign-preview').getByText('Nothing is to be measured again').waitFor()
+  await curator.at('campaign-preview').getByText('Nothing to measure again').waitFor()
   assert.ok(await curator.at('campaign-begin').isDisabled())
 })

@@ -19,8 +19,8 @@ test('an account is deleted, and what was public stays without a name', async (t
   await owner.api(`/runs/${runs[0]}/visibility`, { method: 'PUT', data: { visibility: 'public' } })
 
   await owner.at('leave').click()
-  await owner.at('deletion-goes').getByText('For good go 1 run, and your password').waitFor()
-  await owner.at('deletion-stays').getByText('1 run will stay, and name nobody').waitFor()
+  await owner.at('deletion-goes').getByText('This permanently deletes 1 run, and your password').waitFor()
+  await owner.at('deletion-stays').getByText('1 run will stay, without your name').waitFor()
   await owner.accessible('an account that is to be deleted')
   await owner.picture('account-deletion')
   const [download] = await Promise.all([owner.page.waitForEvent('download'), owner.at('export-first').click()])

@@ -30,7 +30,7 @@ test('what one has made is kept, taken along and taken away', async (t) => {
   // One run: shown first, then gone; the address leads nowhere any more.
   await guest.go(`/r/${runs[0]}`)
   await guest.at('remove').click()
-  await guest.page.getByText('1 run will be gone for good').waitFor()
+  await guest.page.getByText('1 run will be deleted permanently').waitFor()
   await guest.accessible('a run that is to go')
   await guest.picture('things-one')
   await guest.at('remove-now').click()
@@ -39,9 +39,9 @@ test('what one has made is kept, taken along and taken away', async (t) => {
 
   // Everything.
   await guest.at('remove').click()
-  await guest.at('goes').getByText('1 run will be gone for good').waitFor()
+  await guest.at('goes').getByText('1 run will be deleted permanently').waitFor()
   await guest.picture('things-all')
   await guest.at('remove-now').click()
-  await guest.page.getByText('Nothing here yet').waitFor()
+  await guest.page.getByText('No runs yet').waitFor()
   assert.deepEqual(await guest.api('/runs'), [])
 })

@@ -21,7 +21,7 @@ test('a signed plugin says so, and a foreign signature is refused', async (t) =>
   developer.expectRefusal('/account/signing-key')
   await developer.at('public-key').fill('my key')
   await developer.at('register-key').click()
-  await developer.page.getByText('no public key of minisign').waitFor()
+  await developer.page.getByText('not a minisign public key').waitFor()
   await developer.at('public-key').fill(own.publicKey)
   await developer.at('register-key').click()
   const key = own.publicKey.trim().split('\n')[1]
@@ -39,7 +39,7 @@ test('a signed plugin says so, and a foreign signature is refused', async (t) =>
   const signature = (by) => ({ name: 'signed.so.minisig', mimeType: 'text/plain', buffer: Buffer.from(by.signed(bytes)) })
   await developer.at('signature-file').setInputFiles(signature(foreign))
   await developer.at('submit-plugin').click()
-  await developer.at('submit-problem').getByText('not that of this file by your registered key').waitFor()
+  await developer.at('submit-problem').getByText('does not match this file and your registered key').waitFor()
   await developer.accessible('a submission with a foreign signature')
   await developer.picture('signature-refused')
   await developer.at('signature-file').setInputFiles(signature(own))

@@ -125,7 +125,7 @@ function shares() {
   return {
     spots: (point: AdvicePoint) => [...spot(point.false_alarms, false), ...spot(point.missed, true)],
     panel: {
-      top, title: 'wrong answers, %: filled false alarms (of what is clear), hollow missed (of what is not)',
+      top, title: 'wrong answers, %: filled false alarms (of clear configurations), hollow missed (of the others)',
       ticks: [0, 0.25, 0.5, 0.75, 1].map((share) => ({ at: scale(share), text: significant(100 * share) })),
     },
   }

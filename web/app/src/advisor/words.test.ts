@@ -6,7 +6,7 @@ const levels = [8000, 4000, 2000].map((triangles) => ({ triangles, thickness: 0,
 const advice = { levels_a: levels, levels_b: levels, longest_side: 2, stages: [[2, 1]], triangles_before: 16_000, triangles_after: 6000 } as unknown as Advice
 
 test('advice is told with what it saves, or that it saves nothing', () => {
-  expect(headline(advice)).toBe('Enough: 2,000 + 4,000 instead of 16,000 triangles, 2.67 times fewer.')
+  expect(headline(advice)).toBe('Sufficient: 2,000 + 4,000 instead of 16,000 triangles, 2.67 times fewer.')
   expect(headline({ ...advice, stages: [] })).toContain('less detail saves nothing')
   expect(stagesText(advice, [[2, 2], [1, 1]])).toBe('2,000 + 2,000, then 4,000 + 4,000')
 })
@@ -22,7 +22,7 @@ test('numbers come with their intervals, shares with their counts', () => {
 test('another method is named with its setting, and its size in what it consists of', () => {
   const spheres = { kind: 'inner_spheres', algorithm: 'inner-spheres:spheres=512', elements: 1024, unit: 'spheres', certified: false } as AdvicePoint
   expect(pointName(advice, spheres)).toBe('Inner spheres, inner-spheres:spheres=512 (uncertified)')
-  expect(pointName({ ...advice, configurations: 400 }, { ...spheres, asked: 37 })).toContain('(uncertified; 37 of 400 asked)')
+  expect(pointName({ ...advice, configurations: 400 }, { ...spheres, asked: 37 })).toContain('(uncertified; 37 of 400 queried)')
   expect(sizeText(spheres)).toBe('1,024 spheres')
   expect(settingText(spheres)).toBe('spheres=512')
   expect(settingText({ ...spheres, kind: 'single_precision', algorithm: 'parry-f32' })).toBe('f32')

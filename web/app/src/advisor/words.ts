@@ -26,7 +26,7 @@ export function stagesText(advice: Advice, stages: readonly (readonly number[])[
 
 /** What a way asks, in words. */
 export function pointName(advice: Advice, point: AdvicePoint): string {
-  const asked = point.asked == null ? '' : `${count(point.asked)} of ${count(advice.configurations)} asked`
+  const asked = point.asked == null ? '' : `${count(point.asked)} of ${count(advice.configurations)} queried`
   const remarks = [point.certified ? '' : 'uncertified', asked].filter(Boolean).join('; ')
   return remarks ? `${bareName(advice, point)} (${remarks})` : bareName(advice, point)
 }
@@ -34,7 +34,7 @@ export function pointName(advice: Advice, point: AdvicePoint): string {
 function bareName(advice: Advice, point: AdvicePoint): string {
   switch (point.kind) {
     case 'whole': return 'Whole objects, distance'
-    case 'same_question': return 'Whole objects, just this question'
+    case 'same_question': return 'Whole objects, only this query'
     case 'yes_no': return 'Whole objects, yes or no instead of a distance'
     case 'levels': return `Levels ${stagesText(advice, point.stages)}`
     case 'advised': return 'Advised'
@@ -61,8 +61,8 @@ export function settingText({ kind, algorithm }: AdvicePoint): string {
 /** The advice in one sentence. */
 export function headline(advice: Advice): string {
   const { stages, triangles_before: before, triangles_after: after } = advice
-  if (stages.length === 0) return `The whole objects, ${count(before)} triangles, answer this fastest: less detail saves nothing here.`
-  return `Enough: ${stagesText(advice, stages)} instead of ${count(before)} triangles, ${significant(before / after)} times fewer.`
+  if (stages.length === 0) return `The whole objects, ${count(before)} triangles, are the fastest: less detail saves nothing here.`
+  return `Sufficient: ${stagesText(advice, stages)} instead of ${count(before)} triangles, ${significant(before / after)} times fewer.`
 }
 
 /** The work has not ended. */

@@ -2101,7 +2101,7 @@ export interface components {
          * @description A campaign that is asked for.
          * @example {
          *       "people": true,
-         *       "reason": "A new machine: the class before was retired.",
+         *       "reason": "A new machine; the old hardware class was retired.",
          *       "suite": true
          *     }
          */
@@ -3062,7 +3062,7 @@ export interface components {
          *       "link": "/p/0199f3a0-11aa-7c02-b1d4-5a0f9be2c377",
          *       "read_us": null,
          *       "subject": "Your plugin Gauss map 1.2.0 is public",
-         *       "text": "A curator approved it. Everybody may benchmark it from now on."
+         *       "text": "A curator approved it. Anyone may benchmark it now."
          *     }
          */
         NoticeInfo: {
@@ -4534,7 +4534,7 @@ export interface operations {
                     "application/json": components["schemas"]["Identity"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -4543,7 +4543,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -4567,7 +4567,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description Made and entered */
+            /** @description Created and logged in */
             201: {
                 headers: {
                     [name: string]: unknown;
@@ -4585,7 +4585,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -4594,7 +4594,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -4630,7 +4630,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -4672,7 +4672,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description What has gone and what stays; nobody is logged in any more */
+            /** @description What was deleted and what stays; all sessions are closed */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -4690,7 +4690,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -4699,7 +4699,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The password is another one */
+            /** @description Wrong password */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -4717,7 +4717,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody else could decide in its place, or a run is just ending */
+            /** @description The account is the last curator or administrator, or a run is just ending */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4735,7 +4735,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -4753,7 +4753,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Too many tries */
+            /** @description Too many attempts */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -4777,7 +4777,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description All choices as they are now */
+            /** @description All current choices */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -4795,7 +4795,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -4804,7 +4804,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -4831,7 +4831,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -4840,7 +4840,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No address */
+            /** @description Not an address */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -4849,7 +4849,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Too many tries */
+            /** @description Too many attempts */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -4869,7 +4869,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description All choices as they are now */
+            /** @description All current choices */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -4878,7 +4878,7 @@ export interface operations {
                     "application/json": components["schemas"]["Choices"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -4887,7 +4887,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -4911,7 +4911,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description All choices as they are now */
+            /** @description All current choices */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -4929,7 +4929,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -4938,7 +4938,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -4947,7 +4947,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The link confirms nothing of this account, or not any more: which of it is not said */
+            /** @description The link is not valid for this account or has expired; the answer does not say which */
             404: {
                 headers: {
                     [name: string]: unknown;
@@ -4974,7 +4974,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -4983,7 +4983,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not fit */
+            /** @description The body is not valid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -4992,7 +4992,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Too many tries */
+            /** @description Too many attempts */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -5020,7 +5020,7 @@ export interface operations {
                     "application/json": components["schemas"]["Choices"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5029,7 +5029,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5053,7 +5053,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description All choices as they are now */
+            /** @description All current choices */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -5071,7 +5071,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5080,7 +5080,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5107,7 +5107,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -5116,7 +5116,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not fit */
+            /** @description The body is not valid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -5140,7 +5140,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description Asked */
+            /** @description Requested */
             204: {
                 headers: {
                     [name: string]: unknown;
@@ -5156,7 +5156,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5165,7 +5165,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5183,7 +5183,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Is one already */
+            /** @description Already a developer */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -5201,7 +5201,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -5234,7 +5234,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description The account as it is now */
+            /** @description The updated account */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -5252,7 +5252,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5261,7 +5261,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5270,7 +5270,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No such invitation, or not any more: which of it is not said */
+            /** @description The invitation does not exist or has expired; the answer does not say which */
             404: {
                 headers: {
                     [name: string]: unknown;
@@ -5288,7 +5288,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Is a developer already */
+            /** @description Already a developer */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -5306,7 +5306,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -5315,7 +5315,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not fit */
+            /** @description The body is not valid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -5324,7 +5324,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Too many tries */
+            /** @description Too many attempts */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -5352,7 +5352,7 @@ export interface operations {
                     "application/json": components["schemas"]["DeletionPreview"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5361,7 +5361,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5385,7 +5385,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description Entered */
+            /** @description Logged in */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -5403,7 +5403,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5439,7 +5439,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -5448,7 +5448,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Something is missing */
+            /** @description A field is missing */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -5457,7 +5457,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Too many tries */
+            /** @description Too many attempts */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -5477,14 +5477,14 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description Left */
+            /** @description Logged out */
             204: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content?: never;
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5493,7 +5493,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5513,14 +5513,14 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description Left everywhere */
+            /** @description Logged out everywhere */
             204: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content?: never;
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5529,7 +5529,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5569,7 +5569,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5578,7 +5578,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The old password is another one */
+            /** @description The old password is wrong */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5605,7 +5605,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -5614,7 +5614,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The new one is too short */
+            /** @description The new password is too short */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -5638,7 +5638,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description The account as it is now */
+            /** @description The updated account */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -5656,7 +5656,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5665,7 +5665,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5692,7 +5692,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -5701,7 +5701,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No public key of minisign */
+            /** @description Not a minisign public key */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -5721,14 +5721,14 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description There is no key any more */
+            /** @description The key was removed */
             204: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content?: never;
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5737,7 +5737,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5765,7 +5765,7 @@ export interface operations {
                     "application/json": components["schemas"]["TokenInfo"][];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5774,7 +5774,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5821,7 +5821,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5830,7 +5830,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5866,7 +5866,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -5898,7 +5898,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description It opens nothing any more */
+            /** @description The token was revoked */
             204: {
                 headers: {
                     [name: string]: unknown;
@@ -5914,7 +5914,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5923,7 +5923,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5948,7 +5948,7 @@ export interface operations {
             query?: {
                 /** @description Entries at most, from 1 to 200. */
                 limit?: number;
-                /** @description Where the list goes on, as the `Link` header of the part before says; absent for the first part. */
+                /** @description Start of the page, from the `Link` header of the previous page; absent for the first page. */
                 cursor?: string;
             };
             header?: never;
@@ -5957,10 +5957,10 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description A part of the list */
+            /** @description A page of the list */
             200: {
                 headers: {
-                    /** @description Where the list goes on: `<...>; rel="next"`; absent at its end */
+                    /** @description The next page: `<...>; rel="next"`; absent on the last page */
                     Link?: string;
                     [name: string]: unknown;
                 };
@@ -5977,7 +5977,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5986,7 +5986,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No curator */
+            /** @description Not a curator */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5995,7 +5995,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No part of the list */
+            /** @description Invalid page parameters */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -6022,7 +6022,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description The account as it is now */
+            /** @description The updated account */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -6040,7 +6040,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -6049,7 +6049,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Not for this curator to decide */
+            /** @description Not permitted for this curator */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6085,7 +6085,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -6094,7 +6094,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No role */
+            /** @description Not a role */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -6124,7 +6124,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description Was asked for before under this key */
+            /** @description Already requested with this key */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -6133,7 +6133,7 @@ export interface operations {
                     "application/json": components["schemas"]["AdviceInfo"];
                 };
             };
-            /** @description Queued; `Location` names it */
+            /** @description Queued; its address is in `Location` */
             201: {
                 headers: {
                     [name: string]: unknown;
@@ -6142,7 +6142,7 @@ export interface operations {
                     "application/json": components["schemas"]["AdviceInfo"];
                 };
             };
-            /** @description No JSON */
+            /** @description Not JSON */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -6151,7 +6151,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -6160,7 +6160,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6196,7 +6196,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -6205,7 +6205,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The question cannot be asked */
+            /** @description The question is not valid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -6214,7 +6214,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Too much waits already; `Retry-After` says when to try again */
+            /** @description Too many requests are queued; `Retry-After` says when to try again */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -6254,7 +6254,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -6286,7 +6286,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it is now */
+            /** @description The updated advice */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -6304,7 +6304,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -6313,7 +6313,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Somebody else's */
+            /** @description It belongs to someone else */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6368,7 +6368,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -6423,7 +6423,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -6460,7 +6460,7 @@ export interface operations {
                     "application/json": components["schemas"]["AlgorithmInfo"][];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -6520,7 +6520,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -6529,7 +6529,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The precision is none */
+            /** @description The precision is not valid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -6590,7 +6590,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -6599,7 +6599,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The precision is none */
+            /** @description The precision is not valid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -6615,7 +6615,7 @@ export interface operations {
             query?: {
                 /** @description Entries at most, from 1 to 200. */
                 limit?: number;
-                /** @description Where the list goes on, as the `Link` header of the part before says; absent for the first part. */
+                /** @description Start of the page, from the `Link` header of the previous page; absent for the first page. */
                 cursor?: string;
             };
             header?: never;
@@ -6624,10 +6624,10 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description A part of the list */
+            /** @description A page of the list */
             200: {
                 headers: {
-                    /** @description Where the list goes on: `<...>; rel="next"`; absent at its end */
+                    /** @description The next page: `<...>; rel="next"`; absent on the last page */
                     Link?: string;
                     [name: string]: unknown;
                 };
@@ -6644,7 +6644,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -6653,7 +6653,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No part of the list */
+            /** @description Invalid page parameters */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -6683,7 +6683,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description Was asked for before under this key */
+            /** @description Already requested with this key */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -6692,7 +6692,7 @@ export interface operations {
                     "application/json": components["schemas"]["CampaignInfo"];
                 };
             };
-            /** @description Queued; `Location` names it */
+            /** @description Queued; its address is in `Location` */
             201: {
                 headers: {
                     [name: string]: unknown;
@@ -6710,7 +6710,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -6719,7 +6719,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No curator */
+            /** @description Not a curator */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6755,7 +6755,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -6817,7 +6817,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -6826,7 +6826,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No curator */
+            /** @description Not a curator */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6866,7 +6866,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -6898,7 +6898,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description The campaign as it is now */
+            /** @description The updated campaign */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -6916,7 +6916,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -6925,7 +6925,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No curator */
+            /** @description Not a curator */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6950,7 +6950,7 @@ export interface operations {
             query?: {
                 /** @description Entries at most, from 1 to 200. */
                 limit?: number;
-                /** @description Where the list goes on, as the `Link` header of the part before says; absent for the first part. */
+                /** @description Start of the page, from the `Link` header of the previous page; absent for the first page. */
                 cursor?: string;
             };
             header?: never;
@@ -6959,10 +6959,10 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description A part of the list */
+            /** @description A page of the list */
             200: {
                 headers: {
-                    /** @description Where the list goes on: `<...>; rel="next"`; absent at its end */
+                    /** @description The next page: `<...>; rel="next"`; absent on the last page */
                     Link?: string;
                     [name: string]: unknown;
                 };
@@ -6979,7 +6979,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -6988,7 +6988,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No curator */
+            /** @description Not a curator */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6997,7 +6997,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No part of the list */
+            /** @description Invalid page parameters */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -7047,7 +7047,7 @@ export interface operations {
                     "application/json": components["schemas"]["Estimate"];
                 };
             };
-            /** @description No JSON */
+            /** @description Not JSON */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -7056,7 +7056,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -7065,7 +7065,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7101,7 +7101,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -7138,7 +7138,7 @@ export interface operations {
                     "application/json": components["schemas"]["RunInfo"] | null;
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -7154,7 +7154,7 @@ export interface operations {
             query?: {
                 /** @description Entries at most, from 1 to 200. */
                 limit?: number;
-                /** @description Where the list goes on, as the `Link` header of the part before says; absent for the first part. */
+                /** @description Start of the page, from the `Link` header of the previous page; absent for the first page. */
                 cursor?: string;
             };
             header?: never;
@@ -7163,10 +7163,10 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description A part of the list */
+            /** @description A page of the list */
             200: {
                 headers: {
-                    /** @description Where the list goes on: `<...>; rel="next"`; absent at its end */
+                    /** @description The next page: `<...>; rel="next"`; absent on the last page */
                     Link?: string;
                     [name: string]: unknown;
                 };
@@ -7183,7 +7183,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -7192,7 +7192,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No curator */
+            /** @description Not a curator */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7201,7 +7201,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No part of the list */
+            /** @description Invalid page parameters */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -7254,7 +7254,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -7263,7 +7263,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No curator */
+            /** @description Not a curator */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7281,7 +7281,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Too many are open */
+            /** @description Too many invitations are open */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -7299,7 +7299,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -7308,7 +7308,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description For nobody, or for too long */
+            /** @description No recipient, or valid for too long */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -7331,7 +7331,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description The invitation as it is now */
+            /** @description The updated invitation */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -7349,7 +7349,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -7358,7 +7358,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No curator */
+            /** @description Not a curator */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7376,7 +7376,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Accepted or withdrawn before */
+            /** @description Already accepted or withdrawn */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -7393,7 +7393,7 @@ export interface operations {
             header?: never;
             path: {
                 /**
-                 * @description What stands behind the last `/` of the link
+                 * @description The part of the link after the last `/`
                  * @example 5d0c4b7e9f1a4c6e8b3d2f1a0c9e8d7b6a5f4e3d2c1b40a98f7e6d5c4b3a2918
                  */
                 secret: string;
@@ -7402,7 +7402,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description They are off */
+            /** @description Mail is turned off */
             204: {
                 headers: {
                     [name: string]: unknown;
@@ -7418,7 +7418,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -7427,7 +7427,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7436,7 +7436,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The link turns nothing off, or not any more: which of it is not said */
+            /** @description The link is not valid or has expired; the answer does not say which */
             404: {
                 headers: {
                     [name: string]: unknown;
@@ -7461,7 +7461,7 @@ export interface operations {
             query?: {
                 /** @description Entries at most, from 1 to 200. */
                 limit?: number;
-                /** @description Where the list goes on, as the `Link` header of the part before says; absent for the first part. */
+                /** @description Start of the page, from the `Link` header of the previous page; absent for the first page. */
                 cursor?: string;
             };
             header?: never;
@@ -7470,10 +7470,10 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description A part of the list */
+            /** @description A page of the list */
             200: {
                 headers: {
-                    /** @description Where the list goes on: `<...>; rel="next"`; absent at its end */
+                    /** @description The next page: `<...>; rel="next"`; absent on the last page */
                     Link?: string;
                     [name: string]: unknown;
                 };
@@ -7490,7 +7490,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -7499,7 +7499,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7508,7 +7508,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No part of the list */
+            /** @description Invalid page parameters */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -7531,7 +7531,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description It is gone */
+            /** @description Deleted */
             204: {
                 headers: {
                     [name: string]: unknown;
@@ -7547,7 +7547,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -7556,7 +7556,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7588,7 +7588,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description The notice as it is now */
+            /** @description The updated notice */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -7606,7 +7606,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -7615,7 +7615,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7640,7 +7640,7 @@ export interface operations {
             query?: {
                 /** @description Entries at most, from 1 to 200. */
                 limit?: number;
-                /** @description Where the list goes on, as the `Link` header of the part before says; absent for the first part. */
+                /** @description Start of the page, from the `Link` header of the previous page; absent for the first page. */
                 cursor?: string;
             };
             header?: never;
@@ -7649,10 +7649,10 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description A part of the list */
+            /** @description A page of the list */
             200: {
                 headers: {
-                    /** @description Where the list goes on: `<...>; rel="next"`; absent at its end */
+                    /** @description The next page: `<...>; rel="next"`; absent on the last page */
                     Link?: string;
                     [name: string]: unknown;
                 };
@@ -7669,7 +7669,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -7678,7 +7678,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No part of the list */
+            /** @description Invalid page parameters */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -7723,7 +7723,7 @@ export interface operations {
                     "application/json": components["schemas"]["ObjectInfo"];
                 };
             };
-            /** @description No well-formed upload */
+            /** @description The upload is not well-formed */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -7732,7 +7732,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -7741,7 +7741,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7768,7 +7768,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No usable OBJ file; says line and reason */
+            /** @description Not a usable OBJ file; the message has line and reason */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -7817,7 +7817,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -7849,7 +7849,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description What has gone */
+            /** @description What was deleted */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -7867,7 +7867,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -7876,7 +7876,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Somebody else's object */
+            /** @description The object belongs to someone else */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7894,7 +7894,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description A run with it is just ending */
+            /** @description A run with this object is just ending */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -7942,7 +7942,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -7974,7 +7974,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description What DELETE of the object takes away */
+            /** @description What DELETE of the object deletes */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -7992,7 +7992,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -8001,7 +8001,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Somebody else's object */
+            /** @description The object belongs to someone else */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8037,7 +8037,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description The object as it is now */
+            /** @description The updated object */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -8055,7 +8055,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -8064,7 +8064,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Somebody else's object, or a guest who publishes */
+            /** @description The object belongs to someone else, or a guest tries to publish */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8100,7 +8100,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -8109,7 +8109,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not fit */
+            /** @description The body is not valid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -8138,7 +8138,7 @@ export interface operations {
                     "application/json": unknown;
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -8154,7 +8154,7 @@ export interface operations {
             query?: {
                 /** @description Entries at most, from 1 to 200. */
                 limit?: number;
-                /** @description Where the list goes on, as the `Link` header of the part before says; absent for the first part. */
+                /** @description Start of the page, from the `Link` header of the previous page; absent for the first page. */
                 cursor?: string;
             };
             header?: never;
@@ -8163,10 +8163,10 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description A part of the list */
+            /** @description A page of the list */
             200: {
                 headers: {
-                    /** @description Where the list goes on: `<...>; rel="next"`; absent at its end */
+                    /** @description The next page: `<...>; rel="next"`; absent on the last page */
                     Link?: string;
                     [name: string]: unknown;
                 };
@@ -8183,7 +8183,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -8192,7 +8192,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8201,7 +8201,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No part of the list */
+            /** @description Invalid page parameters */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -8241,7 +8241,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description Was there already */
+            /** @description Already submitted */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -8250,7 +8250,7 @@ export interface operations {
                     "application/json": components["schemas"]["PluginInfo"];
                 };
             };
-            /** @description Stored; its check waits in the queue */
+            /** @description Stored; its check is queued */
             201: {
                 headers: {
                     [name: string]: unknown;
@@ -8259,7 +8259,7 @@ export interface operations {
                     "application/json": components["schemas"]["PluginInfo"];
                 };
             };
-            /** @description No such form */
+            /** @description The form is not valid */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -8268,7 +8268,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -8277,7 +8277,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No developer */
+            /** @description Not a developer */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8295,7 +8295,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Too many plugins wait, or the quota is used up */
+            /** @description Too many plugins are waiting, or the quota is used up */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -8313,7 +8313,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No plugin, no manifest, or a signature that does not fit */
+            /** @description No plugin, no manifest, or a signature that does not match */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -8362,7 +8362,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -8371,7 +8371,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8420,7 +8420,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -8429,7 +8429,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8465,7 +8465,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description The plugin as it is now */
+            /** @description The updated plugin */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -8483,7 +8483,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Nobody is logged in */
+            /** @description Not authenticated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -8492,7 +8492,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Somebody else's to decide */
+            /** @description Not permitted for this account */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8519,7 +8519,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Not a step from where it is */
+            /** @description Not possible in the plugin's current state */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -8537,7 +8537,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -8546,7 +8546,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No such step, or no reason */
+            /** @description Unknown action, or no reason */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -8578,7 +8578,7 @@ export interface operations {
                     "text/event-stream": components["schemas"]["PluginInfo"];
                 };
             };
-            /** @description The check is through */
+            /** @description The check has ended */
             204: {
                 headers: {
                     [name: string]: unknown;
@@ -8594,7 +8594,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -8603,7 +8603,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8628,7 +8628,7 @@ export interface operations {
             query?: {
                 /** @description Entries at most, from 1 to 200. */
                 limit?: number;
-                /** @description Where the list goes on, as the `Link` header of the part before says; absent for the first part. */
+                /** @description Start of the page, from the `Link` header of the previous page; absent for the first page. */
                 cursor?: string;
             };
             header?: never;
@@ -8637,10 +8637,10 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description A part of the list */
+            /** @description A page of the list */
             200: {
                 headers: {
-                    /** @description Where the list goes on: `<...>; rel="next"`; absent at its end */
+                    /** @description The next page: `<...>; rel="next"`; absent on the last page */
                     Link?: string;
                     [name: string]: unknown;
                 };
@@ -8657,7 +8657,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -8666,7 +8666,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No part of the list */
+            /** @description Invalid page parameters */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -8714,7 +8714,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description Was asked for before under this key */
+            /** @description Already requested with this key */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -8723,7 +8723,7 @@ export interface operations {
                     "application/json": components["schemas"]["RunInfo"];
                 };
             };
-            /** @description Queued; `Location` names it */
+            /** @description Queued; its address is in `Location` */
             201: {
                 headers: {
                     [name: string]: unknown;
@@ -8732,7 +8732,7 @@ export interface operations {
                     "application/json": components["schemas"]["RunInfo"];
                 };
             };
-            /** @description No JSON */
+            /** @description Not JSON */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -8741,7 +8741,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -8750,7 +8750,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8786,7 +8786,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -8795,7 +8795,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The spec cannot be run, or asks for more time than its owner may have */
+            /** @description The spec cannot be run, or exceeds the owner's time limit */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -8804,7 +8804,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Too much waits or is under way; `Retry-After` says when to try again */
+            /** @description Too many runs are queued or running; `Retry-After` says when to try again */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -8844,7 +8844,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -8876,7 +8876,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description What has gone */
+            /** @description What was deleted */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -8894,7 +8894,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -8903,7 +8903,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Somebody else's run */
+            /** @description The run belongs to someone else */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8921,7 +8921,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description It is just ending */
+            /** @description The run is just ending */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -8944,7 +8944,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description The run as it is now */
+            /** @description The updated run */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -8962,7 +8962,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -8971,7 +8971,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Somebody else's run */
+            /** @description The run belongs to someone else */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9032,7 +9032,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -9050,7 +9050,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The selection cannot be read or applied */
+            /** @description The selection is not valid or cannot be applied */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -9103,7 +9103,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -9121,7 +9121,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The selection cannot be read or applied */
+            /** @description The selection is not valid or cannot be applied */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -9174,7 +9174,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -9192,7 +9192,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The selection cannot be read or applied */
+            /** @description The selection is not valid or cannot be applied */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -9232,7 +9232,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -9250,7 +9250,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description It is under way */
+            /** @description The run has not ended */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -9294,7 +9294,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -9344,7 +9344,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -9395,7 +9395,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -9449,7 +9449,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -9467,7 +9467,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The selection cannot be read or applied */
+            /** @description The selection is not valid or cannot be applied */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -9509,7 +9509,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description Last-Event-ID is no number */
+            /** @description Last-Event-ID is not a number */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -9518,7 +9518,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -9584,7 +9584,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -9602,7 +9602,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No such values: errors of a run that asked no distances, another object, ... */
+            /** @description No such values: errors of a run without distance queries, another object, ... */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -9664,7 +9664,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -9682,7 +9682,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No such values: errors of a run that asked no distances, another object, ... */
+            /** @description No such values: errors of a run without distance queries, another object, ... */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -9744,7 +9744,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -9762,7 +9762,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No such values: errors of a run that asked no distances, another object, ... */
+            /** @description No such values: errors of a run without distance queries, another object, ... */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -9808,7 +9808,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -9826,7 +9826,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The selection cannot be read or applied */
+            /** @description The selection is not valid or cannot be applied */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -9872,7 +9872,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -9890,7 +9890,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The selection cannot be read or applied */
+            /** @description The selection is not valid or cannot be applied */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -9913,7 +9913,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description The run as it is now */
+            /** @description The updated run */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -9931,7 +9931,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -9940,7 +9940,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Somebody else's run */
+            /** @description The run belongs to someone else */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9958,7 +9958,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No preview, or under way */
+            /** @description Not a preview, or not ended */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -9967,7 +9967,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description It cannot be run any more */
+            /** @description It can no longer be run */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -10008,7 +10008,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -10026,7 +10026,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description It is under way, or was measured by too old a version */
+            /** @description The run has not ended, or was measured by a version that is too old */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -10035,7 +10035,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Too many archives are being sent */
+            /** @description Too many archives are being downloaded */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -10080,7 +10080,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -10098,7 +10098,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The selection cannot be read or applied */
+            /** @description The selection is not valid or cannot be applied */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -10121,7 +10121,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description What DELETE of the run takes away */
+            /** @description What DELETE of the run deletes */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -10139,7 +10139,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -10148,7 +10148,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Somebody else's run */
+            /** @description The run belongs to someone else */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -10216,7 +10216,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -10234,7 +10234,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No such values: errors of a run that asked no distances, another object, ... */
+            /** @description No such values: errors of a run without distance queries, another object, ... */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -10261,7 +10261,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description The run as it is now */
+            /** @description The updated run */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -10279,7 +10279,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -10288,7 +10288,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Somebody else's run, or a guest who publishes */
+            /** @description The run belongs to someone else, or a guest tries to publish */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -10315,7 +10315,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description An object or a plugin of it is seen by fewer */
+            /** @description An object or plugin of the run is less visible */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -10333,7 +10333,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not say that it is JSON */
+            /** @description The content type of the body is not JSON */
             415: {
                 headers: {
                     [name: string]: unknown;
@@ -10342,7 +10342,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The body does not fit */
+            /** @description The body is not valid */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -10383,7 +10383,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -10441,7 +10441,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -10459,7 +10459,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description No such list: errors of a run that asked no distances, a selection that cannot be read */
+            /** @description No such list: errors of a run without distance queries, an invalid selection */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -10487,7 +10487,7 @@ export interface operations {
                     "application/json": components["schemas"]["StabilityTable"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -10515,7 +10515,7 @@ export interface operations {
                     "application/json": components["schemas"]["Status"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -10543,7 +10543,7 @@ export interface operations {
                     "application/json": components["schemas"]["SuiteInfo"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -10571,7 +10571,7 @@ export interface operations {
                     "application/json": components["schemas"]["OwnedItems"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -10591,7 +10591,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description What has gone */
+            /** @description What was deleted */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -10600,7 +10600,7 @@ export interface operations {
                     "application/json": components["schemas"]["OwnedItems"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -10609,7 +10609,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -10638,7 +10638,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description A folder per thing, JSON beside OBJ and Parquet */
+            /** @description A folder per item, with JSON, OBJ and Parquet files */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -10647,7 +10647,7 @@ export interface operations {
                     "application/x-tar": number[];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -10656,7 +10656,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Too many archives are being sent */
+            /** @description Too many archives are being downloaded */
             429: {
                 headers: {
                     [name: string]: unknown;
@@ -10684,7 +10684,7 @@ export interface operations {
                     "application/json": components["schemas"]["OwnedItems"];
                 };
             };
-            /** @description The token in `Authorization` opens nothing */
+            /** @description The token in `Authorization` is not valid */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -10693,7 +10693,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The token in `Authorization` is not for that, or the request was sent by a page of another site */
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
             403: {
                 headers: {
                     [name: string]: unknown;

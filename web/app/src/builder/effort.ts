@@ -23,10 +23,10 @@ export function effortOf(spec: RunSpec): Effort {
 /** Why a part cannot be measured, in words; null when it can. */
 export function whyNot(effort: Effort, spec: RunSpec): string | null {
   if (effort === 'whole') return null
-  if (spec.method.kind === 'trajectory') return 'A trajectory is measured as a whole, because its order is part of what is measured.'
+  if (spec.method.kind === 'trajectory') return 'A trajectory is always measured as a whole, because the order of its queries matters.'
   if (effort === 'quick') return null
-  if ((spec.algorithms ?? []).length < 2) return 'There is nothing to tell apart: choose two algorithms.'
-  return (spec.passes ?? 0) < 3 ? 'How precise a comparison is shows in several passes only.' : null
+  if ((spec.algorithms ?? []).length < 2) return 'There is nothing to compare: choose at least two algorithms.'
+  return (spec.passes ?? 0) < 3 ? 'The precision of a comparison can be measured only with several passes: choose at least 3.' : null
 }
 
 /** Is there anything to save? Nobody knows before the first estimate. */

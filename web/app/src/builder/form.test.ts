@@ -105,7 +105,7 @@ it('filters algorithms by the question and says why', () => {
   expect(whyUnfit(collider, 'proximity', false)).toBe('answers no distance queries')
   expect(whyUnfit(collider, 'collision_all', false)).toBe('stops at the first contact')
   expect(whyUnfit(collider, 'collision_first', false)).toBeNull()
-  expect(whyUnfit(collider, 'collision_first', true)).toBe('knows surfaces only, no solid bodies')
+  expect(whyUnfit(collider, 'collision_first', true)).toBe('supports surfaces only, no solid bodies')
   expect(chosenAlgorithms({ ...form(), question: 'pq' }, ALL)).toEqual(['both'])
   expect(chosenAlgorithms({ ...form(), solid: true }, ALL)).toEqual(['both'])
 })

@@ -51,7 +51,7 @@ export function queryOf({ question, contacts }: Pick<BuilderForm, 'question' | '
 
 /** Why an algorithm does not fit the question; null when it does. */
 export function whyUnfit(algorithm: AlgorithmInfo, query: Query, solid: boolean): string | null {
-  if (algorithm.queries.includes(query)) return solid && !algorithm.solid ? 'knows surfaces only, no solid bodies' : null
+  if (algorithm.queries.includes(query)) return solid && !algorithm.solid ? 'supports surfaces only, no solid bodies' : null
   if (query === 'proximity') return 'answers no distance queries'
   return query === 'collision_all' ? 'stops at the first contact' : 'answers no collision queries'
 }
@@ -127,7 +127,7 @@ function toSeed(form: BuilderForm): number | Missing {
 
 function toMethod(form: BuilderForm): Method | Missing {
   const { method: kind, centerDistance, hitShare, poses } = form
-  if (kind === 'file') return poses === '' ? { missing: 'No poses are given; choose another method.' } : { kind, sha256: poses }
+  if (kind === 'file') return poses === '' ? { missing: 'There are no given poses; choose another method.' } : { kind, sha256: poses }
   const seed = toSeed(form)
   if (typeof seed !== 'number') return seed
   if (kind === 'sphere' || kind === 'grid') {
@@ -154,7 +154,7 @@ export function toSpec(form: BuilderForm, algorithms: readonly AlgorithmInfo[]):
   const { passes, budget } = form
   if (!form.objectA) return { missing: 'Choose an object.' }
   const chosen = chosenAlgorithms(form, algorithms)
-  if (chosen.length === 0) return { missing: 'Choose at least one algorithm that answers this question.' }
+  if (chosen.length === 0) return { missing: 'Choose at least one algorithm that answers this query.' }
   const method = toMethod(form)
   if ('missing' in method) return method
   const separation = toSeparation(form)

@@ -9,8 +9,8 @@ const plain = (text: string) => text.replace(/\s/g, ' ')
 
 describe('a campaign in words', () => {
   it('says what would be queued', () => {
-    expect(plain(describePreview(preview))).toBe('It queues 150 runs of suite 2 (144 of them measured before) and 1 run of people who agree: about 75 min of measuring.')
-    expect(describePreview({ ...preview, peoples_runs: 0 })).not.toContain('people')
+    expect(plain(describePreview(preview))).toBe('This queues 150 runs of suite 2 (144 of them measured before) and 1 run of users who agreed: about 75 min of measuring.')
+    expect(describePreview({ ...preview, peoples_runs: 0 })).not.toContain('users')
     expect(describePreview({ ...preview, suite_runs: 0, peoples_runs: 0 })).toContain('Nothing')
   })
 
@@ -19,7 +19,7 @@ describe('a campaign in words', () => {
       plain(describeProgress({ runs: { waiting: 0, running: 0, done: 0, failed: 0, cancelled: 0, expected_seconds: 90, ...runs } } as CampaignInfo))
     expect(of({ waiting: 3 })).toBe('0 done, 3 waiting of 3 runs, about 2 min left')
     expect(of({ done: 1 })).toBe('1 done of 1 run')
-    expect(of({ done: 2, failed: 1, running: 1, cancelled: 4 })).toBe('2 done, 1 failed, 1 at work, 4 cancelled of 8 runs, about 2 min left')
+    expect(of({ done: 2, failed: 1, running: 1, cancelled: 4 })).toBe('2 done, 1 failed, 1 running, 4 cancelled of 8 runs, about 2 min left')
   })
 
   it('names every machine and oracle once', () => {

@@ -6,17 +6,17 @@ const runs = (n: number) => `${count(n)} ${n === 1 ? 'run' : 'runs'}`
 /** What the button would queue, in a sentence. */
 export function describePreview(preview: CampaignPreview): string {
   const { suite_runs: suite, suite_repeats: repeats, peoples_runs: people } = preview
-  if (suite + people === 0) return 'Nothing is to be measured again: all of it was measured on this hardware class and by this oracle, or waits.'
+  if (suite + people === 0) return 'Nothing to measure again: all results are from this hardware class and this oracle, or are already queued.'
   const parts = [
     suite > 0 && `${runs(suite)} of suite ${preview.suite_version} (${count(repeats)} of them measured before)`,
-    people > 0 && `${runs(people)} of people who agree`,
+    people > 0 && `${runs(people)} of users who agreed`,
   ]
-  return `It queues ${parts.filter(Boolean).join(' and ')}: about ${seconds(preview.expected_seconds)} of measuring.`
+  return `This queues ${parts.filter(Boolean).join(' and ')}: about ${seconds(preview.expected_seconds)} of measuring.`
 }
 
 /** How far a campaign is. */
 export function describeProgress({ runs: { waiting, running, done, failed, cancelled, expected_seconds: expected } }: CampaignInfo): string {
-  const parts: [number, string][] = [[done, 'done'], [failed, 'failed'], [running, 'at work'], [waiting, 'waiting'], [cancelled, 'cancelled']]
+  const parts: [number, string][] = [[done, 'done'], [failed, 'failed'], [running, 'running'], [waiting, 'waiting'], [cancelled, 'cancelled']]
   const told = parts.filter(([n], i) => n > 0 || i === 0).map(([n, word]) => `${count(n)} ${word}`)
   const left = waiting + running > 0 ? `, about ${seconds(expected)} left` : ''
   return `${told.join(', ')} of ${runs(waiting + running + done + failed + cancelled)}${left}`

@@ -63,7 +63,7 @@ it('tells how each file of an algorithm was compiled, and what is not known', as
   const rows = [...host.querySelectorAll('[data-testid=builds] tr[data-algorithm]')].map((row) => row.textContent)
   expect(rows).toHaveLength(2)
   expect(rows[0]).toMatch(/Wide.*libwide.so.*GCC: 12.2.0.*-O3 -march=znver3.*AVX, AVX2/)
-  expect(rows[1]).toMatch(/libold.so.1.*does not say.*not recorded.*x86-64 alone/)
+  expect(rows[1]).toMatch(/libold.so.1.*unknown.*not recorded.*x86-64 only/)
 })
 
 it('shows each unit of length, the file’s first, and names what depends on it', async () => {

@@ -24,11 +24,11 @@ describe('rank', () => {
     const { ranked, unranked } = rank([modest, crashed, result('wrong', null, 2, { wrong: 1 }), result('silent', null, 3, { time: null }), result('old', null, 1), result('guessing', null, 1, { unranked: { cause: 'wrong_controls', wrong: 9, n: 30, message: '9 of 30 control questions were answered wrongly.' } }), result('sound', 1, 4)])
     expect(ranked.map((r) => r.result.algorithm)).toEqual(['sound'])
     expect(unranked.map((r) => [r.result.algorithm, r.reason])).toEqual([
-      ['modest', 'It gave no answer to 3 of 10: giving up is not wrong, but it is not as fast as it looks.'],
+      ['modest', 'It did not answer 3 of 10 queries, so its time is not ranked.'],
       ['crashed', 'It crashed.'],
-      ['wrong', 'It gave wrong answers: a time for a wrong answer is no result.'],
+      ['wrong', 'It gave wrong answers, so its time is not ranked.'],
       ['silent', 'Nothing was measured.'],
-      ['old', 'It was not compared: measured in the development profile, or before there was a reference.'],
+      ['old', 'It was not compared with a reference: it was measured in the development profile, or by an older version.'],
       ['guessing', '9 of 30 control questions were answered wrongly.'],
     ])
   })

@@ -60,10 +60,10 @@ function whyNot(result: AlgorithmResult): string | null {
   if (result.outcome.name !== 'Completed') return result.outcome.message
   if (result.unranked) return result.unranked.message
   if (onlyElsewhere(result)) return 'It gave wrong answers in another unit of length, and none in the unit of the files.'
-  if (result.wrong > 0) return 'It gave wrong answers: a time for a wrong answer is no result.'
+  if (result.wrong > 0) return 'It gave wrong answers, so its time is not ranked.'
   if (!result.time) return 'Nothing was measured.'
   const silent = unanswered(result)
-  if (silent > 0) return `It gave no answer to ${count(silent)} of ${count(result.n)}: giving up is not wrong, but it is not as fast as it looks.`
-  if (result.rank == null) return 'It was not compared: measured in the development profile, or before there was a reference.'
+  if (silent > 0) return `It did not answer ${count(silent)} of ${count(result.n)} queries, so its time is not ranked.`
+  if (result.rank == null) return 'It was not compared with a reference: it was measured in the development profile, or by an older version.'
   return null
 }

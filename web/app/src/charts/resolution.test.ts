@@ -26,7 +26,7 @@ describe('eps*', () => {
     const off = { ...SOUND, seen: true, false_hits: { n: 6, wrong: 2, at: 1e-3 }, misses: { n: 4, wrong: 1, at: 1e-3 }, distance: { n: 10, over: 2.5 } }
     const notes = resolutionNotes(result(off, { grazing: { n: 3, agree: 2 }, contacts: { precision: 1, listed: 9, recall: null, robust: 0 } }))
     expect(notes).toEqual([
-      'calls 2 of 6 apart a hit',
+      'reports a hit for 2 of 6 apart',
       'misses 1 of 4 crossing',
       'distances too long by: 2.5 u S, too short by: none',
       'grazing: 2 of 3 agree with exact arithmetic',

@@ -12,7 +12,7 @@ export function resolutionNotes({ resolution, grazing, contacts }: AlgorithmResu
   const notes: string[] = []
   if (resolution) {
     const { false_hits: hits, misses, distance } = resolution
-    if (hits.wrong > 0) notes.push(`calls ${count(hits.wrong)} of ${count(hits.n)} apart a hit`)
+    if (hits.wrong > 0) notes.push(`reports a hit for ${count(hits.wrong)} of ${count(hits.n)} apart`)
     if (misses.wrong > 0) notes.push(`misses ${count(misses.wrong)} of ${count(misses.n)} crossing`)
     if (distance) {
       const worst = (error: number | null | undefined) => (error == null ? 'none' : `${significant(error)} u S`)

@@ -15,6 +15,6 @@ export async function readSurface(glb: ArrayBuffer): Promise<BufferGeometry> {
     if (!found && node instanceof Mesh) found = node.geometry as BufferGeometry
   })
   const geometry = found as BufferGeometry | null
-  if (!geometry?.index) throw new Error('The surface that the service sent holds no indexed triangles.')
+  if (!geometry?.index) throw new Error('The surface from the service has no indexed triangles.')
   return geometry
 }

@@ -20,5 +20,5 @@ export function counted({ runs, objects, advice, plugins }: OwnedCounts): string
 export function inWords({ runs, objects, advice, bytes: size }: Pick<OwnedItems, 'runs' | 'objects' | 'advice' | 'bytes'>): string {
   const all = counted({ runs: runs.length, objects: objects.length, advice, plugins: 0 })
   if (all === null) return 'There is nothing to delete.'
-  return `${all} will be gone for good${size > 0 ? `, with ${bytes(size)} of files that nobody else uses` : ''}.`
+  return `${all} will be deleted permanently${size > 0 ? `, with ${bytes(size)} of files that nothing else uses` : ''}.`
 }

@@ -2,12 +2,12 @@ import type { Action, InvitationState, PluginInfo, PluginState, Role } from '../
 
 /** A state in words. */
 export const PLUGIN_STATE: Record<PluginState, string> = {
-  uploaded: 'waits for its check',
+  uploaded: 'waiting for its check',
   vetted: 'being checked',
-  failed: 'did not pass',
+  failed: 'check failed',
   validated: 'validated, private',
-  awaiting: 'awaits a curator',
-  asked: 'a curator asks',
+  awaiting: 'waiting for a curator',
+  asked: 'question from a curator',
   rejected: 'rejected',
   public: 'public',
   suspended: 'suspended',
@@ -48,14 +48,14 @@ const OFFER: Step = { action: 'offer', text: 'Offer to the public' }
 const ANSWER: Step = { action: 'answer', text: 'Answer', reason: 'Your answer to the curator' }
 const WITHDRAW: Step = { action: 'withdraw', text: 'Withdraw' }
 const APPROVE: Step = { action: 'approve', text: 'Approve' }
-const ASK: Step = { action: 'ask', text: 'Ask', reason: 'Your question to the author' }
-const REJECT: Step = { action: 'reject', text: 'Reject', reason: 'Why, for the author' }
-const SUSPEND: Step = { action: 'suspend', text: 'Suspend', reason: 'Why, for everybody to read' }
-const EXCLUDE: Step = { action: 'exclude', text: 'Exclude on this hardware class', reason: 'Why, for everybody to read' }
-const REINSTATE: Step = { action: 'reinstate', text: 'Make public after all', reason: 'Why, for the log' }
+const ASK: Step = { action: 'ask', text: 'Ask the author', reason: 'Your question to the author' }
+const REJECT: Step = { action: 'reject', text: 'Reject', reason: 'Reason (shown to the author)' }
+const SUSPEND: Step = { action: 'suspend', text: 'Suspend', reason: 'Reason (public)' }
+const EXCLUDE: Step = { action: 'exclude', text: 'Exclude on this hardware class', reason: 'Reason (public)' }
+const REINSTATE: Step = { action: 'reinstate', text: 'Reinstate', reason: 'Reason (for the log)' }
 
 const END_OWN_CHECK: Step = { action: 'end_check', text: 'End the check' }
-const END_CHECK: Step = { action: 'end_check', text: 'End the check', reason: 'Why, for the author' }
+const END_CHECK: Step = { action: 'end_check', text: 'End the check', reason: 'Reason (shown to the author)' }
 
 const AUTHORS: Partial<Record<PluginState, Step[]>> = {
   uploaded: [END_OWN_CHECK], vetted: [END_OWN_CHECK], validated: [OFFER], asked: [ANSWER], public: [WITHDRAW], suspended: [WITHDRAW], excluded: [WITHDRAW],

@@ -3,6 +3,6 @@ import type { Visibility } from '../api/types'
 /** Who sees something, in words; the narrowest first. */
 export const VISIBILITY: Record<Visibility, string> = {
   private: 'only you',
-  unlisted: 'whoever has the link',
-  public: 'everybody',
+  unlisted: 'anyone with the link',
+  public: 'everyone',
 }

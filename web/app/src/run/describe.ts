@@ -29,7 +29,7 @@ export function describeMethod(method: Method): string {
 export function describeSeparation({ method, relative_distance: distance = 0, step, ladder }: RunSpec): string {
   if (!asksSeparation(method.kind)) return ''
   if (ladder) return 'ladder of steps'
-  if (step != null) return `step ${step.toExponential()} of the size`
+  if (step != null) return `step ${step.toExponential()} of S`
   return `distance ${distance === 0 ? '0' : significant(distance)}`
 }
 

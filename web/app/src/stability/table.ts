@@ -8,7 +8,7 @@ export const STATES: Readonly<Record<CellState, { sign: string; words: string; t
   agrees: { sign: '●', words: 'agrees with the truth', tone: 'good' },
   slow: { sign: '◔', words: 'more than 10 times its own median time', tone: 'warn' },
   wrong: { sign: '✕', words: 'wrong answers', tone: 'bad' },
-  broken: { sign: '■', words: 'crash, hang or no number', tone: 'bad' },
+  broken: { sign: '■', words: 'crash, hang or invalid answer', tone: 'bad' },
   unsupported: { sign: '–', words: 'not answered', tone: 'quiet' },
   refused: { sign: '⊘', words: 'refused by the host', tone: 'quiet' },
 }
@@ -38,7 +38,7 @@ export function tallyWords(tally: Tally): string {
     [tally.false_alarms, plural(tally.false_alarms, 'false alarm')],
     [tally.distances, plural(tally.distances, 'wrong distance')],
     [tally.unsteady, plural(tally.unsteady, 'answer that changed', 'answers that changed')],
-    [tally.broken, plural(tally.broken, 'crash, hang or no number', 'crashes, hangs or no numbers')],
+    [tally.broken, plural(tally.broken, 'crash, hang or invalid answer', 'crashes, hangs or invalid answers')],
     [tally.slow, plural(tally.slow, 'slow answer')],
     [tally.unsupported, `${tally.unsupported} not answered`],
     [tally.refused, `${tally.refused} refused by the host`],

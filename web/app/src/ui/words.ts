@@ -19,13 +19,13 @@ export const ACCURACY: Record<Accuracy, string> = {
   missed: 'missed collisions',
   false_alarms: 'false alarms',
   digits: 'digits (eps*)',
-  distance: 'error of distances',
+  distance: 'distance error',
 }
 
 /** The filters of the board. */
 export const FILTER: Record<string, string> = {
   suite: 'Benchmark',
-  question: 'Question',
+  question: 'Query',
   class: 'Contract class',
   hardware: 'Hardware class',
   scene: 'Scene (objects)',
@@ -35,8 +35,8 @@ export const FILTER: Record<string, string> = {
 
 export const CHART: Record<ChartKind, string> = {
   accuracy: 'Speed and accuracy',
-  resolution: 'Failing decisions',
-  ecdf: 'Spread of times',
+  resolution: 'Wrong decisions',
+  ecdf: 'Distribution of times',
   distance: 'By distance',
   triangles: 'By triangles',
   bv_tests: 'By BV tests',
@@ -48,8 +48,8 @@ export const FAILURE: Partial<Record<Measure, string>> = {
   missed: 'Share of the answers that miss a collision: the worst error.',
   false_alarms: 'Share of the answers that report a collision where there is none.',
   distance_error:
-    'How far the answered distance lies outside the certified interval, in u S: roundings of the algorithm’s arithmetic at the size of the scene. Up to 32 are right.',
-  flips: 'Share of the configurations whose equivalent instances (turned, renumbered, scaled, swapped) got answers that contradict each other.',
+    'Distance of the answer from the certified interval, in u S: unit roundoff of the algorithm’s arithmetic times the size of the scene. Up to 32 counts as right.',
+  flips: 'Share of the configurations whose equivalent instances (rotated, renumbered, scaled, swapped) got contradictory answers.',
   disagreement: 'Share of the other algorithms of this run whose answer contradicts this one’s.',
 }
 
@@ -103,7 +103,7 @@ export const VERDICT: Record<Verdict, string> = {
   distance_over: 'distance too long',
   distance_under: 'distance too short',
   wrong_witness: 'wrong witness',
-  invalid: 'no valid answer',
+  invalid: 'invalid answer',
   undecidable: 'undecidable, not scored',
   gave_up: 'gave up',
   unsupported: 'unsupported',
