@@ -28,7 +28,7 @@ pub async fn admin(store: &Store, command: &AdminCommand, json: bool) -> Result<
 }
 
 async fn create(engine: &Engine, name: &str, role: &str, json: bool) -> Result<()> {
-    let role = Role::named(role).ok_or_else(|| Failure::Input(format!("There is no role {role:?}.")))?;
+    let role = Role::named(role).ok_or_else(|| Failure::Input(unknown_role(role)))?;
     let account = engine.add_account(name, &password()?, role).await?;
     if json {
         return output::print_json(&account);
@@ -36,10 +36,14 @@ async fn create(engine: &Engine, name: &str, role: &str, json: bool) -> Result<(
     output::print(&format!("{} is now {}.", account.name, role.name()))
 }
 
+fn unknown_role(role: &str) -> String {
+    format!("Unknown role {role:?}; use user, developer, curator or administrator.")
+}
+
 async fn delete(engine: &Engine, name: &str, yes: bool, json: bool) -> Result<()> {
     if !yes {
         let told = engine.deletion_preview(&engine.account_named(name).await?).await?;
-        eprintln!("{}\n{}", said("goes ", &told.goes), said("stays", &told.stays));
+        eprintln!("{}\n{}", said("will be deleted:", &told.goes), said("will be kept:   ", &told.stays));
         if !agreed()? {
             return Err(Failure::Input("Nothing was deleted; add --yes to delete it.".to_owned()));
         }
@@ -51,14 +55,14 @@ async fn delete(engine: &Engine, name: &str, yes: bool, json: bool) -> Result<()
     output::print(&format!(
         "The account {} is deleted.\n{}\n{}",
         name.trim(),
-        said("gone ", &told.goes),
-        said("stays", &told.stays)
+        said("deleted:", &told.goes),
+        said("kept:   ", &told.stays)
     ))
 }
 
 fn said(what: &str, counts: &OwnedCounts) -> String {
     let OwnedCounts { runs, objects, advice, plugins } = counts;
-    format!("{what}  runs: {runs}, objects: {objects}, pieces of advice: {advice}, plugins: {plugins}")
+    format!("{what} runs: {runs}, objects: {objects}, pieces of advice: {advice}, plugins: {plugins}")
 }
 
 async fn invite(engine: &Engine, recipient: &str, days: u32, server: &str, json: bool) -> Result<()> {
@@ -79,14 +83,14 @@ async fn invitations(engine: &Engine, json: bool) -> Result<()> {
         return output::print_json(&all);
     }
     if all.is_empty() {
-        return output::print("No invitations yet; `ocb admin invite WHOM` makes one.");
+        return output::print("No invitations yet; `ocb admin invite RECIPIENT` creates one.");
     }
     let row = |one: &InvitationInfo| {
         let by = one.invited_by.clone().unwrap_or_else(|| "the operator".to_owned());
         let accepted = one.accepted_by.clone().unwrap_or_default();
         vec![one.id.clone(), state(one.state).to_owned(), one.recipient.clone(), by, accepted]
     };
-    let headings = ["invitation", "state", "for", "made by", "accepted by"];
+    let headings = ["invitation", "state", "for", "invited by", "accepted by"];
     output::print(&output::table(&headings, all.iter().map(row).collect(), &[]))
 }
 
@@ -95,7 +99,7 @@ async fn revoke(engine: &Engine, id: &str, json: bool) -> Result<()> {
     if json {
         return output::print_json(&invitation);
     }
-    output::print(&format!("The invitation for {} opens nothing any more.", invitation.recipient))
+    output::print(&format!("The invitation for {} is withdrawn.", invitation.recipient))
 }
 
 fn state(state: InvitationState) -> &'static str {
@@ -113,17 +117,17 @@ fn password() -> Result<String> {
         return Ok(password);
     }
     if std::io::stdin().is_terminal() {
-        eprintln!("Password (it is shown while you type; OCB_PASSWORD or a pipe hide it):");
+        eprintln!("Password (visible while you type; use OCB_PASSWORD or a pipe to hide it):");
     }
     let mut line = String::new();
-    std::io::stdin().lock().read_line(&mut line).map_err(|e| Failure::Input(format!("No password was read: {e}.")))?;
+    std::io::stdin().lock().read_line(&mut line).map_err(|e| Failure::Input(format!("Cannot read password: {e}.")))?;
     Ok(line.trim_end_matches(['\r', '\n']).to_owned())
 }
 
 async fn audit(engine: &Engine, json: bool) -> Result<()> {
     match engine.broken_audit().await? {
-        Some(seq) => Err(Failure::Fault(format!("the audit log was changed by hand at entry {seq}."))),
+        Some(seq) => Err(Failure::Fault(format!("entry {seq} of the audit log was altered."))),
         None if json => output::print_json(&serde_json::json!({ "whole": true })),
-        None => output::print("The audit log is whole."),
+        None => output::print("The audit log is intact."),
     }
 }

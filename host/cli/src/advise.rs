@@ -35,7 +35,7 @@ pub async fn advise(store: &Store, args: &AdviseArgs, json: bool) -> Result<Exit
     let named_b = args.b.as_ref().unwrap_or(named_a);
     let wanted = lengths::Wanted::read(args)?;
     if let Some(folder) = &args.out {
-        std::fs::create_dir_all(folder).map_err(|e| Failure::file("make", folder, &e))?;
+        std::fs::create_dir_all(folder).map_err(|e| Failure::file("create", folder, &e))?;
     }
     let a = truth::object(store, named_a).await?;
     let b = if named_b == named_a { a.clone() } else { truth::object(store, named_b).await? };
@@ -69,7 +69,7 @@ pub async fn advise(store: &Store, args: &AdviseArgs, json: bool) -> Result<Exit
             eprintln!("ocb: Stopped; nothing was written.");
             return Ok(ExitCode::from(INTERRUPTED));
         }
-        Err(Stop::Empty) => return Err(Failure::Input("B never comes that close; choose other distances.".to_owned())),
+        Err(Stop::Empty) => return Err(Failure::Input("B never reaches these distances; choose others.".to_owned())),
         Err(Stop::Sampling(e)) => return Err(Failure::Input(format!("These configurations are not possible: {e}."))),
     };
     let written = match &args.out {

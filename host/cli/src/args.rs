@@ -29,7 +29,7 @@ use crate::board::BoardArgs;
 use crate::chart::ChartArgs;
 use crate::placing::PlacingArgs;
 
-/// Benchmarks of collision detection.
+/// Benchmark of collision detection and proximity query algorithms.
 #[derive(Debug, Parser)]
 #[command(name = "ocb", version, about, after_help = EXIT_CODES)]
 pub struct Cli {
@@ -37,18 +37,18 @@ pub struct Cli {
     pub command: Command,
     #[command(flatten)]
     pub store: Store,
-    /// Machine-readable output on stdout, and nothing else there.
+    /// Print JSON to stdout, and nothing else.
     #[arg(long, global = true)]
     pub json: bool,
 }
 
 const EXIT_CODES: &str = "Exit codes:
-  0    done; for a benchmark: every algorithm completed and no answer was wrong
-  1    our fault or the machine's; for `ocb truth pairs`: an answer differs from the truth in the file
-  2    bad input; nothing of it was kept
+  0    success; for a benchmark: every algorithm completed and no answer was wrong
+  1    internal error, or a fault of the machine; for `ocb truth pairs`: an answer differs from the truth in the file
+  2    bad input; nothing was stored
   3    the run finished, but an algorithm failed or gave wrong answers; for `ocb advise --verify`: the certificate does not hold;
-       for `ocb replay`: an answer was another one, or could not be asked again
-  130  stopped by Ctrl-C; the run is cancelled and nothing goes on running";
+       for `ocb replay`: an answer differs, or a query could not be repeated
+  130  stopped by Ctrl-C; the run is cancelled and all its processes have ended";
 
 /// Where data, runner and plugins are.
 #[derive(Debug, Args)]
@@ -75,8 +75,8 @@ pub struct Store {
         hide_env_values = true
     )]
     pub plugins: Vec<PathBuf>,
-    /// How much of a jail foreign plugins need: production refuses them without every required layer, dev runs them with
-    /// what there is and ranks nothing.
+    /// Jail for third-party plugins: production runs them with every required layer or not at all, dev runs them with the
+    /// layers that this machine has and ranks nothing.
     #[arg(long, global = true, env = "OCB_PROFILE", value_enum, default_value_t = ProfileArg::Production, hide_env_values = true)]
     pub profile: ProfileArg,
     /// Folder with the Stanford objects, `bunny.obj` and `dragon.obj` [default: `stock` beside this program or above it].
@@ -85,8 +85,8 @@ pub struct Store {
     /// File of the suite that public plugins are measured on [default: the newest that ships].
     #[arg(long = "suite-file", global = true, env = "OCB_SUITE", value_name = "FILE", hide_env_values = true)]
     pub suite_file: Option<PathBuf>,
-    /// What distinguishes this machine though the kernel does not tell, such as `turbo off`: results are compared only with those
-    /// of machines of the same note.
+    /// Note on this machine for something that the kernel does not report, such as `turbo off`; only results of machines with
+    /// the same note are compared.
     #[arg(long, global = true, env = "OCB_MACHINE_NOTE", value_name = "TEXT", hide_env_values = true)]
     pub machine_note: Option<String>,
 }
@@ -101,72 +101,72 @@ impl Store {
     }
 }
 
-/// How much of a jail foreign plugins need.
+/// Jail for third-party plugins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ProfileArg {
-    /// Every required layer.
+    /// With every required layer or not at all.
     Production,
-    /// What there is; results are not ranked.
+    /// With the layers that this machine has; results are not ranked.
     Dev,
 }
 
-/// What to do.
+/// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Serve pages and API.
+    /// Serve the pages and the API.
     Serve(ServeArgs),
     /// Measure algorithms on a pair of objects, print the table, write the result files.
     Bench(BenchArgs),
-    /// Find configurations and certify them: poses, distances, classes, as a file.
+    /// Find and certify configurations, and write their poses, distances and classes to a file.
     Generate(GenerateArgs),
-    /// How much of the models a question needs: reduced objects with certificates, what they save, what they cost.
+    /// Find out how far the objects can be reduced for a query: reduced objects with certificates, speedups and errors.
     Advise(AdviseArgs),
-    /// Certified answers: do they collide, how far apart are they, how sure is that.
+    /// Print certified answers to collision and distance queries.
     Truth(TruthArgs),
-    /// Look at plugins.
+    /// List or check plugins.
     Plugin {
         #[command(subcommand)]
         command: PluginCommand,
     },
-    /// Look at objects.
+    /// List objects.
     Object {
         #[command(subcommand)]
         command: ObjectCommand,
     },
-    /// Look at the runs of this command line; runs made in the pages can be shown by their id.
+    /// List, show, refine or archive runs of the command line; runs of the web pages can be shown by id.
     Run {
         #[command(subcommand)]
         command: RunCommand,
     },
-    /// Ask every question of a repro archive again, in the jail, and compare every answer bit by bit.
+    /// Repeat every query of a repro archive in the jail, and compare every answer bit by bit.
     Replay(ReplayArgs),
-    /// Send a plugin to a service, which checks it.
+    /// Submit a plugin to a service, which checks it.
     Submit(SubmitArgs),
-    /// Look at what you have made, here or on a service, delete it, or take it along.
+    /// Show, delete or export your data, here or on a service.
     Data {
         #[command(subcommand)]
         command: DataCommand,
     },
-    /// Tell how a run or a plugin on a service is cited: BibTeX, CFF, its stable link.
+    /// Print the citation of a run or a plugin on a service: BibTeX, CFF or the stable link.
     Cite(CiteArgs),
-    /// Decide who sees a run or an object of yours on a service.
+    /// Set who can see your run or object on a service.
     Visibility(VisibilityArgs),
-    /// Look after a service's accounts, on its data folder while it is stopped.
+    /// Manage the accounts of a service, on its data folder while it is stopped.
     Admin {
         #[command(subcommand)]
         command: AdminCommand,
     },
-    /// Try where algorithms fail: stress families, relations between answers, failures that were reported elsewhere.
+    /// Test where algorithms fail: stress families, relations between answers, failures reported elsewhere.
     Stability(StabilityArgs),
-    /// Tell what this machine has for the jail, what it lacks and how to get it; exit code 1 when foreign plugins could
-    /// not run under the chosen profile.
+    /// Check what the jail needs of this machine, what is missing and how to get it; exit code 1 if third-party plugins
+    /// cannot run under the chosen profile.
     Doctor,
-    /// The public benchmark: scenes, distances and questions that every public plugin is measured on.
+    /// Show or measure the suite, the public benchmark: the scenes, distances and queries for every public plugin.
     Suite {
         #[command(subcommand)]
         command: SuiteCommand,
     },
-    /// Measure stored benchmarks again: for a new hardware class, suite or oracle, side by side with the old results.
+    /// Measure stored benchmarks again for a new hardware class, suite or oracle, and compare them with the old results.
     Campaign {
         #[command(subcommand)]
         command: CampaignCommand,
@@ -180,29 +180,29 @@ pub enum Command {
     /// List the configurations on which an algorithm was worst: wrong answers first, then by time or error.
     #[command(after_help = SELECTIONS)]
     Worst(WorstArgs),
-    /// Count the configurations of a selection and what they cost each algorithm, or write their records.
+    /// Count the configurations of a selection and show the times of each algorithm on them, or write their records.
     #[command(after_help = SELECTIONS)]
     Select(SelectArgs),
 }
 
-const SELECTIONS: &str = "A selection is made of
+const SELECTIONS: &str = "A selection consists of
   COLUMN [of ALGORITHM] in [LOW, HIGH]   time (ns, us, ms, s), bv, primitives, error (u S), distance
   FLAG [of ALGORITHM]                    wrong, missed, false_alarm, flipped, disputed
   near([a|b] vertex N, R)                witness point within R times the object's longest side of vertex N
-joined by & (and), | (or), ! (not) and brackets, e.g.
+joined by & (and), | (or), ! (not) and parentheses, e.g.
   'time in [500us, 15ms] & bv in [1200, 35000] & near(vertex 8367, 0.05)'";
 
 /// `ocb serve`
 #[derive(Debug, Args)]
 pub struct ServeArgs {
-    /// Where to listen; port 0 takes a free one.
+    /// Address to listen on; port 0 takes a free port.
     #[arg(long, visible_alias = "listen", default_value = "127.0.0.1:8080")]
     pub address: SocketAddr,
-    /// A name under which the service may be reached, beside addresses, loopback names and that of --public-url; repeated, or
+    /// Additional host name of the service, besides IP addresses, loopback names and the host of --public-url; repeated, or
     /// separated by commas.
     #[arg(long, value_delimiter = ',', env = "OCB_HOST_NAMES", value_name = "NAME", hide_env_values = true)]
     pub host_name: Vec<String>,
-    /// Days that what guests make stays, after they last made something or asked to have it kept.
+    /// Days until the data of a guest is deleted, counted from the last item that the guest created or asked to keep.
     #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=36_500), env = "OCB_GUEST_DAYS", value_name = "DAYS", hide_env_values = true)]
     pub guest_days: u32,
     #[command(flatten)]
@@ -211,19 +211,19 @@ pub struct ServeArgs {
     pub mail: MailArgs,
 }
 
-/// How much measuring time visitors may have waiting and under way: for each algorithm of a run its budget.
+/// Limits on the measuring time that visitors may have queued and running: the sum of the budgets of all algorithms.
 #[derive(Debug, Args)]
 pub struct CeilingArgs {
-    /// Minutes of one run of a guest, which ends then.
+    /// Longest run of a guest in minutes; the run ends there.
     #[arg(long, default_value_t = 10, value_parser = minutes(), env = "OCB_GUEST_RUN_MINUTES", value_name = "MINUTES", hide_env_values = true)]
     pub guest_run_minutes: u32,
-    /// Minutes of measuring that a guest may have waiting and under way.
+    /// Minutes of measuring that a guest may have queued and running.
     #[arg(long, default_value_t = 30, value_parser = minutes(), env = "OCB_GUEST_MINUTES", value_name = "MINUTES", hide_env_values = true)]
     pub guest_minutes: u32,
     /// The same for an account.
     #[arg(long, default_value_t = 720, value_parser = minutes(), env = "OCB_ACCOUNT_MINUTES", value_name = "MINUTES", hide_env_values = true)]
     pub account_minutes: u32,
-    /// The same for all who ask from one address (of version 6: from one network of 64 bits).
+    /// The same for all visitors from one IP address (IPv6: from one /64 network).
     #[arg(long, default_value_t = 1440, value_parser = minutes(), env = "OCB_ADDRESS_MINUTES", value_name = "MINUTES", hide_env_values = true)]
     pub address_minutes: u32,
 }
@@ -239,44 +239,44 @@ pub struct BenchArgs {
     pub a: String,
     /// Object B (moving) [default: the same as A].
     pub b: Option<String>,
-    /// Algorithms, by id, with settings behind it (box-tree:leaf_size=4, x:threads=2), repeated or separated by commas; or
-    /// `all` [default: the usual ones that answer the question].
+    /// Algorithm ids, with optional settings (box-tree:leaf_size=4, x:threads=2), repeated or separated by commas; or `all`
+    /// [default: the usual ones that answer the query].
     #[arg(long, value_delimiter = ',', value_name = "ID")]
     pub algorithm: Vec<String>,
-    /// The question: do they collide (cd), or how far apart are they (pq).
+    /// Collision query (cd) or distance query (pq).
     #[arg(long, value_enum, default_value_t = Question::Cd)]
     pub query: Question,
     /// For cd: stop at the first contact, or list all [default: first].
     #[arg(long, value_enum)]
     pub contacts: Option<Contacts>,
-    /// Solid bodies: an object wholly inside the other one collides, too. For closed objects, and algorithms that know it.
+    /// Solid bodies: an object completely inside the other one collides, too. Needs closed objects and algorithms that support it.
     #[arg(long)]
     pub solid: bool,
     #[command(flatten)]
     pub placing: PlacingArgs,
-    /// Configurations from a file: a Parquet set of ours, or row-major 4x4 matrices that place B in A's frame, as CSV (16
-    /// or 12 numbers a line), JSON or raw little-endian f64.
+    /// Configurations from a file: Parquet as `ocb generate` writes it, or row-major 4x4 matrices that place B in A's frame,
+    /// as CSV (16 or 12 numbers per line), JSON or raw little-endian f64.
     #[arg(
         long,
         value_name = "FILE",
         conflicts_with_all = ["paper_compat", "rotate", "move_by", "count", "seed", "distance", "step", "ladder", "center_distance", "hit_share"]
     )]
     pub configurations: Option<PathBuf>,
-    /// Fresh processes in the unit of the files, with one timed pass over the configurations each; the median counts.
+    /// Number of fresh processes, each with one timed pass over the configurations in the unit of the files; the median counts.
     #[arg(long, default_value_t = 5)]
     pub passes: u32,
-    /// Seed of the order, the equivalent instances and the blocks of questions, to repeat a run [default: drawn].
+    /// Seed of the query order, the equivalent instances and the blocks of queries, to repeat a run [default: random].
     #[arg(long, value_name = "NUMBER")]
     pub run_seed: Option<u64>,
-    /// Measuring time per algorithm; a slower one is measured on as many configurations as fit.
+    /// Measuring time per algorithm; a slower algorithm is measured on as many configurations as fit.
     #[arg(long, default_value_t = 60.0, allow_negative_numbers = true, value_name = "SECONDS")]
     pub budget: f64,
-    /// Stop as soon as the algorithms are told apart, where differences below this share (5%, 0.02) do not matter. The
-    /// result is a preview, which `ocb run refine` completes.
+    /// Stop once the comparison is settled; differences below this share (5%, 0.02) do not matter. The result is a preview,
+    /// which `ocb run refine` completes.
     #[arg(long, allow_hyphen_values = true, value_name = "SHARE", value_parser = share)]
     pub precision: Option<f64>,
-    /// A quick look: only 5,000 configurations, evenly spread over all. The result is a preview, which `ocb run refine`
-    /// completes.
+    /// Quick look: measure at most 5,000 configurations, evenly spread over all. The result is a preview;
+    /// `ocb run refine` completes it.
     #[arg(long)]
     pub quick: bool,
     /// Folder for the result files: records as Parquet and CSV, configurations, run.json, heatmaps as GLB and PLY.
@@ -288,7 +288,7 @@ pub struct BenchArgs {
 fn share(text: &str) -> Result<f64, String> {
     let (number, unit) = text.strip_suffix('%').map_or((text, 1.0), |percent| (percent, 100.0));
     let share = number.trim().parse::<f64>().map(|number| number / unit);
-    share.map_err(|_| format!("{text:?} is no share; write it as 5% or 0.05"))
+    share.map_err(|_| format!("{text:?} is not a share; write it as 5% or 0.05"))
 }
 
 /// `ocb generate`
@@ -308,43 +308,43 @@ pub struct GenerateArgs {
 /// `ocb advise`
 #[derive(Debug, Args)]
 pub struct AdviseArgs {
-    /// Object A (fixed): an OBJ file, or a stock object such as `stock:castle@5000`; with --verify, where the certificate's
-    /// object is now [default: where it was].
+    /// Object A (fixed): an OBJ file, or a stock object such as `stock:castle@5000`; with --verify, the file of
+    /// the certificate's object [default: the file that the certificate names].
     #[arg(required_unless_present = "verify")]
     pub a: Option<String>,
     /// Object B (moving) [default: the same as A].
     #[arg(conflicts_with = "verify")]
     pub b: Option<String>,
-    /// How far apart they are (distance), or whether that is more than a length (clearance=LENGTH).
+    /// The query: the distance (distance), or whether the distance is greater than a length (clearance=LENGTH).
     #[arg(long, default_value = "distance", value_name = "distance|clearance=LENGTH")]
     pub question: String,
     /// Largest error of a distance: a share of A's longest side (1%), or a length.
     #[arg(long, value_name = "LENGTH")]
     pub tolerance: Option<String>,
-    /// What one unit of the files is, where lengths are given as 0.5mm or 2cm.
+    /// Unit of the files, for lengths such as 0.5mm or 2cm.
     #[arg(long, value_enum, default_value_t = Unit::Mm)]
     pub unit: Unit,
-    /// Configurations to choose by.
+    /// Number of configurations to choose the advice by.
     #[arg(long, default_value_t = ocb_advisor::CONFIGURATIONS, value_parser = clap::value_parser!(u32).range(8..=1_000_000), value_name = "N")]
     pub configurations: u32,
-    /// Other configurations to check the advice by.
+    /// Number of other configurations to check the advice by.
     #[arg(long, default_value_t = ocb_advisor::HELD_OUT, value_parser = clap::value_parser!(u32).range(0..=1_000_000), value_name = "N")]
     pub held_out: u32,
-    /// Relative distances of the configurations, separated by commas [default: ones that fit the question].
+    /// Relative distances of the configurations, separated by commas [default: distances that fit the query].
     #[arg(long, value_delimiter = ',', value_name = "X")]
     pub distance: Vec<f64>,
     /// Seed of the low-discrepancy sequences.
     #[arg(long, default_value_t = 0)]
     pub seed: u64,
-    /// Folder for the reduced objects (OBJ), their certificates (JSON), the advice (JSON), and where detail is needed (PLY).
+    /// Folder for the reduced objects (OBJ), their certificates (JSON), the advice (JSON) and maps of the required detail (PLY).
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Check a certificate instead, with the reduced object beside it.
+    /// Verify a certificate instead; the reduced object must be in the same folder.
     #[arg(long, value_name = "CERTIFICATE")]
     pub verify: Option<PathBuf>,
 }
 
-/// What one unit of an object's file is.
+/// Unit of an object's file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Unit {
     /// A millimetre.
@@ -366,7 +366,7 @@ pub struct TruthArgs {
     /// Configurations from a file, as for `ocb bench`.
     #[arg(long, value_name = "FILE")]
     pub configurations: Option<PathBuf>,
-    /// The question.
+    /// The query.
     #[arg(long, value_enum, default_value_t = TruthQuestion::Pq)]
     pub query: TruthQuestion,
     /// File to write: .parquet, .csv or .json [default: a table on stdout].
@@ -379,7 +379,7 @@ pub struct TruthArgs {
 /// `ocb truth pairs`
 #[derive(Debug, Subcommand)]
 pub enum TruthCommand {
-    /// Answer a file of triangle pairs, a case a line; compare with the truth it gives, if it does.
+    /// Answer a file of triangle pairs, one case per line, and compare with the truth in the file, if there is any.
     #[command(after_help = PAIRS_FORMAT)]
     Pairs {
         /// The file.
@@ -393,21 +393,21 @@ pub enum TruthCommand {
 const PAIRS_FORMAT: &str = "A line is one of
   NAME FAMILY nA nB <9 coordinates for each of nA + nB triangles> [| hit distance margin size]
   <9 + 9 coordinates> <9 entries of a rotation, by rows> <3 of a translation> [hit distance]
-with decimal or C99 hexadecimal numbers; the rotation and translation place the second triangle. What stands in brackets
-may be missing. Empty lines and lines that begin with # are skipped.";
+with decimal or C99 hexadecimal numbers; the rotation and translation place the second triangle. Parts in brackets
+are optional. Empty lines and lines that begin with # are skipped.";
 
-/// What is asked of the oracle.
+/// A query to the oracle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum TruthQuestion {
-    /// Do they collide, and how robustly? No distances.
+    /// Collisions with their margins; no distances.
     Cd,
     /// Everything, with the distance as a certified interval.
     Pq,
-    /// All pairs of triangles that meet, each with its margin.
+    /// All pairs of intersecting triangles, each with its margin.
     All,
 }
 
-/// The question.
+/// The query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Question {
     /// Collision query.
@@ -428,21 +428,21 @@ pub enum Contacts {
 /// `ocb object`
 #[derive(Debug, Subcommand)]
 pub enum ObjectCommand {
-    /// List stock objects and those read by earlier commands.
+    /// List stock objects and the objects of earlier commands.
     List,
 }
 
 /// `ocb stability`
 #[derive(Debug, Args)]
 pub struct StabilityArgs {
-    /// Algorithms, by id, with settings behind it.
+    /// Algorithm ids, with optional settings.
     #[arg(required = true, value_name = "ID")]
     pub algorithms: Vec<String>,
-    /// Only this family or relation, or `reported` failures, other `tessellations`, adversarial `search`; may be repeated
-    /// [default: all, and the result is kept for the page].
+    /// Only this family or relation, or `reported` (failures), `tessellations` or `search` (adversarial); may be repeated
+    /// [default: all; the result is then stored for the page].
     #[arg(long, value_name = "NAME")]
     pub family: Vec<String>,
-    /// Only this value of the family's parameter, or of the relation's amount.
+    /// Only this parameter value of the family, or this amount of the relation.
     #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
     pub at: Option<f64>,
     /// Only this seed.
@@ -451,10 +451,10 @@ pub struct StabilityArgs {
     /// Seeds per value [default: 3].
     #[arg(long, value_name = "COUNT")]
     pub seeds: Option<u32>,
-    /// Begin nothing new after so long; the table says then that it is not complete.
+    /// Time limit; the table is then marked incomplete.
     #[arg(long, value_name = "SECONDS")]
     pub budget: Option<u64>,
-    /// Folder for the failing cases: both objects as OBJ, poses, expected and got, the command line.
+    /// Folder for the failing cases: both objects as OBJ, poses, expected and actual answers, the command line.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }

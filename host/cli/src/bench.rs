@@ -31,7 +31,7 @@ pub async fn bench(store: &Store, args: &BenchArgs, json: bool) -> Result<ExitCo
     // Everything that can be refused without the store is refused before it is opened.
     let inputs = spec::Inputs::read(args)?;
     if let Some(folder) = &args.out {
-        std::fs::create_dir_all(folder).map_err(|e| Failure::file("make the folder", folder, &e))?;
+        std::fs::create_dir_all(folder).map_err(|e| Failure::file("create the folder", folder, &e))?;
     }
     let done = match open::open(store, Purpose::Measure).await {
         Ok(engine) => {

@@ -16,10 +16,10 @@ use crate::{output, picture, units};
 /// `ocb board`
 #[derive(Debug, Args)]
 pub struct BoardArgs {
-    /// Version of the suite whose results are compared, or none for runs [default: the newest suite that was measured].
+    /// Version of the suite whose results are compared, or `none` for user runs [default: the newest measured suite].
     #[arg(long, value_name = "VERSION")]
     pub suite: Option<String>,
-    /// The question: collision_first, collision_all or proximity, with +solid for solid bodies.
+    /// The query: collision_first, collision_all or proximity, with +solid for solid bodies.
     #[arg(long)]
     pub question: Option<String>,
     /// Contract class, as the board prints it.
@@ -34,7 +34,7 @@ pub struct BoardArgs {
     /// Distance: 0.1 (relative), step:1e-4, ladder, grid:0, ..., or `all`.
     #[arg(long)]
     pub distance: Option<String>,
-    /// Precision needed: any, none_seen (no wrong answer), or the largest eps* that will do, e.g. 1e-6.
+    /// Required precision: any, none_seen (no wrong answer), or the largest acceptable eps*, e.g. 1e-6.
     #[arg(long)]
     pub precision: Option<String>,
     /// What to chart speed against.
@@ -49,7 +49,7 @@ const HEADINGS: [&str; 13] = [
     "rank",
     "algorithm",
     "family",
-    "questions/s",
+    "queries/s",
     "n",
     "wrong",
     "missed",
@@ -100,9 +100,10 @@ pub fn text(board: &Board) -> String {
     lines.push(board.finding.clone());
     lines.push(output::table(&HEADINGS, board.rows.iter().map(row).collect(), &[0, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]));
     lines.push(
-        "Questions per second by the mean time, with the 95 % interval over the processes; ranks go by it, overlapping \
-         intervals are ties (=). Wrong answers with Wilson's 95 % interval of their share; none seen: below 3/n. *: on the \
-         frontier of speed and accuracy. stability: stress families without a wrong answer (`ocb stability`)."
+        "Queries per second follow from the mean time, with the 95 % interval over the processes. Ranks follow them; \
+         overlapping intervals are ties (=). Wrong answers have the 95 % Wilson interval of their share; none seen means \
+         below 3/n. *: on the frontier of speed and accuracy. stability: stress families without a wrong answer (`ocb \
+         stability`)."
             .to_owned(),
     );
     let reason = |row: &BoardRow| Some(format!("{}: no rank. {}", row.algorithm, row.reason.as_ref()?));
@@ -136,7 +137,7 @@ fn empty(board: &Board) -> String {
     }
     let removed = board.filters.iter().filter(|f| f.removed > 0);
     let removed: Vec<String> = removed.map(|f| format!("--{} {} removes {}", f.name, f.chosen, f.removed)).collect();
-    format!("0 of {} results are left: {}.", board.results, removed.join(", "))
+    format!("0 of {} results match: {}.", board.results, removed.join(", "))
 }
 
 fn row(row: &BoardRow) -> Vec<String> {

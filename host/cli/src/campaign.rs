@@ -53,7 +53,7 @@ async fn create(engine: &Engine, args: &CampaignArgs, json: bool) -> Result<Exit
             () = stop => true,
         };
         if interrupted {
-            eprintln!("ocb: Stopped; the rest of the campaign waits, and `ocb serve` goes on with it.");
+            eprintln!("ocb: Stopped; the other runs of the campaign stay queued, and `ocb serve` continues with them.");
             return Ok(ExitCode::from(INTERRUPTED));
         }
     }
@@ -94,8 +94,8 @@ async fn watch(engine: &Engine, id: &str) -> Result<()> {
 
 fn would_queue(preview: &CampaignPreview) -> String {
     format!(
-        "{} runs of suite {} ({} of them repeat one that was measured before) and {} public runs of people would be queued, on the \
-         hardware class {} by oracle {}. Measuring them is expected to take {}.",
+        "{} runs of suite {} ({} of them repeat an earlier run) and {} public user runs would be queued, for hardware class {} \
+         and oracle {}. Measuring them is expected to take {}.",
         preview.suite_runs,
         preview.suite_version,
         preview.suite_repeats,
@@ -147,7 +147,7 @@ async fn find(engine: &Engine, id: &str) -> Result<CampaignInfo> {
 async fn show(engine: &Engine, id: &str, out: Option<&Path>, json: bool) -> Result<()> {
     let kind = out.map(|file| file.extension().and_then(|e| e.to_str()).unwrap_or_default().to_owned());
     if kind.as_deref().is_some_and(|kind| !matches!(kind, "csv" | "json")) {
-        return Err(Failure::Input("The file of a campaign's results ends in .csv or .json.".to_owned()));
+        return Err(Failure::Input("The result file of a campaign must end in .csv or .json.".to_owned()));
     }
     let campaign = find(engine, id).await?;
     if let (Some(file), Some(kind)) = (out, kind) {
@@ -173,7 +173,7 @@ fn text(campaign: &CampaignInfo) -> String {
     let mut lines = vec![
         format!("Campaign {}: {}", campaign.id, campaign.reason),
         format!(
-            "by {}, on the hardware class {}, oracle {}, suite {} ({})",
+            "by {}, hardware class {}, oracle {}, suite {} ({})",
             campaign.created_by,
             campaign.hardware_class,
             campaign.oracle,
@@ -181,7 +181,7 @@ fn text(campaign: &CampaignInfo) -> String {
             &campaign.suite_sha256[..12]
         ),
         format!(
-            "{}: {} runs wait, {} at work, {} done, {} failed, {} cancelled",
+            "{}: {} runs queued, {} running, {} done, {} failed, {} cancelled",
             run::state_name(campaign.state),
             runs.waiting,
             runs.running,
@@ -192,10 +192,10 @@ fn text(campaign: &CampaignInfo) -> String {
     ];
     if !campaign.results.is_empty() {
         let headings =
-            ["algorithm", "question", "objects", "distance", "old", "new", "new / old", "wrong", "old on", "new on"];
+            ["algorithm", "query", "objects", "distance", "old", "new", "new / old", "wrong", "old on", "new on"];
         lines.push(output::table(&headings, campaign.results.iter().map(row).collect(), &[4, 5, 6, 7]));
         lines.push(
-            "Median time per question with its 95 % interval; new / old is as wide as both intervals allow.".to_owned(),
+            "Median time per query with its 95 % interval; the interval of new / old follows from both.".to_owned(),
         );
     }
     lines.join("\n")

@@ -27,10 +27,10 @@ pub struct ChartArgs {
     #[arg(long, value_enum, default_value_t = AccuracyArg::Digits)]
     pub accuracy: AccuracyArg,
     /// For the kinds `ecdf`, `bv-tests` and `primitive-tests`: only the configurations of this selection (`ocb select --help`
-    /// tells the language).
+    /// explains the syntax).
     #[arg(long = "where", value_name = "SELECTION")]
     pub selection: Option<String>,
-    /// Algorithm whose columns are meant where the selection names none [default: the run's only one].
+    /// Algorithm of columns for which the selection names none [default: the run's only one].
     #[arg(long, value_name = "ID")]
     pub algorithm: Option<String>,
     /// File to write: .svg or .png (the picture), .csv, .parquet or .json (its numbers).

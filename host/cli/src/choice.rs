@@ -20,11 +20,11 @@ macro_rules! choice {
 choice! {
     /// Who sees a run or an object.
     VisibilityArg => ocb_service::model::Visibility {
-        /// You alone.
+        /// Only you.
         Private,
-        /// Whoever has its link.
+        /// Everyone who has the link.
         Unlisted,
-        /// Everybody: the list of objects has it, or the board when it is a run.
+        /// Everyone: an object is listed, and a run is on the board.
         Public,
     }
 }
@@ -48,9 +48,9 @@ choice! {
         FalseAlarms,
         /// Distance outside the certified interval, in u S.
         DistanceError,
-        /// Share of configurations whose equivalent instances got contradicting answers.
+        /// Share of configurations whose equivalent instances got contradictory answers.
         Flips,
-        /// Share of the other algorithms that answer otherwise.
+        /// Share of the other algorithms whose answer contradicts this one.
         Disagreement,
     }
 }
@@ -129,7 +129,7 @@ choice! {
         Missed,
         /// Share of false alarms.
         FalseAlarms,
-        /// Digits told apart, -log10 eps*.
+        /// Digits that the algorithm resolves, -log10 eps*.
         Digits,
         /// Worst error of a distance.
         Distance,

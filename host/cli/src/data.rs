@@ -128,10 +128,13 @@ pub fn agreed() -> Result<bool> {
     if !std::io::stdin().is_terminal() {
         return Ok(false);
     }
-    eprint!("Delete it for good? [y/N] ");
+    eprint!("Delete permanently? [y/N] ");
     let _ = std::io::stderr().flush();
     let mut line = String::new();
-    std::io::stdin().lock().read_line(&mut line).map_err(|e| Failure::Input(format!("No answer was read: {e}.")))?;
+    std::io::stdin()
+        .lock()
+        .read_line(&mut line)
+        .map_err(|e| Failure::Input(format!("Cannot read the answer: {e}.")))?;
     Ok(matches!(line.trim(), "y" | "Y" | "yes"))
 }
 
@@ -147,7 +150,7 @@ fn list(things: &OwnedItems) -> String {
 fn count(things: &OwnedItems) -> String {
     let several = |n: usize, one: &str, more: &str| format!("{n} {}", if n == 1 { one } else { more });
     format!(
-        "{}, {}, {}; {} of files that nobody else uses",
+        "{}, {}, {}; {} in files that no one else uses",
         several(things.runs.len(), "run", "runs"),
         several(things.objects.len(), "object", "objects"),
         several(things.advice as usize, "piece of advice", "pieces of advice"),

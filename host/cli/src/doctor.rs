@@ -20,7 +20,7 @@ pub fn doctor(store: &Store, json: bool) -> Result<ExitCode> {
     if diagnosis.allows(profile) {
         return Ok(ExitCode::SUCCESS);
     }
-    eprintln!("ocb: foreign plugins cannot run here in the profile '{}'.", profile.as_str());
+    eprintln!("ocb: Third-party plugins cannot run on this machine under the profile '{}'.", profile.as_str());
     Ok(ExitCode::from(OUR_FAULT))
 }
 
@@ -38,8 +38,8 @@ fn report(diagnosis: &Diagnosis) -> String {
         lines.push(format!("{mark}  {}: {} - {effect}{get}", facility.name, facility.found));
     }
     let yes = |may| if may { "yes" } else { "no" };
-    lines.push(format!("foreign plugins in production: {}", yes(diagnosis.production)));
-    lines.push(format!("foreign plugins with --profile dev (results unranked): {}", yes(diagnosis.dev)));
-    lines.push(format!("the plugins that come with ocb: {}", yes(diagnosis.own_plugins)));
+    lines.push(format!("third-party plugins with --profile production: {}", yes(diagnosis.production)));
+    lines.push(format!("third-party plugins with --profile dev (results unranked): {}", yes(diagnosis.dev)));
+    lines.push(format!("plugins shipped with ocb: {}", yes(diagnosis.own_plugins)));
     lines.join("\n")
 }

@@ -38,7 +38,7 @@ impl Failure {
     pub fn report(self) -> ExitCode {
         let (sentence, code) = match self {
             Self::Input(sentence) => (sentence, BAD_INPUT),
-            Self::Fault(sentence) => (format!("Our fault, not yours: {sentence}"), OUR_FAULT),
+            Self::Fault(sentence) => (format!("Internal error: {sentence}"), OUR_FAULT),
             Self::ReaderGone => return ExitCode::SUCCESS,
         };
         eprintln!("ocb: {sentence}");
@@ -89,7 +89,7 @@ pub fn usage(error: &clap::Error) -> ExitCode {
         parts.iter().filter(|line| !line.starts_with("For more information")).copied().collect::<Vec<_>>().join(" ");
     let told = told.trim_start_matches("error: ");
     if told.is_empty() || error.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        eprintln!("ocb: Say what to do; `ocb --help` lists the commands.");
+        eprintln!("ocb: No command given; `ocb --help` lists the commands.");
     } else {
         eprintln!("ocb: {told}; see `ocb --help`.");
     }

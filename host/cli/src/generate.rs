@@ -114,7 +114,7 @@ fn summary(generated: &Generated, spec: &RunSpec) -> String {
         (Some(seconds), Some(rate)) => {
             format!("Found and certified in {seconds:.1} s: {rate:.0} per second on each of {cores} cores.")
         }
-        _ => "Saved positions were used again.".to_owned(),
+        _ => "Saved positions were reused.".to_owned(),
     });
     text.push(format!("{:.2} % needed exact arithmetic.", 100.0 * generated.exact_share));
     text.push(format!("SHA-256 {}", set.sha256));

@@ -26,7 +26,7 @@ pub async fn object(store: &Store, command: &ObjectCommand, json: bool) -> Resul
         };
         let headings = ["id", "name", "triangles", "vertices", "surface", "terms"];
         output::print(&output::table(&headings, objects.iter().map(row).collect(), &[2, 3]))?;
-        output::print("A procedural object takes any number of triangles behind @, e.g. stock:castle@20000.")?;
+        output::print("Procedural objects take any number of triangles after @, e.g. stock:castle@20000.")?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -74,7 +74,7 @@ pub async fn open_aside(store: &Store) -> Result<(Engine, tempfile::TempDir)> {
     let folder = tempfile::Builder::new()
         .prefix("ocb-")
         .tempdir()
-        .map_err(|e| Failure::Fault(format!("cannot make a temporary folder: {e}.")))?;
+        .map_err(|e| Failure::Fault(format!("cannot create a temporary folder: {e}.")))?;
     let mut config = config(store, folder.path().to_path_buf(), Purpose::Look);
     config.database_url = None;
     config.blob_url = None;
@@ -94,7 +94,7 @@ fn config(store: &Store, data: PathBuf, purpose: Purpose) -> EngineConfig {
     config.profile = store.profile();
     if config.profile == Profile::Dev && purpose != Purpose::Look {
         eprintln!(
-            "ocb: WARNING: the development profile: foreign plugins run with the layers that this machine has, and results \
+            "ocb: WARNING: Under the profile 'dev', third-party plugins run with the layers that this machine has, and results \
              are marked unranked."
         );
     }
@@ -121,7 +121,7 @@ fn default_data(variable: impl Fn(&str) -> Option<PathBuf>) -> Result<PathBuf> {
     let home =
         || variable("HOME").filter(|folder| !folder.as_os_str().is_empty()).map(|home| home.join(".local/share"));
     xdg.or_else(home).map(|folder| folder.join("opencollbench")).ok_or_else(|| {
-        Failure::Input("There is no home folder to keep data in; name one with --data DIR or OCB_DATA.".to_owned())
+        Failure::Input("There is no home folder for the data; name a folder with --data DIR or OCB_DATA.".to_owned())
     })
 }
 
@@ -129,7 +129,7 @@ fn default_data(variable: impl Fn(&str) -> Option<PathBuf>) -> Result<PathBuf> {
 pub fn read_bounded(path: &Path, most: usize) -> Result<Vec<u8>> {
     given::read(path, most as u64).map_err(|e| match e.kind() {
         ErrorKind::FileTooLarge => {
-            Failure::Input(format!("{} has more than the {} that are read.", path.display(), size(most)))
+            Failure::Input(format!("{} is larger than {}, the limit for this file.", path.display(), size(most)))
         }
         _ => Failure::file("read", path, &e),
     })

@@ -24,7 +24,7 @@ pub fn print_json(value: &impl Serialize) -> Result<()> {
 
 /// A value as JSON.
 pub fn to_json(value: &impl Serialize) -> Result<String> {
-    serde_json::to_string_pretty(value).map_err(|e| Failure::Fault(format!("a result is no JSON: {e}.")))
+    serde_json::to_string_pretty(value).map_err(|e| Failure::Fault(format!("a result cannot be written as JSON: {e}.")))
 }
 
 /// A table without frames: headings, then rows; the columns named in `right` hold numbers.

@@ -26,22 +26,22 @@ pub struct PlacingArgs {
     /// Use the 2020 paper's own pattern of directions and rotations.
     #[arg(long, conflicts_with = "count")]
     pub paper_compat: bool,
-    /// Rotate-by, degrees [default: 20].
+    /// Rotation step (rotate-by) in degrees [default: 20].
     #[arg(long, allow_negative_numbers = true, value_name = "DEGREES", conflicts_with = "count")]
     pub rotate: Option<f64>,
-    /// Move-by, degrees; of a grid, the arc that its spacing is [default: 20].
+    /// Direction step (move-by) in degrees; for a grid, the arc of its spacing [default: 20].
     #[arg(long = "move", allow_negative_numbers = true, value_name = "DEGREES", conflicts_with = "count")]
     pub move_by: Option<f64>,
-    /// So many configurations instead of steps.
+    /// Number of configurations, instead of steps.
     #[arg(long, allow_negative_numbers = true, value_name = "N")]
     pub count: Option<i64>,
     /// Seed of the low-discrepancy sequences [default: 0].
     #[arg(long)]
     pub seed: Option<u64>,
-    /// Relative distance: surface distance over the longest side of A's bounding box; 0 is touching [default: 0].
+    /// Relative distance: surface distance over the longest side of A's bounding box; 0 means touching [default: 0].
     #[arg(long, allow_negative_numbers = true, conflicts_with_all = ["step", "ladder"])]
     pub distance: Option<f64>,
-    /// A share of the scene's size instead, apart (above 0) or crossing (below 0): 7e-15 to 0.1.
+    /// Step: a share of the scene's size instead, apart (above 0) or crossing (below 0); 7e-15 to 0.1.
     #[arg(long, allow_negative_numbers = true, value_name = "X", conflicts_with = "ladder")]
     pub step: Option<f64>,
     /// The ten steps +-1e-2, 1e-4, 1e-6, 1e-8 and 7.1e-15 in turn.
@@ -58,13 +58,13 @@ pub struct PlacingArgs {
 /// How configurations are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum MethodName {
-    /// B comes from a sphere around A until the distance is met.
+    /// B approaches from a sphere around A until the distance is met.
     Sphere,
-    /// B starts at every free node of a grid around A; reaches concavities.
+    /// B starts at every free node of a grid around A; this reaches concavities.
     Grid,
-    /// B tumbles about z and x at a fixed distance of the centres; the order is kept.
+    /// B tumbles about z and x at a fixed distance between the centres; the order is kept.
     Trajectory,
-    /// B anywhere in a cube around A, of which a share collides.
+    /// B anywhere in a cube around A; a given share of the poses collides.
     Random,
 }
 
@@ -127,7 +127,7 @@ impl PlacingArgs {
         };
         match self.given().into_iter().find(|given| !known.contains(given)) {
             Some(other) => Err(Failure::Input(format!(
-                "{other} does not belong to --method {name}; that takes {}.",
+                "{other} does not belong to --method {name}, which takes {}.",
                 known.join(", ")
             ))),
             None => Ok(()),

@@ -53,7 +53,7 @@ fn describe(algorithms: &[AlgorithmInfo]) -> String {
         let (id, name, version) = (a.id.clone(), a.name.clone(), a.version.clone());
         vec![id, name, version, queries.join(", "), yes(a.witness_points), yes(a.counters), a.license.clone()]
     };
-    let headings = ["algorithm", "name", "version", "questions", "witness points", "counters", "licence"];
+    let headings = ["algorithm", "name", "version", "queries", "witness points", "counters", "licence"];
     output::table(&headings, algorithms.iter().map(row).collect(), &[])
 }
 
@@ -74,7 +74,7 @@ pub fn json_file<T: DeserializeOwned>(path: &Path) -> Result<T> {
 
 /// Writes the repros into a folder; gives the names of the files.
 fn write_repros(report: &PluginReport, folder: &Path) -> Result<Vec<PathBuf>> {
-    std::fs::create_dir_all(folder).map_err(|e| Failure::file("make", folder, &e))?;
+    std::fs::create_dir_all(folder).map_err(|e| Failure::file("create", folder, &e))?;
     let mut written = Vec::new();
     for repro in report.lines.iter().filter_map(|line| line.repro.as_deref()) {
         let path = folder.join(format!("repro-{}.json", written.len() + 1));

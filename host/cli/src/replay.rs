@@ -36,10 +36,10 @@ fn line(replayed: &Replayed) -> String {
     let mut text = format!("{algorithm}: {equal} of {answers} answers are the same, bit for bit");
     if let Some(first) = first {
         let (configuration, recorded, now) = (first.configuration, &first.recorded, &first.replayed);
-        text += &format!("\n  the first other one, configuration {configuration}: {recorded} in the run, {now} now");
+        text += &format!("\n  first difference, configuration {configuration}: {recorded} in the run, {now} now");
     }
     if let Some(trouble) = trouble {
-        text += &format!("\n  not asked further: {trouble}");
+        text += &format!("\n  stopped: {trouble}");
     }
     text
 }

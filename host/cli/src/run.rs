@@ -75,7 +75,7 @@ async fn repro(engine: &Engine, id: &str, path: &Path, json: bool) -> Result<()>
     if json {
         return output::print_json(&serde_json::json!({ "run": run.id, "file": path, "bytes": bytes }));
     }
-    output::print(&format!("{} ({}); ocb replay {0} asks it again", path.display(), units::bytes(bytes)))
+    output::print(&format!("{} ({}); `ocb replay {0}` repeats the run", path.display(), units::bytes(bytes)))
 }
 
 /// The run of that id; `latest` is the newest of the command line.

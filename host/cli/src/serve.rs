@@ -16,12 +16,12 @@ pub async fn serve(store: &Store, args: &ServeArgs, json: bool) -> Result<ExitCo
     // The address first: nothing is opened, queued or measured for a service that cannot listen.
     let listener = ocb_server::bind(args.address).await.map_err(|e| {
         let reason = match e.kind() {
-            std::io::ErrorKind::AddrInUse => "something else listens there already".to_owned(),
+            std::io::ErrorKind::AddrInUse => "the address is already in use".to_owned(),
             _ => e.to_string(),
         };
         Failure::Input(format!("Cannot listen on {}: {reason}; choose another with --address.", args.address))
     })?;
-    let address = listener.local_addr().map_err(|e| Failure::Fault(format!("no address: {e}.")))?;
+    let address = listener.local_addr().map_err(|e| Failure::Fault(format!("cannot read the address: {e}.")))?;
     let stop = stop_signal()?;
     let url = format!("http://{address}");
     let engine = open::open_to_serve(store, args, &url).await?;
@@ -32,7 +32,7 @@ pub async fn serve(store: &Store, args: &ServeArgs, json: bool) -> Result<ExitCo
             Err(failure) => return Err(failure),
         }
     } else {
-        eprintln!("OpenCollBench serves on {url}; stop it with Ctrl-C.");
+        eprintln!("OpenCollBench is running at {url}; press Ctrl-C to stop it.");
     }
     ocb_server::serve(engine.clone(), names(args), listener, stop).await;
     engine.shutdown().await;

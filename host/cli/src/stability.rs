@@ -75,7 +75,7 @@ fn write(folder: &Path, method: &Stability) -> Result<()> {
     for (part, first) in families.chain(relations) {
         let Some(repro) = first else { continue };
         let here = folder.join(method.algorithm.replace([':', '='], "-")).join(part);
-        std::fs::create_dir_all(&here).map_err(|e| Failure::file("make", &here, &e))?;
+        std::fs::create_dir_all(&here).map_err(|e| Failure::file("create", &here, &e))?;
         let put = |name: &str, text: &str| {
             let path = here.join(name);
             std::fs::write(&path, text).map_err(|e| Failure::file("write", &path, &e))
@@ -116,7 +116,7 @@ fn text(table: &StabilityTable) -> String {
         blocks.extend(method.search.as_ref().map(searched));
         blocks.extend(unit(method));
         if let Some(offset) = method.offset_safe {
-            blocks.push(format!("Right up to {offset} lengths from the origin."));
+            blocks.push(format!("No wrong answer up to {offset} lengths from the origin."));
         }
         let cases = method.families.iter().filter_map(|f| f.first.as_ref().map(|first| (&f.family, first)));
         blocks.extend(cases.map(|(family, first)| case(family, first)));
@@ -128,7 +128,10 @@ fn text(table: &StabilityTable) -> String {
 fn unit(method: &Stability) -> Option<String> {
     let tried = method.relations.iter().find(|found| found.relation == "unit")?;
     let range = method.unit_safe.map(|[low, high]| {
-        format!("The unit of length may change from 2^{low} to 2^{high}, where triangles are about one unit long.")
+        format!(
+            "The unit of length may change from 2^{low} to 2^{high} without a wrong answer, where triangles are about one unit \
+             long."
+        )
     });
     let depends = (tried.decisions + tried.distances > 0).then(|| {
         format!(
@@ -152,9 +155,9 @@ fn families(table: &StabilityTable, found: &[FamilyResult]) -> String {
         [vec![format!("{}{mark}", f.family), state(f.state).to_owned()], counts.to_vec(), vec![threshold]].concat()
     };
     let headings =
-        ["family", "", "asked", "misses", "false alarms", "distances", "unsteady", "broken", "slow", "fails from"];
+        ["family", "", "queries", "misses", "false alarms", "distances", "unsteady", "broken", "slow", "fails from"];
     let rows = output::table(&headings, found.iter().map(row).collect(), &[2, 3, 4, 5, 6, 7, 8]);
-    format!("{rows}\n* asks for more than the interface promises")
+    format!("{rows}\n* beyond what the plugin interface guarantees")
 }
 
 fn tessellations(found: &[TessellationResult]) -> String {
@@ -168,7 +171,7 @@ fn tessellations(found: &[TessellationResult]) -> String {
     let headings = [
         "surface",
         "cut",
-        "question",
+        "query",
         "triangles",
         "median",
         "times original",
@@ -181,11 +184,11 @@ fn tessellations(found: &[TessellationResult]) -> String {
 }
 
 fn searched(found: &SearchResult) -> String {
-    let number =
-        |first: Option<u32>| first.map_or_else(|| format!("none in {}", found.most), |n| format!("question {n}"));
+    let number = |first: Option<u32>| first.map_or_else(|| format!("none in {}", found.most), |n| format!("query {n}"));
     let us = |ns: f64| format!("{:.1} us", ns / 1000.0);
     format!(
-        "First wrong answer: {} by climbing, {} of uniform questions. Longest time in {}: {} by climbing, {} of uniform questions.",
+        "First wrong answer: {} by climbing, {} by uniform sampling. Longest time in {} queries: {} by climbing, {} by \
+         uniform sampling.",
         number(found.climbing),
         number(found.uniform),
         found.most,

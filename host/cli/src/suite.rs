@@ -53,7 +53,7 @@ fn text(suite: &SuiteInfo) -> String {
         ),
         format!("scenes: {}", scenes.join(", ")),
         format!("distances: {}", separations.join(", ")),
-        format!("questions: {}", queries.join(", ")),
+        format!("queries: {}", queries.join(", ")),
         format!("here: hardware class {}, oracle {}", suite.hardware_class, suite.oracle),
         output::table(&["algorithm", "measured", "waiting"], rows, &[1, 2]),
     ]
@@ -77,7 +77,7 @@ async fn measure(engine: &Engine, args: &SuiteRunArgs, json: bool) -> Result<Exi
     };
     if interrupted {
         engine.end_suite_runs(&runs).await?;
-        eprintln!("ocb: Stopped; what was measured stays, `ocb suite run` measures the rest.");
+        eprintln!("ocb: Stopped; finished runs are kept, and `ocb suite run` measures the rest.");
         return Ok(ExitCode::from(INTERRUPTED));
     }
     let request = BoardRequest { suite: Some(engine.suite().await?.version.to_string()), ..BoardRequest::default() };

@@ -42,8 +42,8 @@ pub async fn truth(store: &Store, args: &TruthArgs, json: bool) -> Result<ExitCo
 
 async fn pairs(file: &Path, output: Option<&Path>, json: bool) -> Result<ExitCode> {
     let format = output.map(format_of).transpose()?;
-    let bad = |reason: &str| Failure::Input(format!("{} is no file of pairs: {reason}.", file.display()));
-    let text = String::from_utf8(read_bounded(file, MAX_PAIRS_BYTES)?).map_err(|_| bad("it is no text"))?;
+    let bad = |reason: &str| Failure::Input(format!("{} is not a file of triangle pairs: {reason}.", file.display()));
+    let text = String::from_utf8(read_bounded(file, MAX_PAIRS_BYTES)?).map_err(|_| bad("it is not UTF-8 text"))?;
     let cases = pairs::read(&text).map_err(|reason| bad(&reason))?;
     let answered =
         work::watch("pairs", cases.len(), move |gauge| truth::on_all_cpus(cases.len(), gauge, |i| cases[i].answer()));
@@ -62,7 +62,7 @@ async fn pairs(file: &Path, output: Option<&Path>, json: bool) -> Result<ExitCod
 async fn configurations(store: &Store, args: &TruthArgs, json: bool) -> Result<ExitCode> {
     let format = args.output.as_deref().map(format_of).transpose()?;
     let (Some(a), Some(file)) = (&args.a, &args.configurations) else {
-        return Err(Failure::Input("Name an object and its --configurations, or `ocb truth pairs FILE`.".to_owned()));
+        return Err(Failure::Input("Name an object and --configurations, or use `ocb truth pairs FILE`.".to_owned()));
     };
     let bytes = read_bounded(file, MAX_CONFIGURATION_BYTES)?;
     let poses = truth::read_matrices(&bytes).map_err(|e| Failure::Input(format!("{}: {e}", file.display())))?;

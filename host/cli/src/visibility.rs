@@ -36,9 +36,9 @@ fn tell(info: &impl serde::Serialize, name: &str, visibility: Visibility, json: 
         output::print_json(info)?;
     } else {
         let who = match visibility {
-            Visibility::Private => "you alone see it",
-            Visibility::Unlisted => "whoever has its link sees it",
-            Visibility::Public => "everybody sees it",
+            Visibility::Private => "visible only to you",
+            Visibility::Unlisted => "visible to everyone who has the link",
+            Visibility::Public => "visible to everyone",
         };
         output::print(&format!("{name}: {who}"))?;
     }

@@ -8,14 +8,14 @@ const DOCUMENT: &str = "plugins/cpp/KNOWN-WRONG.md";
 
 const HEAD: &str = "# Known wrong answers
 
-Written by `tests/tests/libraries/`, which asks all of this anew, in the jail, and compares: a library that becomes better,
-or worse, changes this page. What is true says the oracle, in exact arithmetic. Why each is as it is says the README of the
-library.
+`tests/tests/libraries/` writes this page: it repeats all queries in the jail and compares the answers, so the page
+changes when a library becomes better or worse. The oracle gives the true answers, in exact arithmetic. The README of
+each library explains its errors.
 
 ## Almost touching, and just meeting
 
-Wrong booleans of 20. Configurations of the object with itself at a distance of 1e-4, moved along the line between the
-nearest points until they are so far apart, or so deep in each other; the bounding boxes have diagonal 1.
+Number of wrong booleans in 20 configurations of the object with itself at a distance of 1e-4, moved along the line
+between the nearest points to the given distance (apart) or depth (meeting). The bounding boxes have diagonal 1.
 ";
 
 #[test]
@@ -25,6 +25,6 @@ fn the_known_wrong_answers_are_still_those() {
     if found != written {
         let beside = built("ocb-runner").with_file_name("KNOWN-WRONG.md");
         std::fs::write(&beside, &found).expect("written");
-        panic!("{DOCUMENT} is out of date; what is true today is in {}:\n{found}", beside.display());
+        panic!("{DOCUMENT} is out of date; the current version is in {}:\n{found}", beside.display());
     }
 }

@@ -32,7 +32,7 @@ impl Wanted {
             None if args.question == "distance" => None,
             _ => {
                 return Err(Failure::Input(format!(
-                    "The question is distance or clearance=LENGTH, not {}.",
+                    "--question must be distance or clearance=LENGTH, not {}.",
                     args.question
                 )));
             }
@@ -40,7 +40,7 @@ impl Wanted {
         let given = args.tolerance.as_deref().map(|given| length("The tolerance", given, args.unit, false));
         let given = given.transpose()?;
         if clearance.is_some() && given.is_some() {
-            eprintln!("ocb: A yes or no is exact; the tolerance makes no difference to it.");
+            eprintln!("ocb: The tolerance has no effect on a clearance query, which is answered exactly.");
         }
         if let Some(wrong) = args.distance.iter().find(|x| !(0.0..=1000.0).contains(*x)) {
             return Err(Failure::Input(format!("The relative distance must be a number from 0 to 1000, not {wrong}.")));
@@ -83,7 +83,7 @@ fn length(what: &str, given: &str, unit: Unit, zero: bool) -> Result<Length> {
     read.ok_or_else(|| {
         let least = if zero { "of at least 0" } else { "above 0" };
         Failure::Input(format!(
-            "{what} is a length {least} such as 1%, 0.5mm or 0.02 (units of the files), not {given}."
+            "{what} must be a length {least} such as 1%, 0.5mm or 0.02 (units of the files), not {given}."
         ))
     })
 }

@@ -11,7 +11,7 @@ pub fn card(advice: &Advice, written: &[PathBuf]) -> String {
     let mut lines = vec![asked(advice), enough(advice)];
     if let (Some(sure), Some(anywhere)) = (advice.guaranteed_error, advice.guaranteed_anywhere) {
         let seen = advice.held_out.observed_error.map_or_else(String::new, |e| {
-            format!("; observed at most {} on {} others", length(advice, e), advice.held_out.wrong.of)
+            format!("; observed at most {} on {} held-out configurations", length(advice, e), advice.held_out.wrong.of)
         });
         lines.push(format!(
             "Error: certified at most {} on these {} configurations{seen}. These levels alone: at most {} anywhere.",
@@ -22,7 +22,7 @@ pub fn card(advice: &Advice, written: &[PathBuf]) -> String {
     }
     let held = &advice.held_out;
     lines.push(format!(
-        "Held out: {} wrong, {} intervals that contradict the oracle; {} had to ask the whole objects.",
+        "Held out: {} wrong, {} intervals contradict the oracle; {} needed the whole objects.",
         share(&held.wrong),
         share(&held.violations),
         share(&held.falls_back)
@@ -31,9 +31,10 @@ pub fn card(advice: &Advice, written: &[PathBuf]) -> String {
     lines.push(table(advice));
     lines.push(String::new());
     lines.push(
-        "Times of one thread, [95 % interval], asked in turn in this process: of this program's own search, and of what is \
-         named as `ocb bench` names it the method's own. What is uncertified promises nothing; its errors are what was \
-         seen on these configurations. An error is a share of A's longest side."
+        "Times are those of one thread, with their [95 % interval], measured in turn in this process. A row with an \
+         algorithm's id, as in `ocb bench`, has the times of that algorithm; all other rows have those of this program's own \
+         search. Uncertified rows guarantee nothing: their errors are those observed on these configurations. Errors are \
+         shares of A's longest side."
             .to_owned(),
     );
     for left_out in &advice.left_out {
@@ -45,28 +46,28 @@ pub fn card(advice: &Advice, written: &[PathBuf]) -> String {
 
 fn asked(advice: &Advice) -> String {
     let what = match advice.question {
-        Question::Distance { tolerance } => format!("How far apart, within {}", length(advice, tolerance)),
-        Question::Clearance { clearance } => format!("Further apart than {}", length(advice, clearance)),
+        Question::Distance { tolerance } => format!("distance, error at most {}", length(advice, tolerance)),
+        Question::Clearance { clearance } => format!("distance greater than {}", length(advice, clearance)),
     };
     let distances: Vec<String> = advice.distances.iter().map(|d| format!("{d:.4}")).collect();
-    format!("{what}? {} configurations at relative distances {}.", advice.configurations, distances.join(", "))
+    format!("Query: {what}. {} configurations at relative distances {}.", advice.configurations, distances.join(", "))
 }
 
 fn enough(advice: &Advice) -> String {
     let faster = format!(
-        "{} times faster than the distance of the whole objects, {} times than asking them just this",
+        "{} times faster than the distance query on the whole objects, {} times faster than this query on them",
         estimate(&advice.faster),
         estimate(&advice.faster_than_same_question)
     );
     if advice.stages.is_empty() {
         return format!(
-            "The whole objects ({} triangles) are what answers this fastest: {faster}.",
+            "The whole objects ({} triangles) answer this query fastest: {faster}.",
             advice.triangles_before
         );
     }
     let times = f64::from(advice.triangles_before) / f64::from(advice.triangles_after);
     format!(
-        "Enough: {} instead of {} triangles ({times:.1} times fewer); {faster}.",
+        "Sufficient: {} instead of {} triangles ({times:.1} times fewer); {faster}.",
         stages(advice, &advice.stages),
         advice.triangles_before
     )
@@ -99,8 +100,8 @@ fn table(advice: &Advice) -> String {
         ]
     };
     let headings = [
-        "asked",
-        "model of both",
+        "queried",
+        "model size",
         "us",
         "times faster",
         "guaranteed",
@@ -115,8 +116,8 @@ fn table(advice: &Advice) -> String {
 fn name(advice: &Advice, point: &Point) -> String {
     let what = match point.kind {
         Kind::Whole => "whole objects, distance".to_owned(),
-        Kind::SameQuestion => "whole objects, this question".to_owned(),
-        Kind::YesNo => "whole objects, beyond the tolerance or not".to_owned(),
+        Kind::SameQuestion => "whole objects, this query".to_owned(),
+        Kind::YesNo => "whole objects, tolerance exceeded or not".to_owned(),
         Kind::Levels => format!("levels {}", stages(advice, &point.stages)),
         Kind::Advised => "ADVISED".to_owned(),
         Kind::Hulls => "convex hulls".to_owned(),
@@ -124,14 +125,14 @@ fn name(advice: &Advice, point: &Point) -> String {
         Kind::ConvexParts => "convex parts".to_owned(),
         Kind::InnerSpheres => "inner spheres".to_owned(),
         Kind::Voxels if matches!(advice.question, Question::Distance { .. }) => {
-            "voxels, beyond the tolerance or not".to_owned()
+            "voxels, tolerance exceeded or not".to_owned()
         }
         Kind::Voxels => "voxels".to_owned(),
         Kind::DoublePrecision => "whole objects in f64".to_owned(),
         Kind::SinglePrecision => "whole objects in f32".to_owned(),
     };
     let algorithm = point.algorithm.as_ref().map_or_else(String::new, |algorithm| format!(", {algorithm}"));
-    let asked = point.asked.map_or_else(String::new, |asked| format!("{asked} of {} asked", advice.configurations));
+    let asked = point.asked.map_or_else(String::new, |asked| format!("{asked} of {} queried", advice.configurations));
     let remarks = [if point.certified { "" } else { "uncertified" }, &asked].into_iter().filter(|r| !r.is_empty());
     match remarks.collect::<Vec<_>>().join("; ") {
         none if none.is_empty() => format!("{what}{algorithm}"),

@@ -15,7 +15,7 @@ use crate::{output, truth};
 
 /// Checks a certificate against the object that it names, or that stands there now.
 pub async fn verify(store: &Store, file: &Path, object: Option<&str>, json: bool) -> Result<ExitCode> {
-    let bad = |e: &dyn std::fmt::Display| Failure::Input(format!("{} is no certificate: {e}.", file.display()));
+    let bad = |e: &dyn std::fmt::Display| Failure::Input(format!("{} is not a certificate: {e}.", file.display()));
     let paper: Paper = serde_json::from_slice(&read_bounded(file, obj::MAX_BYTES)?).map_err(|e| bad(&e))?;
     let reduced = file.with_file_name(&paper.file);
     let read = obj::read(&read_bounded(&reduced, obj::MAX_BYTES)?);
@@ -28,7 +28,7 @@ pub async fn verify(store: &Store, file: &Path, object: Option<&str>, json: bool
     let doubt = match &checked {
         Ok(()) => None,
         Err(Doubt::Stopped) => {
-            eprintln!("ocb: Stopped; the certificate was not checked to its end.");
+            eprintln!("ocb: Stopped before the certificate was fully checked.");
             return Ok(ExitCode::from(INTERRUPTED));
         }
         Err(doubt) => Some(doubt.to_string()),

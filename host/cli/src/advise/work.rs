@@ -71,5 +71,5 @@ pub async fn watch<T: Send + 'static>(work: impl FnOnce(&Progress) -> T + Send +
         }
     };
     bar.finish_and_clear();
-    done.map_err(|_| Failure::Fault("the advisor broke down.".to_owned()))
+    done.map_err(|_| Failure::Fault("the advisor crashed.".to_owned()))
 }

@@ -7,12 +7,11 @@ use clap::{Args, Subcommand, ValueEnum};
 /// `ocb campaign`
 #[derive(Debug, Subcommand)]
 pub enum CampaignCommand {
-    /// Queue stored benchmarks again that were measured on another hardware class, suite or by another oracle; they come after
-    /// whatever anybody waits for.
+    /// Queue stored benchmarks of another hardware class, suite or oracle again, with lower priority than all other runs.
     Create(CampaignArgs),
     /// List campaigns, newest first.
     List,
-    /// Show how far a campaign is, with old and new results side by side.
+    /// Show the progress of a campaign, with old and new results side by side.
     Show {
         /// Campaign id, or `latest`.
         campaign: String,
@@ -20,7 +19,7 @@ pub enum CampaignCommand {
         #[arg(short, long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
-    /// End what waits of a campaign.
+    /// Cancel the queued runs of a campaign.
     Cancel {
         /// Campaign id, or `latest`.
         campaign: String,
@@ -30,16 +29,16 @@ pub enum CampaignCommand {
 /// `ocb campaign create`
 #[derive(Debug, Args)]
 pub struct CampaignArgs {
-    /// Why, for everybody to read.
+    /// Reason for the campaign, shown to everyone.
     #[arg(long, value_name = "TEXT", required_unless_present = "dry_run")]
     pub reason: Option<String>,
-    /// Only the suite, or only public runs whose accounts agree [default: both].
+    /// Measure only the suite, or only public runs whose accounts agree [default: both].
     #[arg(long, value_enum)]
     pub only: Option<CampaignOf>,
-    /// Tell how many runs it would be, and queue nothing.
+    /// Print the number of runs and queue nothing.
     #[arg(long)]
     pub dry_run: bool,
-    /// Measure it here and now, to its end, instead of leaving it to the service.
+    /// Measure the whole campaign now, instead of leaving it to the service.
     #[arg(long, conflicts_with = "dry_run")]
     pub measure: bool,
 }
@@ -47,7 +46,7 @@ pub struct CampaignArgs {
 /// What a campaign measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum CampaignOf {
-    /// What of the suite is missing here.
+    /// The runs of the suite that are missing here.
     Suite,
     /// Public runs.
     People,

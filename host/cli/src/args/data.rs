@@ -7,26 +7,26 @@ use clap::{Args, Subcommand, ValueEnum};
 /// `ocb data`
 #[derive(Debug, Subcommand)]
 pub enum DataCommand {
-    /// Show all runs and objects of yours.
+    /// List all your runs and objects.
     Show {
         #[command(flatten)]
         place: PlaceArgs,
     },
-    /// Show what goes with a run, an object or all of them, then delete it for good.
+    /// Preview the deletion of a run, an object or all data, then delete it permanently.
     Delete {
-        /// What it is.
+        /// What to delete.
         #[arg(value_enum)]
         what: Deleted,
-        /// Its id, the last part of its link; absent for `all`.
+        /// Its id, the last part of its link; omit it for `all`.
         #[arg(required_if_eq_any([("what", "run"), ("what", "object")]))]
         id: Option<String>,
-        /// Do not ask.
+        /// Do not ask for confirmation.
         #[arg(long)]
         yes: bool,
         #[command(flatten)]
         place: PlaceArgs,
     },
-    /// Write everything of yours into one archive: objects, runs with configurations and records, advice, plugins.
+    /// Write all your data to one archive: objects, runs with configurations and records, advice, plugins.
     Export {
         /// File to write (.tar).
         #[arg(short, long, value_name = "FILE")]
@@ -36,13 +36,13 @@ pub enum DataCommand {
     },
 }
 
-/// Whose things: those of an account on a service, or those of this command line in the data folder.
+/// Whose data: that of an account on a service, or that of the command line in the data folder.
 #[derive(Debug, Args)]
 pub struct PlaceArgs {
-    /// The service [default: the data folder of this command line].
+    /// URL of the service [default: use the data folder of the command line].
     #[arg(long, env = "OCB_SERVER", value_name = "URL", requires = "token")]
     pub server: Option<String>,
-    /// A token of your account there, made on its account page for runs and objects.
+    /// Token of your account there for runs and objects; its account page creates tokens.
     #[arg(long, env = "OCB_TOKEN", value_name = "TOKEN", hide_env_values = true)]
     pub token: Option<String>,
 }
@@ -52,7 +52,7 @@ pub struct PlaceArgs {
 pub enum Deleted {
     /// A run with its results.
     Run,
-    /// An object, and your runs and advice with it.
+    /// An object, and your runs and advice that use it.
     Object,
     /// Everything but plugins, because results belong to them.
     All,

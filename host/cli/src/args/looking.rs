@@ -20,13 +20,13 @@ pub struct HeatmapArgs {
     /// What to show.
     #[arg(long, value_enum, default_value_t = MeasureArg::Time)]
     pub measure: MeasureArg,
-    /// Which statistic of the values at a vertex.
+    /// Statistic of the values at a vertex.
     #[arg(long, value_enum, default_value_t = StatisticArg::Median)]
     pub statistic: StatisticArg,
-    /// What to do with values outside the IQR fence.
+    /// How to treat values outside the IQR fence.
     #[arg(long, value_enum, default_value_t = OutliersArg::PerVertex)]
     pub outliers: OutliersArg,
-    /// Which object.
+    /// Object to show.
     #[arg(long, value_enum, default_value_t = SideArg::A)]
     pub side: SideArg,
     /// Colours.
@@ -38,10 +38,10 @@ pub struct HeatmapArgs {
     /// Subtract the values of this run on the same object.
     #[arg(long, value_name = "RUN")]
     pub against_run: Option<String>,
-    /// Only the configurations of this selection (`ocb select --help` tells the language).
+    /// Only the configurations of this selection (`ocb select --help` explains the syntax).
     #[arg(long = "where", value_name = "SELECTION")]
     pub selection: Option<String>,
-    /// How values are spread over the colours.
+    /// How values are mapped to colours.
     #[arg(long, value_enum, default_value_t = ScaleArg::Linear)]
     pub scale: ScaleArg,
 }
@@ -57,7 +57,7 @@ pub struct WorstArgs {
     /// What counts as worse.
     #[arg(long, value_enum, default_value_t = WorstByArg::Time)]
     pub by: WorstByArg,
-    /// How many at most.
+    /// Maximum number of configurations.
     #[arg(long, default_value_t = 100)]
     pub limit: u32,
     /// Only the configurations of this selection.
@@ -73,7 +73,7 @@ pub struct SelectArgs {
     /// The selection.
     #[arg(long = "where", value_name = "SELECTION")]
     pub selection: String,
-    /// Algorithm whose columns are meant where the selection names none [default: the run's only one].
+    /// Algorithm of columns for which the selection names none [default: the run's only one].
     #[arg(long, value_name = "ID")]
     pub algorithm: Option<String>,
     /// File for the records of that algorithm: .parquet or .csv.

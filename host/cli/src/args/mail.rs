@@ -7,19 +7,19 @@ use clap::Args;
 /// The mail server. Without one nothing is mailed.
 #[derive(Args)]
 pub struct MailArgs {
-    /// Server that takes the mails of this service: `smtps://user:password@host:port`, or `smtp://...`, which must become encrypted
-    /// before anything is said, unless the host is this machine. Everybody on this machine sees a command line: better say
-    /// it in the environment.
+    /// Mail server of this service: `smtps://user:password@host:port`, or `smtp://...`, which must switch to encryption first
+    /// unless the host is this machine. All users of this machine can see its command lines, so better set the environment
+    /// variable.
     #[arg(long, env = "OCB_SMTP_URL", value_name = "URL", hide_env_values = true, requires = "mail_from")]
     pub smtp_url: Option<String>,
-    /// Certificates (PEM) of authorities that may vouch for the mail server, beside those that this machine trusts; with it a
-    /// server on this machine must become encrypted, too.
+    /// Certificates (PEM) of additional authorities to trust for the mail server; with them, a mail server on this machine
+    /// must be encrypted, too.
     #[arg(long, env = "OCB_SMTP_CA", value_name = "FILE", hide_env_values = true, requires = "smtp_url")]
     pub smtp_ca: Option<PathBuf>,
-    /// Address that the mails come from.
+    /// Sender address of the mails.
     #[arg(long, env = "OCB_MAIL_FROM", value_name = "ADDRESS", hide_env_values = true, requires = "smtp_url")]
     pub mail_from: Option<String>,
-    /// Where the pages of this service are, for the links in its mails [default: where it listens].
+    /// URL of the pages of this service, for the links in its mails [default: the address it listens on].
     #[arg(long, env = "OCB_PUBLIC_URL", value_name = "URL", hide_env_values = true)]
     pub public_url: Option<String>,
 }

@@ -14,12 +14,12 @@ pub enum RunCommand {
         /// Run id, or `latest`.
         run: String,
     },
-    /// Measure all configurations of a run that was a preview.
+    /// Measure all configurations of a preview.
     Refine {
         /// Run id, or `latest`.
         run: String,
     },
-    /// Write a run with everything that its answers follow from as one file, which `ocb replay` asks again anywhere.
+    /// Write a repro archive of a run, with everything that determines its answers; `ocb replay` repeats it anywhere.
     Repro {
         /// Run id, or `latest`.
         run: String,
@@ -32,9 +32,9 @@ pub enum RunCommand {
 /// `ocb replay`
 #[derive(Debug, Args)]
 pub struct ReplayArgs {
-    /// The repro archive of a run: `ocb run repro` writes it, and so does the run's page.
+    /// Repro archive of a run, from `ocb run repro` or the run's page.
     pub file: PathBuf,
-    /// Only these algorithms of it, repeated or separated by commas [default: all].
+    /// Only these algorithms, repeated or separated by commas [default: all].
     #[arg(long, value_delimiter = ',', value_name = "ID")]
     pub algorithm: Vec<String>,
 }

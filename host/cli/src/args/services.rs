@@ -7,10 +7,10 @@ use crate::choice::VisibilityArg;
 /// Which service, and as whom.
 #[derive(Debug, Args)]
 pub struct ServiceArgs {
-    /// The service.
+    /// URL of the service.
     #[arg(long, default_value = "http://127.0.0.1:8080", env = "OCB_SERVER", value_name = "URL")]
     pub server: String,
-    /// A token of your account there, made on its account page for what you do with it: plugins, or runs and objects.
+    /// Token of your account there for plugins, or for runs and objects; its account page creates tokens.
     #[arg(long, env = "OCB_TOKEN", value_name = "TOKEN", hide_env_values = true)]
     pub token: String,
 }
@@ -18,10 +18,10 @@ pub struct ServiceArgs {
 /// Which service, perhaps as somebody.
 #[derive(Debug, Args)]
 pub struct LookArgs {
-    /// The service.
+    /// URL of the service.
     #[arg(long, default_value = "http://127.0.0.1:8080", env = "OCB_SERVER", value_name = "URL")]
     pub server: String,
-    /// A token of your account there, for what not everybody sees.
+    /// Token of your account there, for items that are not public.
     #[arg(long, env = "OCB_TOKEN", value_name = "TOKEN", hide_env_values = true)]
     pub token: Option<String>,
 }
@@ -29,12 +29,12 @@ pub struct LookArgs {
 /// `ocb cite`
 #[derive(Debug, Args)]
 pub struct CiteArgs {
-    /// What it is.
+    /// Kind of item.
     #[arg(value_enum)]
     pub what: Cited,
-    /// Its id there: the last part of its link.
+    /// Its id, the last part of its link.
     pub id: String,
-    /// How.
+    /// Format of the citation.
     #[arg(long, value_enum, default_value_t = CiteAs::Bibtex)]
     pub format: CiteAs,
     #[command(flatten)]
@@ -64,12 +64,12 @@ pub enum CiteAs {
 /// `ocb visibility`
 #[derive(Debug, Args)]
 pub struct VisibilityArgs {
-    /// What it is.
+    /// Kind of item.
     #[arg(value_enum)]
     pub what: Shown,
-    /// Its id there: the last part of its link.
+    /// Its id, the last part of its link.
     pub id: String,
-    /// Who is to see it.
+    /// Who can see it.
     #[arg(value_enum)]
     pub to: VisibilityArg,
     #[command(flatten)]
@@ -81,6 +81,6 @@ pub struct VisibilityArgs {
 pub enum Shown {
     /// A run with its results.
     Run,
-    /// An object; a run is seen by no more than see its objects.
+    /// An object; a run is visible at most to those who can see its objects.
     Object,
 }

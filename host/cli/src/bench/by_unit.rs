@@ -8,7 +8,7 @@ use crate::{output, units};
 pub fn table(results: &[AlgorithmResult]) -> Option<String> {
     let rows: Vec<Vec<String>> =
         results.iter().flat_map(|result| result.by_unit.iter().map(|unit| row(&result.algorithm, unit))).collect();
-    let headings = ["by unit", "coordinates", "processes", "n", "mean", "to file's unit", "answers", "wrong", "missed"];
+    let headings = ["by unit", "coordinates", "processes", "n", "mean", "to file unit", "answers", "wrong", "missed"];
     (!rows.is_empty()).then(|| output::table(&headings, rows, &[1, 2, 3, 4, 5, 6, 7, 8]))
 }
 

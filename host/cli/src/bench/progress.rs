@@ -106,7 +106,7 @@ fn lane_name(stage: &Stage) -> String {
 fn note(stage: &Stage) -> String {
     match (stage.state, &stage.message, stage.seconds_left) {
         (State::Queued | State::Running, Some(message), _) => message.clone(),
-        (State::Queued, None, _) => "waits".to_owned(),
+        (State::Queued, None, _) => "waiting".to_owned(),
         (State::Running, None, Some(left)) => format!("{:.0}/s, {} left", stage.rate, units::wait(left)),
         (State::Running, None, None) => String::new(),
         (state, Some(message), _) => format!("{}: {message}", crate::run::state_name(state)),

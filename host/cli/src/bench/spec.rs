@@ -100,7 +100,7 @@ fn spec(args: &BenchArgs, query: Query, method: Method, object_a: String, object
 fn query(args: &BenchArgs) -> Result<Query> {
     match (args.query, args.contacts) {
         (Question::Pq, Some(_)) => {
-            Err(Failure::Input("--contacts belongs to --query cd; a proximity query has one answer.".to_owned()))
+            Err(Failure::Input("--contacts needs --query cd; a distance query has one answer.".to_owned()))
         }
         (Question::Pq, None) => Ok(Query::Proximity),
         (Question::Cd, None | Some(Contacts::First)) => Ok(Query::CollisionFirst),

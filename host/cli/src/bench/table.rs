@@ -39,15 +39,16 @@ pub fn summary(run: &RunInfo) -> String {
     if !rows.is_empty() {
         text.push(output::table(&HEADINGS, rows, &[0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13]));
         text.push(format!(
-            "Times per query in the unit of the files with 95 % interval over the processes{}, that of the maximum over the \
-             configurations; tests are means per query, load is of the plugin's file, build of both structures.",
+            "Times are per query, in the unit of the files, with the 95 % interval over the processes{}; the interval of the \
+             maximum is over the configurations. Tests are means per query, load is the time to load the plugin's file, and \
+             build is the time to build both structures.",
             processes(&run.results)
         ));
         text.extend(run.environment.as_ref().and_then(|machine| machine.reference.as_ref()).map(|reference| {
             format!(
-                "Ranks go by the mean ratio to {} on the same configurations in the same rounds, within one class; overlapping \
-                 intervals (95 %, over the processes) are ties. What failed or was wrong, on control questions as well, \
-                 has no rank.",
+                "Ranks follow the mean ratio to {} on the same configurations in the same rounds, within one class; algorithms \
+                 with overlapping 95 % intervals over the processes are tied. Algorithms that failed or gave a wrong answer, \
+                 to a control question as well, have no rank.",
                 reference.algorithm
             )
         }));
@@ -56,8 +57,8 @@ pub fn summary(run: &RunInfo) -> String {
         text.extend(classes(&run.results));
         text.extend(controls(&run.results));
         text.push(
-            "eps* is the largest distance or margin, as a share of the scene's size, at which an answer is wrong; with <, \
-             none is, down to this."
+            "eps* is the largest distance or margin, as a share of the scene's size, at which an answer is wrong; < means that \
+             no answer is wrong down to this value."
                 .to_owned(),
         );
     }
@@ -103,8 +104,8 @@ fn controls(results: &[AlgorithmResult]) -> Option<String> {
     let least = results.iter().filter(|r| r.n > 0).filter_map(|r| r.controls).min_by_key(|controls| controls.n)?;
     let Controls { n, crossing, guess, .. } = least;
     Some(format!(
-        "At least {n} control questions, {crossing} of them colliding, were mixed in and are in no number but the ranks: a \
-         plugin that guesses half of its answers keeps its rank with a probability of at most {guess:.1e}."
+        "At least {n} control questions, {crossing} of them colliding, were mixed in; they affect only the ranks. A plugin \
+         that guesses half of its answers keeps its rank with a probability of at most {guess:.1e}."
     ))
 }
 
@@ -242,7 +243,7 @@ fn note(result: &AlgorithmResult) -> Option<String> {
         (Verdict::DistanceUnder, "distances too small"),
         (Verdict::WrongWitness, "wrong witnesses"),
         (Verdict::Invalid, "invalid answers"),
-        (Verdict::GaveUp, "given up"),
+        (Verdict::GaveUp, "errors reported by the plugin"),
         (Verdict::Unsupported, "unsupported"),
     ] {
         let count = count(result, verdict);
@@ -252,7 +253,7 @@ fn note(result: &AlgorithmResult) -> Option<String> {
     }
     if result.grazing.n > 0 {
         let Agreement { n, agree } = result.grazing;
-        parts.push(format!("{n} too narrow for its precision (not scored; {agree} agree with exact arithmetic)"));
+        parts.push(format!("{n} too close for its precision (not scored; {agree} agree with exact arithmetic)"));
     }
     parts.extend(result.resolution.iter().flat_map(resolution));
     parts.extend(result.contacts.iter().map(contacts));
@@ -261,7 +262,7 @@ fn note(result: &AlgorithmResult) -> Option<String> {
     }
     if let Some(timing) = result.timing.as_ref().filter(|timing| 2 * timing.disturbed_blocks > timing.blocks) {
         let Timing { disturbed_blocks, blocks, .. } = timing;
-        parts.push(format!("{disturbed_blocks} of {blocks} blocks of questions were disturbed: this machine is busy"));
+        parts.push(format!("{disturbed_blocks} of {blocks} blocks of queries were disturbed: this machine is busy"));
     }
     (!parts.is_empty()).then(|| format!("{}: {}.", result.algorithm, parts.join("; ").trim_end_matches('.')))
 }
@@ -274,7 +275,7 @@ fn resolution(resolution: &Resolution) -> Vec<String> {
             parts.push(format!("{what} up to {at:.1e} of the size ({} of {} {of})", side.wrong, side.n));
         }
     };
-    side("calls a hit", "apart", &resolution.false_hits);
+    side("false hits", "apart", &resolution.false_hits);
     side("misses", "crossing", &resolution.misses);
     if let Some(error) = resolution.distance {
         let worst = |x: Option<f64>| x.map_or_else(|| "never".to_owned(), |x| format!("at most {x:.2}"));
@@ -288,7 +289,7 @@ fn contacts(quality: &ContactQuality) -> String {
     let percent = |x: Option<f64>| x.map_or_else(dash, |x| format!("{:.4} %", 100.0 * x));
     let (precision, recall) = (percent(quality.precision), percent(quality.recall));
     format!(
-        "precision {precision} of {} contacts listed, recall {recall} of {} certain ones",
+        "precision {precision} of {} contacts listed, recall {recall} of {} certain contacts",
         quality.listed, quality.robust
     )
 }

@@ -42,7 +42,7 @@ impl Service<'_> {
         let mut response = granted(&address, self.request(Method::GET, path)).await?;
         let unwritten = |e| Failure::file("write", to, &e);
         let (mut file, mut length) = (File::create(to).map_err(unwritten)?, 0);
-        let cut = |e| Failure::Input(format!("The answer of {address} was cut off ({e}); try again."));
+        let cut = |e| Failure::Input(format!("The response from {address} was cut off ({e}); try again."));
         while let Some(chunk) = response.chunk().await.map_err(cut)? {
             file.write_all(&chunk).map_err(unwritten)?;
             length += chunk.len() as u64;
@@ -67,7 +67,7 @@ async fn answer<T: DeserializeOwned>(address: &str, request: RequestBuilder) -> 
 }
 
 async fn granted(address: &str, request: RequestBuilder) -> Result<Response> {
-    let unreachable = |_| Failure::Input(format!("Nothing answers on {address}; name the service with --server."));
+    let unreachable = |_| Failure::Input(format!("No service answers at {address}; set its URL with --server."));
     let response = request.send().await.map_err(unreachable)?;
     let status = response.status();
     if status.is_success() {
@@ -78,5 +78,5 @@ async fn granted(address: &str, request: RequestBuilder) -> Result<Response> {
 }
 
 fn strange(address: &str, status: StatusCode) -> Failure {
-    Failure::Input(format!("What answers on {address} is no service of this kind ({status})."))
+    Failure::Input(format!("{address} is not an OpenCollBench service ({status}); set its URL with --server."))
 }

@@ -9,12 +9,12 @@ pub fn number(word: &str) -> Result<f64, String> {
     };
     let hexadecimal = digits.strip_prefix("0x").or_else(|| digits.strip_prefix("0X"));
     let magnitude = match hexadecimal {
-        Some(rest) => hex(rest).ok_or_else(|| format!("{word:?} is no hexadecimal number"))?,
+        Some(rest) => hex(rest).ok_or_else(|| format!("{word:?} is not a hexadecimal number"))?,
         // Only digits: words such as "nan" and "infinity" are no coordinates.
         None if !digits.starts_with(|c: char| c.is_ascii_digit() || c == '.') => {
-            return Err(format!("{word:?} is no finite number"));
+            return Err(format!("{word:?} is not a finite number"));
         }
-        None => digits.parse::<f64>().map_err(|_| format!("{word:?} is no number"))?,
+        None => digits.parse::<f64>().map_err(|_| format!("{word:?} is not a number"))?,
     };
     if magnitude.is_infinite() {
         return Err(format!("{word:?} is beyond the range of double precision"));

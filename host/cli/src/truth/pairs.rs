@@ -49,7 +49,7 @@ pub fn read(text: &str) -> Result<Vec<Case>, String> {
         let case = case.map_err(|reason| format!("line {line}: {reason}"))?;
         cases.push(Case { line, ..case });
     }
-    if cases.is_empty() { Err("there is no case in it".to_owned()) } else { Ok(cases) }
+    if cases.is_empty() { Err("it has no cases".to_owned()) } else { Ok(cases) }
 }
 
 /// A line of numbers alone. One with a name never has so many words: they are 4, and 9 for each triangle.
@@ -74,17 +74,17 @@ fn named(line: &str) -> Result<Case, String> {
     };
     let count = |word: &str| match word.parse::<usize>() {
         Ok(n) if (1..=MAX_TRIANGLES).contains(&n) => Ok(n),
-        _ => Err(format!("{word:?} is no number of triangles from 1 to {MAX_TRIANGLES}")),
+        _ => Err(format!("{word:?} is not a number of triangles from 1 to {MAX_TRIANGLES}")),
     };
     let (a, b) = (count(a)?, count(b)?);
     let expected = 9 * (a + b);
     if coordinates.len() != expected {
-        return Err(format!("{a} + {b} triangles have {expected} coordinates, and there are {}", coordinates.len()));
+        return Err(format!("{a} + {b} triangles need {expected} coordinates, not {}", coordinates.len()));
     }
     let coordinates = numbers(coordinates, 5)?;
     let truth = numbers(&right.split_whitespace().collect::<Vec<_>>(), words.len() + 2)?;
     if truth.len() > 4 {
-        return Err(format!("behind the bar there may be hit, distance, margin and size, not {} numbers", truth.len()));
+        return Err(format!("at most hit, distance, margin and size may follow the bar, not {} numbers", truth.len()));
     }
     let (a, b) = coordinates.split_at(9 * a);
     let listed = Listed {
@@ -132,19 +132,19 @@ impl Case {
         let mut all = Vec::new();
         if truth.hit != hit {
             let word = |hit| if hit { "a hit" } else { "no hit" };
-            all.push(format!("it is {}, the file says {}", word(truth.hit), word(hit)));
+            all.push(format!("the answer is {}, but the file says {}", word(truth.hit), word(hit)));
         }
         if let Some(listed) = self.listed.distance {
             // The listed one is rounded, to one side or the other.
             let (lo, hi) = (truth.distance_lo.next_down(), truth.distance_hi.next_up());
             if !(lo <= listed && listed <= hi) {
-                all.push(format!("the distance is {:e}, the file says {listed:e}", truth.distance_hi));
+                all.push(format!("the distance is {:e}, but the file says {listed:e}", truth.distance_hi));
             }
         }
         if let Some(listed) = self.listed.margin {
             let size = self.listed.size.unwrap_or_else(|| self.size());
             if truth.margin < listed - MARGIN_TOLERANCE * size {
-                all.push(format!("the margin is {:e}, the file says {listed:e}", truth.margin));
+                all.push(format!("the margin is {:e}, but the file says {listed:e}", truth.margin));
             }
         }
         Some(all.join("; "))
@@ -190,14 +190,14 @@ mod tests {
         let refused = |line: &str| read(&format!("x y 1 1 {FLOOR} {ABOVE}\n{line}")).err().unwrap();
         for (line, expected) in [
             ("x y 1", "line 2: it must begin"),
-            ("x y 0 1", "line 2: \"0\" is no number of triangles"),
-            (&format!("x y 1 2 {FLOOR} {ABOVE}"), "line 2: 1 + 2 triangles have 27 coordinates, and there are 18"),
-            (&format!("x y 1 1 {FLOOR} 1 1 nan 2 1 2 1 2 2"), "line 2: word 16: \"nan\" is no finite number"),
+            ("x y 0 1", "line 2: \"0\" is not a number of triangles"),
+            (&format!("x y 1 2 {FLOOR} {ABOVE}"), "line 2: 1 + 2 triangles need 27 coordinates, not 18"),
+            (&format!("x y 1 1 {FLOOR} 1 1 nan 2 1 2 1 2 2"), "line 2: word 16: \"nan\" is not a finite number"),
             (&format!("x y 1 1 {FLOOR} {ABOVE} | 2"), "line 2: hit must be 0 or 1"),
-            (&format!("x y 1 1 {FLOOR} {ABOVE} | 0 1 2 3 4"), "line 2: behind the bar"),
+            (&format!("x y 1 1 {FLOOR} {ABOVE} | 0 1 2 3 4"), "line 2: at most hit"),
         ] {
             assert!(refused(line).starts_with(expected), "{line}: {}", refused(line));
         }
-        assert_eq!(read("\n# nothing\n").err().unwrap(), "there is no case in it");
+        assert_eq!(read("\n# nothing\n").err().unwrap(), "it has no cases");
     }
 }

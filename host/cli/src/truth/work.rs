@@ -51,7 +51,7 @@ pub async fn watch<T: Send + 'static>(
         }
     };
     bar.finish_and_clear();
-    let done = done.map_err(|_| Failure::Fault("the oracle broke down.".to_owned()))?;
+    let done = done.map_err(|_| Failure::Fault("the oracle crashed.".to_owned()))?;
     if done.is_none() {
         eprintln!("ocb: Stopped after {} of {total} {what}; nothing was written.", gauge.done.load(Ordering::Relaxed));
     }

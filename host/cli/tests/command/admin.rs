@@ -26,6 +26,6 @@ fn an_account_is_made_and_deleted_and_its_name_is_given_to_nobody() {
     assert!(told.contains("last administrator") && told.contains("ocb admin create"), "{told}");
     assert!(create("next", "administrator").status.success());
     let said = desk.run(&["admin", "delete", "root", "--yes"]).stdout;
-    assert!(said.starts_with("The account root is deleted.") && said.contains("stays  runs: 0"), "{said}");
+    assert!(said.starts_with("The account root is deleted.") && said.contains("kept:    runs: 0"), "{said}");
     assert_eq!(desk.json(&["admin", "audit"])["whole"], true);
 }

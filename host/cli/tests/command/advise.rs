@@ -63,7 +63,7 @@ fn a_clearance_is_answered_exactly_and_told_as_a_card() {
     let said = desk.run(&[&SCENE[..], &few].concat());
     assert_eq!(said.code, 0, "{said:?}");
     for words in [
-        "Further apart than 2.0000e-1",
+        "Query: distance greater than 2.0000e-1",
         "Held out: 0 of 96",
         "boxes (uncertified)",
         "ADVISED",
@@ -91,7 +91,7 @@ fn what_cannot_be_asked_is_refused_in_one_sentence() {
         assert!(told.contains(word), "{args:?}: {told}");
     }
     let no_certificate = desk.file("x.json", "{}");
-    assert!(desk.refused(&["advise", "--verify", &no_certificate]).contains("is no certificate"));
+    assert!(desk.refused(&["advise", "--verify", &no_certificate]).contains("is not a certificate"));
 }
 
 #[test]

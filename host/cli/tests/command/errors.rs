@@ -143,10 +143,10 @@ fn pipes_and_devices_are_refused_before_they_are_read() {
             &["replay", odd],
         ] {
             let sentence = desk.refused(args);
-            assert!(sentence.contains("it is no regular file"), "{args:?}: {sentence}");
+            assert!(sentence.contains("it is not a regular file"), "{args:?}: {sentence}");
         }
         // One of several: it is not offered, and the others are.
         let listed = desk.run(&["plugin", "list", "--plugins", odd]);
-        assert!(listed.code == 0 && listed.stderr.contains("it is no regular file"), "{listed:?}");
+        assert!(listed.code == 0 && listed.stderr.contains("it is not a regular file"), "{listed:?}");
     }
 }

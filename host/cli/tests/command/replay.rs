@@ -90,10 +90,10 @@ fn an_archive_is_enough_and_what_differs_is_told() {
     let other = with_recipe(&desk, &archive, |recipe| recipe["seed"] = 6.into());
     let Ended { code, stdout, .. } = elsewhere.run(&["replay", &other]);
     assert_eq!(code, 3, "{stdout}");
-    assert!(stdout.contains("the first other one, configuration ") && stdout.contains("NOT identical"), "{stdout}");
+    assert!(stdout.contains("first difference, configuration ") && stdout.contains("NOT identical"), "{stdout}");
 
     let unknown = elsewhere.refused(&["replay", &archive, "--algorithm", "parry"]);
-    assert!(unknown.contains("is not in this archive; there are: box-tree."), "{unknown}");
+    assert!(unknown.contains("is not in this archive; available: box-tree."), "{unknown}");
     let object = with_recipe(&desk, &archive, |recipe| recipe["objects"][0]["id"] = "stock:torus-knot@700".into());
     assert!(elsewhere.refused(&["replay", &object]).contains("its SHA-256 differs"));
     let hash = with_recipe(&desk, &archive, |recipe| recipe["files"][1]["sha256"] = "0".repeat(64).into());

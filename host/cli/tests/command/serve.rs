@@ -52,7 +52,7 @@ fn what_is_wrong_with_a_mail_server_is_told_without_its_password() {
     let desk = Desk::new();
     let serve = |more: &[&str]| desk.refused(&[&["serve", "--address", "127.0.0.1:0"], more].concat());
     for (url, expected) in [
-        ("https://ada:secret@mail.example.org", "neither smtps:// nor smtp://"),
+        ("https://ada:secret@mail.example.org", "must begin with smtps:// or smtp://"),
         ("smtps://ada:secret@mail.example.org:port", "invalid port"),
         ("smtps://ada:secret@mail.example.org/inbox", "more than a host and a port"),
     ] {
@@ -66,7 +66,7 @@ fn what_is_wrong_with_a_mail_server_is_told_without_its_password() {
     assert!(told.contains("name@example.org") && !told.contains("secret"), "{told}");
     let told = serve(&[&server[..], &["--mail-from", "ocb@example.org", "--public-url", "here"]].concat());
     assert!(told.contains("https://host") && !told.contains("secret"), "{told}");
-    for (file, expected) in [(desk.path("nothing"), "nothing"), (desk.path("authority.pem"), "holds no certificate")] {
+    for (file, expected) in [(desk.path("nothing"), "nothing"), (desk.path("authority.pem"), "no certificate")] {
         std::fs::write(desk.path("authority.pem"), "none").expect("a file");
         let file = file.to_str().expect("plain text").to_owned();
         let told = serve(&[&server[..], &["--mail-from", "ocb@example.org", "--smtp-ca", &file]].concat());

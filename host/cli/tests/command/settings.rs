@@ -16,7 +16,7 @@ fn one_contestant_under_two_names_is_not_silently_one_row() {
     for twice in ["box-tree:leaf_size=8,box-tree:leaf_size=8.0", "box-tree,box-tree:leaf_size=2"] {
         let Ended { code, stderr, .. } = desk.run(&["bench", "stock:torus-knot@600", "--algorithm", twice]);
         assert_eq!(code, 2, "{stderr}");
-        assert!(stderr.contains("are the same contestant"), "{stderr}");
+        assert!(stderr.contains("are the same algorithm"), "{stderr}");
     }
 }
 
@@ -60,9 +60,9 @@ fn a_setting_that_is_not_possible_is_said() {
         |algorithm: &str| desk.refused(&["bench", "stock:torus-knot@600", "--count", "5", "--algorithm", algorithm]);
     for (algorithm, expected) in [
         ("box-tree:leaf_size=0", "\"leaf_size\" must be a whole number from 1"),
-        ("box-tree:speed=9", "it has no parameter \"speed\"; there are: leaf_size"),
+        ("box-tree:speed=9", "it has no parameter \"speed\"; available: leaf_size"),
         ("box-tree:threads=2", "it has no parameter \"threads\""),
-        ("brute-force:x=1", "there is nothing to set"),
+        ("brute-force:x=1", "it has no parameters"),
         ("quantum:x=1", "There is no algorithm \"quantum:x=1\""),
     ] {
         let sentence = refused(algorithm);

@@ -100,7 +100,7 @@ fn bad_questions_are_refused_in_one_sentence() {
     let (a, poses, pairs) = (desk.file("a.obj", TETRAHEDRON), poses(&desk), desk.file("pairs.txt", PAIRS));
     let bad = desk.file("bad.txt", "x y 1 1 1 2 3");
     let cases: [(&[&str], &str); 8] = [
-        (&["pairs", &bad], "line 1: 1 + 1 triangles have 18 coordinates, and there are 3"),
+        (&["pairs", &bad], "line 1: 1 + 1 triangles need 18 coordinates, not 3"),
         (&["pairs", "missing.txt"], "missing.txt"),
         (&["pairs", &pairs, "-o", "out.txt"], ".parquet, .csv or .json"),
         (&[&a], "--configurations"),
