@@ -24,7 +24,7 @@ pub(crate) fn beside(plugin: &Path) -> Result<Vec<String>, Ending> {
     let libraries: Vec<String> = text.lines().map(str::to_owned).collect();
     match libraries.iter().find(|path| !Path::new(path).is_file()) {
         Some(missing) => Err(refused(format!(
-            "it needs the library {missing}, which is not there; install it again, or build the plugin anew"
+            "it needs the library {missing}, which is not installed; install it or rebuild the plugin"
         ))),
         None => Ok(libraries),
     }

@@ -91,11 +91,11 @@ impl Descriptor {
         }
         for (i, query) in self.queries.iter().enumerate() {
             if self.queries[..i].contains(query) {
-                return Err(format!("'{id}' names the question {query:?} twice"));
+                return Err(format!("'{id}' lists the query {query:?} twice"));
             }
         }
         if self.parameters.len() > PARAMETERS {
-            return Err(format!("'{id}' has {} parameters, at most {PARAMETERS} may be", self.parameters.len()));
+            return Err(format!("'{id}' has {} parameters; at most {PARAMETERS} are allowed", self.parameters.len()));
         }
         for i in 0..self.parameters.len() {
             let (before, rest) = self.parameters.split_at_mut(i);
@@ -121,7 +121,7 @@ impl Parameter {
         }
         let ordered = minimum <= default && default <= maximum;
         if !ordered || !minimum.is_finite() || !maximum.is_finite() {
-            return Err(format!("parameter '{name}' of '{id}' has no sensible range"));
+            return Err(format!("parameter '{name}' of '{id}' has an invalid range"));
         }
         Ok(())
     }
@@ -179,7 +179,7 @@ mod tests {
 
     #[test]
     fn a_list_holds_each_thing_once() {
-        check_refused(|d| d.queries = vec![Query::Proximity; 12_000], "names the question Proximity twice");
+        check_refused(|d| d.queries = vec![Query::Proximity; 12_000], "lists the query Proximity twice");
         check_refused(|d| d.parameters.push(d.parameters[0].clone()), "has the parameter 'leaf_size' twice");
         let many = |i: usize| Parameter { name: format!("p{i}"), ..good().parameters[0].clone() };
         check_refused(|d| d.parameters = (0..65).map(many).collect(), "65 parameters");

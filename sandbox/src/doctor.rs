@@ -84,7 +84,7 @@ pub fn examine(runner: &Path) -> Diagnosis {
             answer("notify"),
             "seccomp with notification",
             true,
-            "names and stops every system call that is not allowed; nothing runs without it",
+            "blocks and names every system call that is not allowed; nothing runs without it",
             "use Linux 5.14 or newer with CONFIG_SECCOMP_FILTER; in a container allow seccomp(2)",
         ),
         of_kernel(
@@ -108,7 +108,7 @@ pub fn examine(runner: &Path) -> Diagnosis {
             answer("sealed memory"),
             "sealed memory files",
             true,
-            "objects and questions that a plugin cannot change",
+            "a plugin cannot change objects and queries",
             "use Linux 5.1 or newer with CONFIG_MEMFD_CREATE",
         ),
         libraries(),
@@ -117,14 +117,14 @@ pub fn examine(runner: &Path) -> Diagnosis {
             answer("mseal"),
             "sealed code (mseal)",
             false,
-            "depth: nobody replaces the code of the runner; the clock does not need it",
+            "defence in depth: the code of the runner cannot be replaced; the clock does not need it",
             "use Linux 6.10 or newer",
         ),
         of_kernel(
             answer("mdwe"),
             "no new executable memory (MDWE)",
             false,
-            "depth: the filter holds the same rule",
+            "defence in depth: the filter enforces the same rule",
             "use Linux 6.3 or newer",
         ),
         ids(),
@@ -196,7 +196,7 @@ fn program(runner: &Path, problem: Option<&String>) -> Facility {
 
 fn landlock(answer: Result<i64, String>) -> Facility {
     let get = "use Linux 6.12 or newer with landlock in the list of lsm= at boot";
-    let effect = "files, network and signals stay shut even where a namespace has a hole";
+    let effect = "files, network and signals stay blocked even if a namespace has a gap";
     match answer {
         Ok(abi) if abi >= i64::from(LANDLOCK_ABI) => facility("Landlock", true, Ok(format!("ABI {abi}")), effect, get),
         Ok(abi) => Facility {
@@ -224,7 +224,7 @@ fn libraries() -> Facility {
 
 fn openmp() -> Facility {
     let here = find_libraries(true).is_ok_and(|all| all.iter().any(|library| library.name == OPENMP));
-    let found = if here { Ok(OPENMP.into()) } else { Err(format!("{OPENMP} is not here")) };
+    let found = if here { Ok(OPENMP.into()) } else { Err(format!("{OPENMP} is not installed")) };
     let effect = "plugins of the multi-threaded track may use OpenMP";
     facility("OpenMP", false, found, effect, "install gcc's OpenMP library (Debian: libgomp1)")
 }
@@ -232,14 +232,14 @@ fn openmp() -> Facility {
 fn ids() -> Facility {
     let root = nix::unistd::geteuid().is_root();
     let found = if root { Ok("two per jail".into()) } else { Err("the runner has this user's own id".into()) };
-    let effect = "the runner belongs to nobody, not even to the user who started it";
+    let effect = "the runner has a user id that no other process has";
     facility("ids of its own", false, found, effect, "run as root")
 }
 
 fn cpus() -> Facility {
     let count = std::thread::available_parallelism().map_or(1, usize::from);
-    let found = if count > 1 { Ok(format!("{count} may be used")) } else { Err("only one may be used".into()) };
-    let effect = "runner and clock each on a CPU of its own: 0.3 us per round trip; on one CPU 3 us";
+    let found = if count > 1 { Ok(format!("{count} available")) } else { Err("only one is available".into()) };
+    let effect = "runner and clock each have their own CPU: 0.3 us per round trip; on one CPU 3 us";
     facility("CPUs", false, found, effect, "give the process (container, taskset, cpuset) two CPUs or more")
 }
 
@@ -247,7 +247,7 @@ fn clock() -> Facility {
     let found = if Clock::get().is_counter() {
         Ok("time stamp counter".into())
     } else {
-        Err("the kernel does not keep time by the time stamp counter; CLOCK_MONOTONIC_RAW serves".into())
+        Err("the kernel does not use the time stamp counter; CLOCK_MONOTONIC_RAW is used".into())
     };
     let effect = "reading the time costs 10 ns; otherwise up to some 100 ns, which the null measurement subtracts";
     facility("clock", false, found, effect, "choose clocksource=tsc where the hardware allows it")
@@ -259,10 +259,10 @@ fn jail(runner: &Path) -> (Vec<String>, Facility) {
     let (layers, found) = match launcher.layers(runner) {
         Ok(layers) => {
             let count = layers.len();
-            (layers, Ok(format!("started and looked at from outside, {count} layers")))
+            (layers, Ok(format!("started and inspected from outside, {count} layers")))
         }
         Err(ending) => (Vec::new(), Err(ending.to_string())),
     };
-    let get = "mend what is missing above; the step that failed is named";
+    let get = "install what is missing above; the message names the step that failed";
     (layers, facility("a whole jail", true, found, "all of the above together", get))
 }

@@ -186,7 +186,7 @@ impl Exchange {
 
     /// Asks up to [`MAX_BATCH`] questions at once.
     pub fn asked(&mut self, command: Command, questions: &[Poses], limit_seconds: f64) -> Result<Timed, Outcome> {
-        assert!((1..=MAX_BATCH).contains(&questions.len()), "a command asks 1 to {MAX_BATCH} questions");
+        assert!((1..=MAX_BATCH).contains(&questions.len()), "a command has 1 to {MAX_BATCH} queries");
         self.command(command, Phase::Query, limit_seconds, Shown::Poses(questions))
     }
 
@@ -204,13 +204,13 @@ impl Exchange {
     ) -> Result<Timed, Outcome> {
         let before = self.jail.answer.u32(answer::NUMBER).load(Ordering::Acquire);
         if before != self.number {
-            return Err(violation(phase, "it answered what had not been asked"));
+            return Err(violation(phase, "it wrote an answer without a query"));
         }
         let questions = if let Shown::Poses(poses) = shown { poses.len() } else { 1 };
         self.slots.resize(questions, [0; SLOT_WORDS]);
         // One that is awake need not be woken, and would be quicker by that.
         if self.kind == ClockKind::Futex && phase == Phase::Query && !self.settles(SETTLE) {
-            return Err(violation(phase, "it stays awake while nothing is asked, on the one CPU that there is"));
+            return Err(violation(phase, "it keeps running between queries, on the only CPU"));
         }
         let timed = self.round_trip(command, phase, limit_seconds, shown)?;
         (self.last, self.resting) = (Instant::now(), false);
@@ -221,7 +221,7 @@ impl Exchange {
                 Status::NotLoaded if phase == Phase::Load => {
                     return Err(Outcome::LoadError { reason: self.reason(slot, phase)? });
                 }
-                Status::NotLoaded => return Err(violation(phase, "it said that it is no plugin after it was loaded")),
+                Status::NotLoaded => return Err(violation(phase, "it reported a load error after it had been loaded")),
             }
         }
         Ok(timed)

@@ -133,14 +133,17 @@ impl Subject<'_> {
 /// would find out by a bus error.
 fn whole(bytes: &[u8]) -> Result<(), String> {
     if !bytes.starts_with(b"\x7fELF") {
-        return Err("it is no ELF file".into());
+        return Err("it is not an ELF file".into());
     }
     let header = Elf::parse_header(bytes).map_err(|_| "it ends within its first header".to_string())?;
     let length = bytes.len() as u64;
     let sections = header.e_shoff.saturating_add(u64::from(header.e_shnum) * u64::from(header.e_shentsize));
     let headers = header.e_phoff.saturating_add(u64::from(header.e_phnum) * u64::from(header.e_phentsize));
     if sections.max(headers) > length {
-        return Err(format!("it is cut short: its headers reach to byte {}, it has {length}", sections.max(headers)));
+        return Err(format!(
+            "it is truncated: its headers end at byte {}, the file at {length}",
+            sections.max(headers)
+        ));
     }
     let lazy = Elf::lazy_parse(header).map_err(|e| format!("its first header is broken ({e})"))?;
     let container = if lazy.is_64 { Container::Big } else { Container::Little };
@@ -151,7 +154,7 @@ fn whole(bytes: &[u8]) -> Result<(), String> {
     for segment in segments.iter().filter(|segment| segment.p_type == PT_LOAD) {
         let end = segment.p_offset.saturating_add(segment.p_filesz);
         if end > length {
-            return Err(format!("it is cut short: a segment reaches to byte {end}, it has {length}"));
+            return Err(format!("it is truncated: a segment ends at byte {end}, the file at {length}"));
         }
     }
     Ok(())

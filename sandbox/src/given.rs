@@ -16,7 +16,7 @@ pub fn open(path: &Path) -> io::Result<File> {
         return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
     }
     if !kind.is_file() {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is no regular file"));
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a regular file"));
     }
     Ok(file)
 }
@@ -48,7 +48,7 @@ mod tests {
         nix::unistd::mkfifo(&pipe, Mode::S_IRWXU).unwrap();
         std::fs::write(&file, b"12345").unwrap();
         for path in [&pipe, Path::new("/dev/zero")] {
-            assert_eq!(read(path, 1 << 20).unwrap_err().to_string(), "it is no regular file", "{}", path.display());
+            assert_eq!(read(path, 1 << 20).unwrap_err().to_string(), "it is not a regular file", "{}", path.display());
         }
         assert_eq!(read(folder.path(), 9).unwrap_err().to_string(), "it is a folder");
         assert_eq!(read(&file, 5).unwrap(), b"12345");

@@ -82,10 +82,10 @@ impl fmt::Display for Finding {
         let [low, high] = self.check.allowed();
         let (name, found) = (self.check.name(), self.found);
         let what = match self.check {
-            Check::Batches => "its questions took when they came again together, as a share of the first time,",
-            Check::BetweenQueries => "while no question was open it computed, as a share of the whole time,",
+            Check::Batches => "the time of its repeated queries, as a share of the first time, was",
+            Check::BetweenQueries => "the time that it computed between queries, as a share of the whole time, was",
         };
-        write!(f, "{name}: {what} {found:.2}, and {low} to {high} is what honest plugins show")
+        write!(f, "{name}: {what} {found:.2}; {low} to {high} is expected")
     }
 }
 

@@ -196,11 +196,11 @@ impl Jail {
             let (report, mut descriptors) = self.report_before(deadline)?;
             match report {
                 Report::InitStarted => {
-                    let init = descriptors.pop().ok_or_else(|| Outcome::fault("Start", "init came without itself"))?;
+                    let init = descriptors.pop().ok_or_else(|| Outcome::fault("Start", "init is missing"))?;
                     self.init = Some(init);
                 }
                 Report::RunnerStarted { own_ids } => {
-                    let runner = descriptors.pop().ok_or_else(|| Outcome::fault("Start", "no runner came"))?;
+                    let runner = descriptors.pop().ok_or_else(|| Outcome::fault("Start", "the runner is missing"))?;
                     self.pid = pid_of(&runner).map_err(|e| Outcome::fault("Start", e))?;
                     self.runner = Some(runner);
                     self.layers.own_ids = own_ids;
@@ -223,7 +223,7 @@ impl Jail {
         }
         match self.control.receive() {
             Ok(Some(report)) => Ok(report),
-            Ok(None) => Err(Outcome::fault("Start", "the launcher ended without a word")),
+            Ok(None) => Err(Outcome::fault("Start", "the launcher ended without a message")),
             Err(error) => Err(Outcome::fault("Start", error)),
         }
     }
@@ -244,10 +244,10 @@ impl Jail {
                 return Err(outcome);
             }
             if Instant::now() > deadline {
-                return Err(Outcome::fault("Start", "the runner did not close itself off in time"));
+                return Err(Outcome::fault("Start", "the runner did not confine itself in time"));
             }
         };
-        let runner = self.runner.as_ref().ok_or_else(|| Outcome::fault("Start", "no runner came"))?;
+        let runner = self.runner.as_ref().ok_or_else(|| Outcome::fault("Start", "the runner is missing"))?;
         // SAFETY: integers only; the result is checked.
         let fd = unsafe { libc::syscall(libc::SYS_pidfd_getfd, runner.as_raw_fd(), number, 0) } as i32;
         if fd < 0 {
@@ -264,7 +264,7 @@ impl Jail {
         let own_ids = self.layers.own_ids;
         let group = self.group.as_ref().and_then(MemoryGroup::name);
         verify(self.pid, Expected { namespaces, own_ids, group })
-            .map_err(|reason| Outcome::fault("Verify", format!("the runner is not closed off: {reason}")))?;
+            .map_err(|reason| Outcome::fault("Verify", format!("the runner is not confined: {reason}")))?;
         self.baseline_bytes = match &self.group {
             Some(group) => group.usage().unwrap_or(0),
             None => status_kib(self.pid, "VmRSS").unwrap_or(0),
@@ -298,7 +298,7 @@ impl Jail {
             Ok(Some((Report::Fault { step, reason }, _))) => Outcome::SandboxFault { step, reason },
             Ok(Some((Report::RunnerEnded { status }, _))) => early(status),
             Ok(Some(_)) => return None,
-            Ok(None) => Outcome::fault("Start", "the jail ended without a word"),
+            Ok(None) => Outcome::fault("Start", "the jail ended without a message"),
             Err(error) => Outcome::fault("Start", error),
         })
     }
@@ -313,7 +313,7 @@ impl Drop for Jail {
 
 /// The runner ended before the plugin was loaded: ours.
 fn early(status: i32) -> Outcome {
-    Outcome::fault("Start", format!("the runner ended before it was closed off (wait status {status:#x})"))
+    Outcome::fault("Start", format!("the runner ended before it was confined (wait status {status:#x})"))
 }
 
 /// The process behind a descriptor, in our own numbering.

@@ -61,7 +61,7 @@ impl Layers {
             phrases.push("user, pid, net, mount, ipc, uts and cgroup namespaces".to_string());
             phrases.push("empty read-only root".to_string());
         } else {
-            phrases.push("NO namespaces and NO own root (this machine refuses them)".to_string());
+            phrases.push("NO namespaces and NO root of its own (this machine refuses them)".to_string());
         }
         phrases.push(if self.own_ids { "ids of its own" } else { "ids of this user" }.into());
         phrases.push(match self.group {
@@ -93,7 +93,7 @@ impl Layers {
         let missing = |step: &str, what: &str, get: &str| {
             Err(Outcome::fault(
                 step,
-                format!("foreign plugins need {what}, which this machine does not give; {get}, {OR_DEV}"),
+                format!("third-party plugins need {what}, which this machine does not provide; {get}, {OR_DEV}"),
             ))
         };
         if self.startable_threads > 0 && !self.namespaces {
@@ -108,7 +108,7 @@ impl Layers {
             // Files are kept away by an own root or by Landlock; without both there is nothing between them.
             (_, Profile::Dev) if !self.namespaces && self.landlock_abi == 0 => Err(Outcome::fault(
                 "Landlock",
-                "foreign plugins need namespaces or Landlock even in the development profile; use Linux 5.13 or newer with \
+                "third-party plugins need namespaces or Landlock even in the development profile; use Linux 5.13 or newer with \
                  lsm=landlock",
             )),
             (_, Profile::Dev) => Ok(()),

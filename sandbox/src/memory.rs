@@ -168,7 +168,7 @@ fn parent(controller: &str) -> io::Result<(PathBuf, Version)> {
         Version::V1 => writable(folder),
         Version::V2 => writable(folder) && hands_down(folder, controller),
     });
-    usable.ok_or_else(|| io::Error::other(format!("no control group with a {controller} controller can be made here")))
+    usable.ok_or_else(|| io::Error::other(format!("cannot create a control group with a {controller} controller")))
 }
 
 fn writable(folder: &Path) -> bool {

@@ -33,7 +33,7 @@ pub(crate) fn open(plugin: &Path, sha256: Option<&str>) -> Result<Opened, Ending
     let file = given::open(&path).map_err(unreadable)?;
     let bytes = file.metadata().map_err(unreadable)?.len();
     if bytes > MAX_BYTES {
-        let reason = format!("it has {bytes} bytes, at most {MAX_BYTES} may be; strip its debug symbols");
+        let reason = format!("it has {bytes} bytes, but at most {MAX_BYTES} are allowed; strip its debug symbols");
         return Err(Outcome::LoadError { reason }.into());
     }
     if let Some(expected) = sha256 {

@@ -116,9 +116,9 @@ pub enum Phase {
 impl fmt::Display for Phase {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Phase::Load => "while it was loaded",
-            Phase::Build => "while it built its structure",
-            Phase::Query => "while it answered a query",
+            Phase::Load => "while loading",
+            Phase::Build => "while building its structure",
+            Phase::Query => "while answering a query",
         })
     }
 }
@@ -156,8 +156,8 @@ impl Outcome {
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Outcome::Completed => write!(f, "The plugin answered everything it was asked."),
-            Outcome::Failed { phase, reason } => write!(f, "The plugin gave up {phase}: {reason}."),
+            Outcome::Completed => write!(f, "The plugin answered every query."),
+            Outcome::Failed { phase, reason } => write!(f, "The plugin reported an error {phase}: {reason}."),
             Outcome::LoadError { reason } => write!(f, "The file could not be loaded as a plugin: {reason}."),
             Outcome::FileReplaced { reason } => {
                 write!(
@@ -191,7 +191,7 @@ impl fmt::Display for Outcome {
                 write!(f, "The plugin tampered with its runner {phase}: {rule}.")
             }
             Outcome::TimingIntegrity { finding } => {
-                write!(f, "The plugin's times are not believed; {finding}.")
+                write!(f, "The plugin's times cannot be trusted: {finding}.")
             }
             Outcome::Cancelled => write!(f, "The run was cancelled."),
             Outcome::SandboxFault { step, reason } => {
@@ -252,6 +252,6 @@ mod tests {
     #[test]
     fn a_crash_is_named() {
         let text = Outcome::Signaled { phase: Phase::Query, signal: 11 }.to_string();
-        assert_eq!(text, "The plugin crashed while it answered a query (SIGSEGV, signal 11).");
+        assert_eq!(text, "The plugin crashed while answering a query (SIGSEGV, signal 11).");
     }
 }

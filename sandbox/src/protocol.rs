@@ -187,7 +187,7 @@ pub fn parse_status(words: &[u64; SLOT_WORDS]) -> Result<Status, String> {
         2 => Status::Unsupported,
         3 => Status::Error,
         slot::NOT_LOADED => Status::NotLoaded,
-        other => return Err(format!("{} is no status", other as u32 as i32)),
+        other => return Err(format!("{} is not a status", other as u32 as i32)),
     })
 }
 
@@ -195,7 +195,7 @@ pub fn parse_status(words: &[u64; SLOT_WORDS]) -> Result<Status, String> {
 pub fn parse_text_len(words: &[u64; SLOT_WORDS]) -> Result<usize, String> {
     match usize::try_from(words[slot::TEXT_LEN]) {
         Ok(len) if len <= answer::TEXT_BYTES => Ok(len),
-        _ => Err(format!("a text of {} bytes, {} fit", words[slot::TEXT_LEN], answer::TEXT_BYTES)),
+        _ => Err(format!("a text of {} bytes, but at most {} fit", words[slot::TEXT_LEN], answer::TEXT_BYTES)),
     }
 }
 
@@ -270,7 +270,7 @@ pub fn parse_descriptors(text: &[u8]) -> Result<Vec<Descriptor>, String> {
     let descriptors: Vec<Descriptor> =
         serde_json::from_slice(text).map_err(|e| format!("the descriptors are not readable ({e})"))?;
     if descriptors.is_empty() || descriptors.len() > 64 {
-        return Err(format!("{} algorithms, 1 to 64 may be", descriptors.len()));
+        return Err(format!("{} algorithms; 1 to 64 are allowed", descriptors.len()));
     }
     for (i, one) in descriptors.iter().enumerate() {
         if descriptors[..i].iter().any(|other| other.id == one.id) {

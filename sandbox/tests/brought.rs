@@ -77,7 +77,7 @@ impl Plugin {
 #[test]
 fn a_plugin_of_ours_finds_what_is_listed_beside_it() {
     let plugin = Plugin::build();
-    plugin.refused(true, "it needs libbrought.so.1; the jail holds glibc, libgcc and libstdc++ and nothing else");
+    plugin.refused(true, "it needs libbrought.so.1; the jail contains only glibc, libgcc and libstdc++");
     plugin.list(&[&plugin.near(), &plugin.far()]);
     assert_eq!(plugin.outcome(true), Outcome::Completed);
     // Half a list is the loader's to tell.
@@ -105,5 +105,5 @@ fn a_strangers_list_is_not_read() {
 fn a_listed_library_that_is_gone_is_named() {
     let plugin = Plugin::build();
     plugin.list(&[&plugin.near(), &plugin.path("gone.so.3")]);
-    plugin.refused(true, "gone.so.3, which is not there; install it again, or build the plugin anew");
+    plugin.refused(true, "gone.so.3, which is not installed; install it or rebuild the plugin");
 }

@@ -103,18 +103,18 @@ fn a_file_tells_how_it_was_compiled() {
 #[test]
 fn what_is_no_whole_file_is_unreadable() {
     let folder = folder();
-    check_refused(&folder.file("empty", b""), "readable", "it is no ELF file");
-    check_refused(&folder.file("script", b"#!/bin/sh\nexit 0\n"), "readable", "it is no ELF file");
+    check_refused(&folder.file("empty", b""), "readable", "it is not an ELF file");
+    check_refused(&folder.file("script", b"#!/bin/sh\nexit 0\n"), "readable", "it is not an ELF file");
     check_refused(&folder.file("short", b"\x7fELF\x02\x01\x01"), "readable", "within its first header");
     let whole = std::fs::read(fixture(&[])).unwrap();
     for tenth in 1..10 {
-        check_refused(&folder.file("half", &whole[..whole.len() * tenth / 10]), "readable", "cut short");
+        check_refused(&folder.file("half", &whole[..whole.len() * tenth / 10]), "readable", "truncated");
     }
     // Even without its section headers, which would give it away, half a file is noticed.
     let mut headless = whole[..whole.len() / 2].to_vec();
     headless[0x28..0x30].fill(0);
     headless[0x3a..0x40].fill(0);
-    check_refused(&folder.file("headless", &headless), "readable", "cut short: a segment");
+    check_refused(&folder.file("headless", &headless), "readable", "truncated: a segment");
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn program_headers(bytes: &[u8]) -> impl Iterator<Item = usize> + use<> {
 fn the_entry_must_be_a_function_of_the_file() {
     let folder = folder();
     check_refused(&folder.build("int other;", &[]), "entry", "does not export the function ocb_plugin_v1");
-    check_refused(&folder.build("int ocb_plugin_v1;", &[]), "entry", "is no global function");
+    check_refused(&folder.build("int ocb_plugin_v1;", &[]), "entry", "is not a global function");
     let uses = "void *ocb_plugin_v1(unsigned); void *f(void) { return ocb_plugin_v1(1); }";
     check_refused(&folder.build(uses, &[]), "entry", "does not define it");
     let hidden = "__attribute__((visibility(\"hidden\"))) void *ocb_plugin_v1(unsigned v) { return (void *)(long)v; }";

@@ -143,7 +143,7 @@ fn unknown_names_are_load_errors_that_name_what_there_is() {
         launcher().start(&trial).err().unwrap()
     };
     let ending = start("other", &[]);
-    assert_eq!(ending.outcome, Outcome::LoadError { reason: "it has no algorithm 'other', but fixture".into() });
+    assert_eq!(ending.outcome, Outcome::LoadError { reason: "it has no algorithm 'other'; it has fixture".into() });
     for (name, value) in [("other", 1.0), ("knob", 101.0), ("knob", 0.5), ("knob", f64::INFINITY)] {
         let ending = start("fixture", &[(name.to_string(), value)]);
         assert!(!matches!(ending.outcome, Outcome::Completed | Outcome::SandboxFault { .. }), "{ending}");

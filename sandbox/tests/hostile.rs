@@ -85,7 +85,7 @@ fn an_error_of_the_plugin_is_told_in_its_words() {
 #[test]
 fn answers_outside_the_rules_are_violations() {
     let violation = |rule: &str| Outcome::ProtocolViolation { phase: Phase::Query, rule: rule.into() };
-    assert_eq!(outcome(&["FAULT_STATUS"]), violation("77 is no status"));
+    assert_eq!(outcome(&["FAULT_STATUS"]), violation("77 is not a status"));
     assert_eq!(outcome(&["FAULT_HIT"]), violation("hit must be 0 or 1 and is 2"));
 }
 
@@ -94,7 +94,7 @@ fn what_is_no_plugin_is_a_load_error() {
     check_load_error(&["FAULT_NO_ENTRY"], "does not export the function ocb_plugin_v1");
     check_load_error(&["FAULT_VERSION"], "built for version 2.");
     check_load_error(&["FAULT_REFUSES_HOST"], "another major version");
-    check_load_error(&["FAULT_SHORT_STRUCT"], "ocb_algorithm says a size of");
+    check_load_error(&["FAULT_SHORT_STRUCT"], "ocb_algorithm declares a size of");
     check_load_error(&["FAULT_ID=\"Not an id\""], "breaks the rules of plugin.h");
     let folder = tempfile::tempdir().unwrap();
     let missing = launcher().describe(&folder.path().join("missing.so")).unwrap_err();

@@ -62,7 +62,7 @@ pub fn check_plugin(
     tell: &mut dyn FnMut(Step<'_>) -> bool,
 ) -> Result<PluginReport> {
     if !file.exists() {
-        return Err(LabError::Invalid(format!("There is no file {}.", file.display())));
+        return Err(LabError::Invalid(format!("The file {} does not exist.", file.display())));
     }
     let empty = PluginReport {
         file: file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
@@ -167,9 +167,8 @@ impl Checking<'_> {
             return;
         }
         let limit = self.term.words();
-        let evidence = format!("Not reached within the limit: {what} answered in this part's share of {limit}.");
-        let hint = "A check has one limit for all algorithms of a file, in equal shares: offer fewer algorithms per \
-                    file, or ones that build and answer small objects faster.";
+        let evidence = format!("Not finished within the limit: {what} answered in this part's share of {limit}.");
+        let hint = "All algorithms of a file share one time limit equally: offer fewer algorithms per file, or make them build and answer small objects faster.";
         self.line(check, verdict, evidence, Some(hint));
     }
 
@@ -200,7 +199,7 @@ impl Checking<'_> {
         }
         if let (Some(facts), true) = (&inspection.facts, inspection.rejections.is_empty()) {
             self.line("ELF gate", CheckVerdict::Pass, facts.sentence(), None);
-            let hint = "Nothing of it is forbidden; a curator looks at it.";
+            let hint = "This is allowed; a curator will review it.";
             facts
                 .remarks()
                 .into_iter()
@@ -224,12 +223,12 @@ impl Checking<'_> {
         .collect();
         if algorithm.queries.is_empty() {
             let hint = "Offer at least the collision query.";
-            self.line(check, CheckVerdict::Fail, "It answers no question.".into(), Some(hint));
+            self.line(check, CheckVerdict::Fail, "It answers no query.".into(), Some(hint));
         } else if empty.is_empty() {
             let evidence = format!("{} {}, {}.", algorithm.name, algorithm.version, algorithm.license);
             self.line(check, CheckVerdict::Pass, evidence, None);
         } else {
-            let evidence = format!("Nothing is said about: {}.", empty.join(", "));
+            let evidence = format!("Missing: {}.", empty.join(", "));
             self.line(check, CheckVerdict::Note, evidence, Some("Fill the descriptor before you publish the plugin."));
         }
     }
@@ -255,7 +254,7 @@ fn with_output(sentence: &str, stderr: &str) -> String {
     if tail.is_empty() {
         return sentence.to_owned();
     }
-    format!("{sentence} It wrote: {}", tail.into_iter().rev().collect::<Vec<_>>().join(" / "))
+    format!("{sentence} Its output: {}", tail.into_iter().rev().collect::<Vec<_>>().join(" / "))
 }
 
 fn hint_for(outcome: &Outcome) -> Option<&'static str> {

@@ -73,7 +73,7 @@ fn parquet_bytes(bytes: &[u8]) -> bytes::Bytes {
 
 /// A table from named columns.
 pub fn batch(metadata: HashMap<String, String>, columns: Vec<(&str, ArrayRef)>) -> Result<RecordBatch> {
-    let fault = |e| LabError::fault("Laying out the columns failed", e);
+    let fault = |e| LabError::fault("Building the columns failed", e);
     let plain = RecordBatch::try_from_iter(columns).map_err(fault)?;
     let schema = Schema::new_with_metadata(plain.schema().fields().clone(), metadata);
     RecordBatch::try_new(Arc::new(schema), plain.columns().to_vec()).map_err(fault)
@@ -86,5 +86,5 @@ fn column<'a, T: 'static>(batch: &'a RecordBatch, name: &str) -> std::result::Re
         .ok_or_else(|| format!("the column {name:?} is missing"))?
         .as_any()
         .downcast_ref::<T>()
-        .ok_or_else(|| format!("the column {name:?} has another type than this program writes"))
+        .ok_or_else(|| format!("the column {name:?} has an unexpected type"))
 }

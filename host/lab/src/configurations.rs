@@ -34,7 +34,7 @@ pub fn set_key(mesh_a: &str, mesh_b: &str, spec: &RunSpec) -> Result<String> {
 
 fn key(Versions { sampling, oracle }: Versions, mesh_a: &str, mesh_b: &str, spec: &RunSpec) -> Result<String> {
     let determines = serde_json::to_string(&(spec.finding(), spec.separation()))
-        .map_err(|e| LabError::fault("Naming the method failed", e))?;
+        .map_err(|e| LabError::fault("Encoding the method failed", e))?;
     // Sets from files of older versions may hold matrices that are no rotations; they are not reused.
     let rule = if matches!(spec.method, Method::File { .. }) { "|rotations" } else { "" };
     Ok(sha256_hex(format!("{sampling}|{oracle}|{mesh_a}|{mesh_b}|{determines}{rule}").as_bytes()))
@@ -69,7 +69,7 @@ pub fn make(
     };
     let found = if let Some(poses) = poses {
         affordable::check(a, b, poses)
-            .map_err(|why| LabError::Invalid(format!("These configurations cost too much: {why}.")))?;
+            .map_err(|why| LabError::Invalid(format!("These configurations are too expensive: {why}.")))?;
         let pair = Pair::new(a, b);
         let units = on_all_cpus(poses.len() as u64, gauge, |i| {
             let configuration = poses[i as usize];
@@ -92,9 +92,7 @@ pub fn make(
     }
     (set.placed, set.missed_rays) = (found.placed, found.missed);
     if set.placed.is_empty() {
-        return Err(LabError::Invalid(
-            "Nowhere do the objects come as near as that; choose another distance or step.".into(),
-        ));
+        return Err(LabError::Invalid("The objects never come that close; choose another distance or step.".into()));
     }
     Ok(Some(set))
 }

@@ -81,14 +81,14 @@ pub fn plugin_hash(file: &Path) -> Result<String> {
 pub fn read_plugin(file: &Path) -> Result<Vec<u8>> {
     // Its folder is nobody's business who reads a report.
     let shown = file.file_name().unwrap_or_default().display();
-    let bad = |why: String| LabError::Invalid(format!("{shown} is no plugin: {why}."));
+    let bad = |why: String| LabError::Invalid(format!("{shown} is not a plugin: {why}."));
     let bytes = given::read(file, MAX_PLUGIN_BYTES).map_err(|e| match e.kind() {
         // Their words are sentences of their own.
         ErrorKind::FileTooLarge | ErrorKind::InvalidInput | ErrorKind::IsADirectory => bad(e.to_string()),
         _ => bad(format!("it cannot be read ({e})")),
     })?;
     if !bytes.starts_with(b"\x7fELF") {
-        return Err(bad("it is no ELF file; build a shared library (.so) for Linux".into()));
+        return Err(bad("it is not an ELF file; build a shared library (.so) for Linux".into()));
     }
     Ok(bytes)
 }

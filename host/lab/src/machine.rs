@@ -165,7 +165,8 @@ pub fn lock_data_folder(data: &Path) -> Result<File> {
     match file.try_lock() {
         Ok(()) => Ok(file),
         Err(TryLockError::WouldBlock) => Err(LabError::Busy(format!(
-            "The data folder {} is in use by another process of OpenCollBench; stop that one, or name another folder.",
+            "The data folder {} is in use by another process of OpenCollBench; stop that process, or choose another \
+             folder.",
             data.display()
         ))),
         Err(TryLockError::Error(e)) => {

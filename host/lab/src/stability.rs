@@ -45,10 +45,9 @@ impl Selection {
     pub fn check(&self) -> Result<()> {
         let known: Vec<&str> = names().collect();
         match self.parts.iter().find(|part| !known.contains(&part.as_str())) {
-            Some(part) => Err(LabError::Invalid(format!(
-                "There is no family or relation {part:?}; there are: {}.",
-                known.join(", ")
-            ))),
+            Some(part) => {
+                Err(LabError::Invalid(format!("Unknown family or relation {part:?}; available: {}.", known.join(", "))))
+            }
             None => Ok(()),
         }
     }

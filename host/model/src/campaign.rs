@@ -8,7 +8,7 @@ use super::{Estimated, OutcomeName, State};
 /// A campaign that is asked for.
 #[derive(Clone, Debug, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
-#[schema(example = json!({ "reason": "A new machine: the class before was retired.", "suite": true, "people": true }))]
+#[schema(example = json!({ "reason": "A new machine; the old hardware class was retired.", "suite": true, "people": true }))]
 pub struct CampaignRequest {
     /// Why, for everybody to read.
     pub reason: String,

@@ -8,7 +8,7 @@ use utoipa::ToSchema;
 #[schema(example = json!({
     "id": "0199f3a2-7c1e-7d40-9a55-0d6c2f1b8e11",
     "subject": "Your plugin Gauss map 1.2.0 is public",
-    "text": "A curator approved it. Everybody may benchmark it from now on.",
+    "text": "A curator approved it. Anyone may benchmark it now.",
     "link": "/p/0199f3a0-11aa-7c02-b1d4-5a0f9be2c377",
     "created_us": 1_793_000_000_000_000_i64,
     "read_us": null

@@ -66,12 +66,11 @@ impl OutcomeInfo {
     /// Nothing went wrong, and `n` configurations have a time. Without any, nothing was completed.
     pub fn without_failure(n: usize, budget_limited: bool) -> Self {
         let (name, message) = match (n, budget_limited) {
-            (0, true) => (
-                OutcomeName::OutOfBudget,
-                "The time budget ended before the first question was answered; give it more.",
-            ),
+            (0, true) => {
+                (OutcomeName::OutOfBudget, "The time budget ended before the first answer; increase the budget.")
+            }
             (0, false) => (OutcomeName::NotMeasured, "Nothing was measured: no answer has a time."),
-            _ => (OutcomeName::Completed, "The plugin answered everything it was asked."),
+            _ => (OutcomeName::Completed, "The plugin answered every query."),
         };
         Self { name, signal: None, message: message.into(), ours: false }
     }

@@ -20,7 +20,7 @@ pub struct Page {
     #[serde(default = "most")]
     #[param(minimum = 1, maximum = 200, default = 200)]
     pub limit: u32,
-    /// Where the list goes on, as the `Link` header of the part before says; absent for the first part.
+    /// Start of the page, from the `Link` header of the previous page; absent for the first page.
     pub cursor: Option<String>,
 }
 
@@ -38,7 +38,7 @@ impl Page {
     /// Behind which entry the part begins, and how many it holds at most.
     pub fn start(&self) -> Result<(Cursor, usize), BadPage> {
         if !(1..=MOST).contains(&self.limit) {
-            return Err(BadPage(format!("A part of a list holds from 1 to {MOST} entries, not {}.", self.limit)));
+            return Err(BadPage(format!("A page of a list has 1 to {MOST} entries, not {}.", self.limit)));
         }
         let start = self.cursor.as_deref().map_or(Ok(Cursor::start()), Cursor::parse)?;
         Ok((start, self.limit as usize))
@@ -72,8 +72,8 @@ impl Cursor {
 
     fn parse(text: &str) -> Result<Self, BadPage> {
         let bad = || {
-            let mend = "take it from the Link header of the part before";
-            BadPage(format!("The cursor {text:?} is no place in a list; {mend}."))
+            let mend = "take it from the Link header of the previous page";
+            BadPage(format!("The cursor {text:?} is not valid; {mend}."))
         };
         let (created_us, id) = text.split_once('~').ok_or_else(bad)?;
         Ok(Self { created_us: created_us.parse().map_err(|_| bad())?, id: id.to_owned() })

@@ -78,17 +78,17 @@ impl UnrankedCause {
     fn sentence(&self) -> String {
         match *self {
             Self::WrongControls { wrong, n } => format!("{wrong} of {n} control questions were answered wrongly."),
-            Self::SilentControls { silent, n } => format!("It gave no answer to {silent} of {n} control questions."),
+            Self::SilentControls { silent, n } => format!("It did not answer {silent} of {n} control questions."),
             Self::FewControls { of, least, .. } if of < least => {
-                format!("Of these objects only {of} control questions could be made, and a rank needs {least}.")
+                format!("Only {of} control questions could be generated for these objects, and a rank needs {least}.")
             }
             Self::FewControls { n, least, .. } => format!(
-                "Only {n} control questions were answered within the time budget, and a rank needs {least}; give it more \
-                 time."
+                "Only {n} control questions were answered within the time budget, and a rank needs {least}; increase \
+                 the budget."
             ),
             Self::KeptWaiting { share, reference } => format!(
-                "Its processes waited for their CPU for {:.0} % of the time, those of the reference algorithm for {:.1} %, so \
-                 that too much would rest on what was taken off; measure it again.",
+                "Its processes waited for their CPU for {:.0} % of the time, those of the reference algorithm for \
+                 {:.1} %, so the correction of its times is too large; measure it again.",
                 100.0 * share,
                 100.0 * reference
             ),

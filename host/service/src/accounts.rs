@@ -41,7 +41,7 @@ impl Engine {
         let plain = |c: char| c.is_ascii_alphanumeric() || "._-@+".contains(c);
         if !NAME.contains(&name.len()) || !name.chars().all(plain) {
             return Err(EngineError::Invalid(format!(
-                "A name has {} to {} letters, digits and . _ - @ +, and {name:?} is none.",
+                "A user name has {} to {} letters, digits and . _ - @ +; {name:?} is not valid.",
                 NAME.start(),
                 NAME.end()
             )));
@@ -58,7 +58,7 @@ impl Engine {
         if !self.inner.store.add_account(&account, &password).await? {
             return Err(EngineError::Busy(format!("The name {name:?} is taken; choose another.")));
         }
-        self.inner.store.note(name, "account made", &account.owner(), role.name()).await?;
+        self.inner.store.note(name, "account created", &account.owner(), role.name()).await?;
         Ok(account)
     }
 
@@ -157,16 +157,16 @@ impl Engine {
             return Err(EngineError::Invalid("A token has a name of 1 to 80 characters.".into()));
         }
         if request.scopes.is_empty() {
-            return Err(EngineError::Invalid("A token is for something; name at least one scope.".into()));
+            return Err(EngineError::Invalid("A token needs at least one scope.".into()));
         }
         let id = self.id_of_request(&account.owner(), Made::Token, key, &request).await?;
         let known = self.tokens(account).await?;
         if known.len() >= MAX_TOKENS && known.iter().all(|token| token.id != id) {
-            return Err(EngineError::Busy(format!("An account has at most {MAX_TOKENS} tokens; end one first.")));
+            return Err(EngineError::Busy(format!("An account has at most {MAX_TOKENS} tokens; revoke one first.")));
         }
         self.inner.store.end_token(&account.id, &id).await?;
         let (token, secret) = self.add_key(account, id, name, request.scopes, TOKEN, false).await?;
-        self.inner.store.note(&account.name, "token made", &account.owner(), &token.name).await?;
+        self.inner.store.note(&account.name, "token created", &account.owner(), &token.name).await?;
         Ok(NewToken { token, secret })
     }
 
@@ -182,7 +182,7 @@ impl Engine {
         if !self.inner.store.end_token(&account.id, id).await? {
             return Err(EngineError::NotFound(format!("There is no token {id:?}.")));
         }
-        self.inner.store.note(&account.name, "token ended", &account.owner(), id).await
+        self.inner.store.note(&account.name, "token revoked", &account.owner(), id).await
     }
 
     /// Moves what a guest made into an account.
@@ -202,12 +202,12 @@ impl Engine {
     /// Asks the curators to be made a developer.
     #[boxed]
     pub async fn request_developer_role(&self, account: &AccountInfo, reason: &str) -> Result<()> {
-        let reason = said(reason, "say in a sentence or two what you want to submit")?;
+        let reason = said(reason, "describe in a sentence or two what you want to submit")?;
         if account.role != Role::User {
-            return Err(EngineError::Busy("This account may submit plugins already.".into()));
+            return Err(EngineError::Busy("This account can already submit plugins.".into()));
         }
         self.inner.store.set_developer_request(&account.id, &reason).await?;
-        self.inner.store.note(&account.name, "asked to develop", &account.owner(), &reason).await
+        self.inner.store.note(&account.name, "requested the developer role", &account.owner(), &reason).await
     }
 
     /// Registers the key that the account signs its plugins with, or forgets it.
@@ -231,11 +231,11 @@ impl Engine {
         let of = store.account(id).await?.ok_or_else(missing)?;
         let most = if by.role == Role::Administrator { Role::Administrator } else { Role::Developer };
         if of.id == by.id {
-            return Err(EngineError::Forbidden("Nobody changes their own role.".into()));
+            return Err(EngineError::Forbidden("You cannot change your own role.".into()));
         }
         if by.role < Role::Curator || role > most || of.role > most {
             return Err(EngineError::Forbidden(
-                "Only an administrator decides about curators and administrators.".into(),
+                "Only an administrator can change the role of a curator or administrator.".into(),
             ));
         }
         let (subject, change) = (of.owner(), format!("{} to {}", of.role.name(), role.name()));

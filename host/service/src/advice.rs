@@ -51,8 +51,8 @@ impl Engine {
         let turn = turn(owner, visitor.address.as_deref());
         let [all, own] = inner.advices.count(&turn);
         if own >= MOST_OPEN || all >= MOST_IN_ALL {
-            let whose = if own >= MOST_OPEN { format!("{own} requests of yours") } else { format!("{all} requests") };
-            let message = format!("{whose} for advice wait or are at work; ask again when one of them is through.");
+            let whose = if own >= MOST_OPEN { format!("{own} of your requests") } else { format!("{all} requests") };
+            let message = format!("{whose} for advice are queued or running; try again when one of them has ended.");
             return Err(EngineError::TooMuch { message, retry_seconds: RETRY_SECONDS });
         }
         let step = "waiting".to_owned();
@@ -72,7 +72,7 @@ impl Engine {
             if attempts >= MAX_ATTEMPTS {
                 info.state = State::Failed;
                 info.message =
-                    Some(format!("The service ended {attempts} times during this work; it is not tried again."));
+                    Some(format!("The service ended {attempts} times during this work, so it is not tried again."));
                 self.inner.store.end_advice(&info, &Default::default()).await?;
                 continue;
             }
@@ -95,7 +95,7 @@ impl Engine {
     pub async fn cancel_advice(&self, id: &str, caller: Option<&str>) -> Result<AdviceInfo> {
         let row = self.inner.advice_row(id).await?;
         if row.owner.as_deref() != caller {
-            return Err(EngineError::Forbidden("Only who asked for the advice may cancel it.".to_owned()));
+            return Err(EngineError::Forbidden("Only the owner of the advice may cancel it.".to_owned()));
         }
         let Some(job) = self.inner.advices.find(id) else { return Ok(row.info) };
         job.stop();
@@ -131,7 +131,7 @@ impl Inner {
 
     async fn paper(&self, id: &str, side: Side, stage: usize) -> Result<StoredPaper> {
         let row = self.advice_row(id).await?;
-        let none = || EngineError::NotFound("This advice has no reduced object there.".to_owned());
+        let none = || EngineError::NotFound("This advice has no such reduced object.".to_owned());
         row.papers[side as usize].get(stage).cloned().ok_or_else(none)
     }
 
@@ -164,7 +164,7 @@ impl Inner {
         };
         let (job, shelf) = (job.clone(), Shelf::folder(&self.config.data.join(SHELF)));
         let work = tokio::task::spawn_blocking(move || job.work(&names, &[a, b], &shelf));
-        work.await.unwrap_or_else(|_| Err(EngineError::Fault("The advisor broke down; see the log.".to_owned())))
+        work.await.unwrap_or_else(|_| Err(EngineError::Fault("The advisor failed; see the log.".to_owned())))
     }
 
     async fn end_advice(&self, mut info: AdviceInfo, found: Result<Option<Found>>) -> Result<()> {
@@ -209,10 +209,10 @@ fn check(question: Asked) -> Result<()> {
     // Written so that NaN fails.
     match question {
         Asked::Distance { tolerance } if !(tolerance > 0.0 && tolerance <= 1.0) => Err(EngineError::Invalid(format!(
-            "The tolerance is a share of A's longest side, more than 0 and at most 1, not {tolerance}."
+            "The tolerance must be more than 0 and at most 1 (a share of A's longest side), not {tolerance}."
         ))),
         Asked::Clearance { clearance } if !(0.0..=100.0).contains(&clearance) => Err(EngineError::Invalid(format!(
-            "The clearance is a share of A's longest side from 0 to 100, not {clearance}."
+            "The clearance must be from 0 to 100 (a share of A's longest side), not {clearance}."
         ))),
         Asked::Distance { .. } | Asked::Clearance { .. } => Ok(()),
     }

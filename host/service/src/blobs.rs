@@ -78,7 +78,7 @@ impl Blobs {
 
 fn key(sha256: &str) -> Result<Key> {
     if sha256.len() != 64 || !sha256.bytes().all(|b| b.is_ascii_digit() || (b'a'..=b'f').contains(&b)) {
-        return Err(EngineError::Invalid(format!("{sha256:?} is no SHA-256 in lower-case hex.")));
+        return Err(EngineError::Invalid(format!("{sha256:?} is not a SHA-256 in lower-case hexadecimal.")));
     }
     Ok(Key::from(format!("blobs/{}/{sha256}", &sha256[..2])))
 }
@@ -94,7 +94,7 @@ fn s3(url: &str) -> Result<Arc<dyn ObjectStore>> {
     use object_store::prefix::PrefixStore;
     let bad = || {
         EngineError::Invalid(format!(
-            "The blob storage {url:?} is not understood; write s3://bucket/prefix?endpoint=http://host:port."
+            "The blob storage {url:?} is not a valid address; write s3://bucket/prefix?endpoint=http://host:port."
         ))
     };
     let rest = url.strip_prefix("s3://").ok_or_else(bad)?;

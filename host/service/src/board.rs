@@ -192,7 +192,8 @@ impl Needed {
             Some(number) => match number.parse::<f64>() {
                 Ok(eps) if eps > 0.0 && eps <= 1.0 => Ok(Self::Eps(eps)),
                 _ => Err(EngineError::Invalid(format!(
-                    "The precision {number:?} is none; say any, none_seen, or the largest eps* that will do, such as 1e-6."
+                    "The precision {number:?} is not valid; use any, none_seen, or the largest accepted eps*, such as \
+                     1e-6."
                 ))),
             },
         }

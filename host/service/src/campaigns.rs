@@ -58,10 +58,10 @@ impl Engine {
         key: Option<&str>,
     ) -> Result<(CampaignInfo, bool)> {
         let inner = &self.inner;
-        let reason = said(&asked.reason, "say why it is measured again, for everybody to read")?;
+        let reason = said(&asked.reason, "say why it is measured again (the reason is public)")?;
         if !asked.suite && !asked.people {
             return Err(EngineError::Invalid(
-                "A campaign measures the suite, runs of people, or both; choose one.".into(),
+                "A campaign measures the suite, user runs, or both; choose at least one.".into(),
             ));
         }
         let owner = by.map_or_else(|| NAME_OF_OPERATOR.to_owned(), AccountInfo::owner);
@@ -72,7 +72,8 @@ impl Engine {
         }
         if inner.due(asked.suite, asked.people, &[]).await?.is_empty() {
             return Err(EngineError::Busy(
-                "There is nothing to measure again: all of it was measured on this hardware class and by this oracle, or waits."
+                "There is nothing to measure again: everything is queued or was measured on this hardware class with \
+                 this oracle."
                     .into(),
             ));
         }
@@ -92,7 +93,7 @@ impl Engine {
             ended_us: None,
         };
         let subject = subject(&row.id);
-        let note = Note { actor: &row.created_by, action: "campaign made", subject: &subject, detail: &row.reason };
+        let note = Note { actor: &row.created_by, action: "campaign created", subject: &subject, detail: &row.reason };
         let new = inner.store.add_campaign(&row, note).await?;
         // Whoever asked may be gone before all of it is queued; closing waits for it.
         let (sender, filled) = tokio::sync::oneshot::channel();
@@ -103,7 +104,7 @@ impl Engine {
                 tracing::error!("campaign {id}: not all of it was queued: {e}");
             }
         });
-        filled.await.unwrap_or_else(|_| Err(EngineError::Fault("Queueing the campaign broke down.".into())))?;
+        filled.await.unwrap_or_else(|_| Err(EngineError::Fault("Queueing the campaign failed.".into())))?;
         Ok((self.campaign(&row.id, viewer.as_deref()).await?, new))
     }
 
@@ -181,11 +182,11 @@ impl Engine {
     pub(crate) async fn take_up_campaigns(&self) {
         let open = match self.inner.store.open_campaigns().await {
             Ok(open) => open,
-            Err(e) => return tracing::error!("campaigns could not be taken up: {e}"),
+            Err(e) => return tracing::error!("campaigns could not be resumed: {e}"),
         };
         for row in open {
             if let Err(e) = self.take_up(&row).await {
-                tracing::error!("campaign {}: it could not be taken up: {e}", row.id);
+                tracing::error!("campaign {}: it could not be resumed: {e}", row.id);
             }
         }
     }
@@ -201,7 +202,7 @@ impl Engine {
         if row.cancelled_us.is_some() {
             inner.end_waiting_of(&row.id).await?;
         } else if !now {
-            let told = "The service has another hardware class, suite or oracle now.";
+            let told = "The hardware class, the suite or the oracle of the service has changed.";
             return inner.cancel_campaign(&row.id, THE_SERVICE, told).await;
         } else if row.queued_us.is_none() {
             return self.fill_campaign(&row.id).await;
@@ -287,7 +288,7 @@ impl Inner {
                 format!("{count} of your public runs were")
             };
             let text = format!(
-                "{runs} measured again: {} Old and new results stand side by side; the old ones stay as they are.",
+                "{runs} measured again: {} Old and new results are shown side by side; the old ones do not change.",
                 sentence(&row.reason)
             );
             let told = notice("Your public runs were measured again", &text, &format!("/campaigns/{id}"));

@@ -52,9 +52,7 @@ impl Inner {
         let run = &row.id;
         let results = self.measured_results(row).await?;
         if results.is_empty() {
-            return Err(EngineError::NotFound(format!(
-                "The run {run:?} has nothing to chart: no algorithm has a time."
-            )));
+            return Err(EngineError::NotFound(format!("The run {run:?} cannot be charted: no algorithm has a time.")));
         }
         let chosen = self.chosen_for(row, &results, &request).await?;
         let mut chart = match request.kind {
@@ -71,8 +69,11 @@ impl Inner {
             ChartKind::Resolution => resolution::chart(&results),
         };
         if chart.series.iter().all(|series| series.points.is_empty()) {
-            let why =
-                if chosen.is_some() { "The selection holds no configuration of these." } else { nothing(request.kind) };
+            let why = if chosen.is_some() {
+                "The selection has none of these configurations."
+            } else {
+                nothing(request.kind)
+            };
             return Err(EngineError::NotFound(why.into()));
         }
         if let (Some(selection), Some(chosen)) = (&request.selection, &chosen) {
@@ -92,7 +93,7 @@ impl Inner {
         let Some(selection) = &request.selection else { return Ok(None) };
         if !request.kind.takes_selection() {
             return Err(EngineError::Invalid(
-                "This chart is of whole runs; a selection goes with the kinds ecdf, bv_tests and primitive_tests."
+                "This chart shows whole runs; only the kinds ecdf, bv_tests and primitive_tests accept a selection."
                     .into(),
             ));
         }
@@ -128,9 +129,10 @@ fn nothing(kind: ChartKind) -> &'static str {
     match kind {
         ChartKind::Accuracy => "No algorithm of this run has both a time and an accuracy of this kind.",
         ChartKind::Distance | ChartKind::Triangles | ChartKind::Ecdf => "This run has no times to chart.",
-        ChartKind::BvTests | ChartKind::PrimitiveTests => "No algorithm of this run counts its tests.",
+        ChartKind::BvTests | ChartKind::PrimitiveTests => "No algorithm of this run reports its tests.",
         ChartKind::Resolution => {
-            "This run has no decisions by distance: it was measured by an older version, or touches everywhere."
+            "This run has no decisions by distance: it was measured by an older version, or the objects touch in \
+             every configuration."
         }
     }
 }

@@ -16,7 +16,7 @@ impl Engine {
     pub async fn cite_run(&self, id: &str, origin: &str) -> Result<Citation> {
         let row = self.inner.run_row(id).await?;
         if matches!(row.state, State::Queued | State::Running) {
-            return Err(EngineError::Busy("This run is under way; it can be cited when it has ended.".into()));
+            return Err(EngineError::Busy("This run has not ended; it can be cited when it has.".into()));
         }
         let (Some(set), Some(environment)) = (&row.set, &row.environment) else { return Err(not_yet(id)) };
         let results = self.inner.store.results(id).await?;

@@ -35,14 +35,12 @@ impl EngineError {
         let Self::Fault(cause) = self else { return self };
         let number = uuid::Uuid::new_v4().simple().to_string();
         tracing::error!(number, %cause, "background work failed");
-        Self::Fault(format!("This is our fault, not yours; the service's log has the cause under {number}."))
+        Self::Fault(format!("Internal error; the cause is in the service's log under {number}."))
     }
 
     /// What this program was compiled without.
     pub fn left_out(what: &str) -> Self {
-        Self::Invalid(format!(
-            "This ocb was built without {what}, as `make serve` does; `make build` builds all of it."
-        ))
+        Self::Invalid(format!("This ocb was built without {what}, as by `make serve`; `make build` includes it."))
     }
 
     /// A fault with the step at which it happened.
@@ -89,7 +87,7 @@ mod tests {
     #[test]
     fn visitors_see_no_causes_of_faults() {
         let told = EngineError::Fault("disk /srv/secret is full".into()).for_visitors().to_string();
-        assert!(told.contains("our fault") && !told.contains("secret"), "{told}");
+        assert!(told.contains("Internal error") && !told.contains("secret"), "{told}");
         assert_eq!(
             EngineError::Invalid("The step must be finite.".into()).for_visitors().to_string(),
             "The step must be finite."

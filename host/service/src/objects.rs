@@ -161,8 +161,8 @@ impl Objects {
             let mesh = read.mesh.to_f32_representable().map_err(|e| bad(&e))?;
             if mesh != exact {
                 warnings.push(
-                    "Coordinates were rounded to single precision, so that algorithms of either precision see the same \
-                     object."
+                    "Coordinates were rounded to single precision, so that algorithms of either precision get the \
+                     same object."
                         .into(),
                 );
             }
@@ -193,7 +193,7 @@ impl Objects {
 /// There is no such object, or not for who asks: both sound alike.
 pub fn unknown(id: &str) -> EngineError {
     EngineError::NotFound(format!(
-        "There is no object {id:?}; `ocb object list` and GET /api/v1/objects name those there are."
+        "There is no object {id:?}; `ocb object list` and GET /api/v1/objects list all objects."
     ))
 }
 
@@ -208,12 +208,12 @@ fn make_stock(id: &str, name: &str) -> Result<(Mesh, ObjectInfo)> {
     let object = stock::list().iter().find(|o| o.name == name).ok_or_else(|| unknown(id))?;
     let mesh = triangles.parse().ok().and_then(|n| stock::generate(name, n)).ok_or_else(|| {
         EngineError::Invalid(format!(
-            "The stock object {name:?} is made of {} to {} triangles, not of {triangles}.",
+            "The stock object {name:?} has {} to {} triangles, not {triangles}.",
             object.lowest_triangles,
             stock::MAX_TRIANGLES
         ))
     })?;
-    let terms = format!("{} Made by OpenCollBench; free to use without any condition.", object.description);
+    let terms = format!("{} Created by OpenCollBench; free to use without conditions.", object.description);
     let mut info = describe(&mesh, id, object.name, &terms, Vec::new());
     (info.stock, info.visibility) = (true, Visibility::Public);
     Ok((mesh, info))

@@ -29,7 +29,7 @@ impl Engine {
     #[boxed]
     pub async fn open(config: EngineConfig) -> Result<Self> {
         std::fs::create_dir_all(&config.data).map_err(|e| {
-            EngineError::Fault(format!("The data folder {} cannot be made: {e}.", config.data.display()))
+            EngineError::Fault(format!("The data folder {} cannot be created: {e}.", config.data.display()))
         })?;
         let lock = lock_data_folder(&config.data)?;
         let store = Store::open(&config.data, config.database_url.as_deref()).await?;

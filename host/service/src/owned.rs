@@ -79,7 +79,7 @@ impl Engine {
         for run in &what.runs {
             let now = self.cancel(&run.id, Some(owner)).await?;
             if matches!(now.state, State::Queued | State::Running) {
-                return Err(EngineError::Busy("A run of these is just ending; try again in a moment.".to_owned()));
+                return Err(EngineError::Busy("One of these runs is just ending; try again in a moment.".to_owned()));
             }
         }
         for advice in &what.advice {
@@ -92,10 +92,10 @@ impl Engine {
     pub(crate) async fn sweep(self) {
         while !self.inner.closing() {
             if let Err(e) = self.forget_requests().await {
-                tracing::error!("keys of old requests could not be forgotten: {e}");
+                tracing::error!("keys of old requests could not be deleted: {e}");
             }
             if let Err(e) = self.sweep_once(now_us()).await {
-                tracing::error!("what guests left behind could not be taken away: {e}");
+                tracing::error!("expired data of guests could not be deleted: {e}");
             }
             tokio::select! {
                 () = tokio::time::sleep(LOOK) => {}
@@ -129,7 +129,7 @@ impl Inner {
     async fn own_run(&self, id: &str, owner: &str) -> Result<Belongings> {
         let row = self.run_row(id).await?;
         if row.owner.as_deref() != Some(owner) {
-            return Err(EngineError::Forbidden("Only who asked for this run may take it away.".to_owned()));
+            return Err(EngineError::Forbidden("Only the owner of this run may delete it.".to_owned()));
         }
         let all = self.store.belongings(owner, None).await?;
         let runs = all.runs.into_iter().filter(|run| run.id == id).collect();
@@ -138,7 +138,7 @@ impl Inner {
 
     async fn own_object(&self, id: &str, owner: &str) -> Result<Belongings> {
         if !self.objects.info_for(id, Some(owner)).await?.mine {
-            return Err(EngineError::Forbidden("Only who added this object may take it away.".to_owned()));
+            return Err(EngineError::Forbidden("Only the owner of this object may delete it.".to_owned()));
         }
         self.store.belongings(owner, Some(id)).await
     }

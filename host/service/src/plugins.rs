@@ -42,7 +42,7 @@ impl Engine {
     pub fn may_submit(&self, account: &AccountInfo) -> Result<()> {
         if account.role < Role::Developer {
             return Err(EngineError::Forbidden(
-                "Only developers submit plugins; ask to be one on the account page.".into(),
+                "Only developers can submit plugins; request the role on the account page.".into(),
             ));
         }
         Ok(())
@@ -61,11 +61,11 @@ impl Engine {
         self.may_submit(account)?;
         check_manifest(&manifest)?;
         if bytes.len() > MAX_PLUGIN_BYTES {
-            return Err(EngineError::Invalid(format!("A plugin has at most {} MiB.", MAX_PLUGIN_BYTES >> 20)));
+            return Err(EngineError::Invalid(format!("A plugin may have at most {} MiB.", MAX_PLUGIN_BYTES >> 20)));
         }
         if !bytes.starts_with(b"\x7fELF") {
             return Err(EngineError::Invalid(format!(
-                "{file:?} is no plugin: it is not an ELF file; build a shared library (.so) for Linux."
+                "{file:?} is not a plugin: it is not an ELF file; build a shared library (.so) for Linux."
             )));
         }
         let signed_by = signature.map(|signature| signed_by(account, &bytes, signature)).transpose()?;
@@ -103,7 +103,7 @@ impl Engine {
         // Two uploads of the same bytes at once: the first stands.
         let note = Note { actor: &account.name, action: "submitted", subject: &row.id, detail: &row.manifest.version };
         let new = store.add_submission(&row, note).await?;
-        let missing = || EngineError::Fault("A plugin was lost while it was stored.".into());
+        let missing = || EngineError::Fault("The plugin was lost while it was being stored.".into());
         let kept = store.submission_of(&account.id, &row.blob).await?.ok_or_else(missing)?;
         if new {
             self.inner.wake.notify_one();
@@ -116,11 +116,12 @@ impl Engine {
         let all = self.inner.store.submissions().await?;
         let mine = || all.iter().filter(|row| row.account == account.id && row.state != PluginState::Failed);
         if mine().map(|row| row.bytes).sum::<u64>() + bytes > QUOTA {
-            return Err(EngineError::Busy(format!("Your plugins would have more than {} MiB.", QUOTA >> 20)));
+            return Err(EngineError::Busy(format!("With this file, your plugins would exceed {} MiB.", QUOTA >> 20)));
         }
         if mine().filter(|row| row.state.is_checking()).count() >= MAX_WAITING {
             return Err(EngineError::Busy(format!(
-                "{MAX_WAITING} plugins of yours wait for their check; send this one when one of them is through."
+                "{MAX_WAITING} of your plugins are waiting for their check; submit this one when one of them has been \
+                 checked."
             )));
         }
         Ok(())
@@ -233,13 +234,13 @@ impl Engine {
         let reason = if action == Action::EndCheck {
             ended_by(row.account == by.id, &reason)
         } else if step.wants_reason {
-            said(&reason, "say why, for the author and for the log")?
+            said(&reason, "give a reason for the author and the log")?
         } else {
             reason.trim().chars().take(2000).collect()
         };
         if !step.from.contains(&row.state) {
             return Err(EngineError::Busy(format!(
-                "This plugin is {}, so that step cannot be taken now.",
+                "This plugin is {}, so this action is not possible.",
                 row.state.name()
             )));
         }
@@ -260,7 +261,9 @@ impl Engine {
             moved = moved || store.move_submission(id, *from, step.to, &reason, new_notice, Some(note)).await?;
         }
         if !moved {
-            return Err(EngineError::Busy("Somebody else has just decided about this plugin; look again.".into()));
+            return Err(EngineError::Busy(
+                "This plugin has just been changed by someone else; reload the page.".into(),
+            ));
         }
         if action == Action::EndCheck {
             self.inner.stop_current(Some(id), None);
@@ -314,7 +317,7 @@ fn no_plugin(id: &str) -> EngineError {
 
 /// The key of the account, when the signature is that of this file by it.
 fn signed_by(account: &AccountInfo, file: &[u8], signature: &str) -> Result<String> {
-    let missing = "This account has no key to check a signature with; register your minisign.pub on the account page.";
+    let missing = "This account has no key to verify a signature; register your minisign.pub on the account page.";
     let key = account.signing_key.clone().ok_or_else(|| EngineError::Invalid(missing.into()))?;
     signature::check(file, signature, &key).map(|()| key)
 }
@@ -342,10 +345,10 @@ struct Step {
 /// May somebody of this role take it, about an own plugin or another's?
 fn may_take(step: &Step, mine: bool, role: Role) -> Result<()> {
     let refused = match step.by {
-        By::Author if !mine => "Only who sent this plugin may do that.",
+        By::Author if !mine => "Only the author of this plugin may do that.",
         By::Curator if role < Role::Curator => "Only curators may do that.",
-        By::Curator if mine => "Nobody decides about a plugin of their own; another curator has to.",
-        By::Both if !mine && role < Role::Curator => "Only who sent this plugin and curators may do that.",
+        By::Curator if mine => "You cannot decide about your own plugin; another curator must.",
+        By::Both if !mine && role < Role::Curator => "Only the author of this plugin and curators may do that.",
         _ => return Ok(()),
     };
     Err(EngineError::Forbidden(refused.into()))
@@ -399,10 +402,10 @@ fn is_version_before(other: &SubmissionRow, row: &SubmissionRow) -> bool {
 /// Why a finished check must not count: names that are taken, or a version that is there already.
 pub fn conflict(row: &SubmissionRow, all: &[SubmissionRow], installed: impl Fn(&str) -> bool) -> Option<String> {
     if let Some(id) = ids(row).find(|id| installed(id)) {
-        return Some(format!("The algorithm id {id:?} belongs to this service's own plugin; give yours another."));
+        return Some(format!("The algorithm id {id:?} belongs to a plugin of this service; choose another id."));
     }
     if let Some(id) = taken(row, all) {
-        return Some(format!("The algorithm id {id:?} belongs to another author's plugin; give yours another."));
+        return Some(format!("The algorithm id {id:?} belongs to another author's plugin; choose another id."));
     }
     let version = &row.manifest.version;
     let again = |other: &&SubmissionRow| {
@@ -410,9 +413,7 @@ pub fn conflict(row: &SubmissionRow, all: &[SubmissionRow], installed: impl Fn(&
         let kept = !matches!(other.state, PluginState::Failed | PluginState::Rejected);
         other.id != row.id && other.account == row.account && kept && same && other.manifest.version == *version
     };
-    all.iter()
-        .find(again)
-        .map(|_| format!("There is a version {version} of this plugin already; give this one another."))
+    all.iter().find(again).map(|_| format!("Version {version} of this plugin already exists; choose another version."))
 }
 
 /// What a curator should look at.
@@ -425,13 +426,13 @@ fn flags(
 ) -> Vec<String> {
     let mut flags = Vec::new();
     if row.signed_by.is_none() && owner.is_some_and(|owner| owner.signing_key.is_some()) {
-        flags.push("It is not signed, though its author has registered a key.".to_owned());
+        flags.push("It is not signed, although its author has registered a key.".to_owned());
     }
     if !is_free(&row.manifest.license) {
-        flags.push(format!("The licence {} is not known as a free one.", row.manifest.license));
+        flags.push(format!("The licence {} is not a known free licence.", row.manifest.license));
     }
     if row.manifest.source.is_empty() {
-        flags.push("It does not say where its source is.".to_owned());
+        flags.push("The address of its source is missing.".to_owned());
     }
     let noted = lines.iter().filter(|line| line.verdict == CheckVerdict::Note);
     flags.extend(noted.map(|line| format!("{}: {}", line.check, line.evidence)));
@@ -439,7 +440,7 @@ fn flags(
         let passed = |old: &CheckLine| old.check == line.check && old.verdict == CheckVerdict::Pass;
         line.verdict != CheckVerdict::Pass && before.iter().any(passed)
     };
-    flags.extend(lines.iter().filter(worse).map(|line| format!("{}: the version before passed.", line.check)));
-    flags.extend((0..twins).map(|_| "Another account sent the same file.".to_owned()));
+    flags.extend(lines.iter().filter(worse).map(|line| format!("{}: the previous version passed.", line.check)));
+    flags.extend((0..twins).map(|_| "Another account submitted the same file.".to_owned()));
     flags
 }

@@ -135,7 +135,7 @@ impl Engine {
             return Ok(());
         }
         Err(EngineError::Busy(format!(
-            "Your objects would have more than {} MiB; delete some on the page of objects.",
+            "With this file, your objects would exceed {} MiB; delete some on the objects page.",
             most >> 20
         )))
     }
@@ -146,7 +146,7 @@ fn can_be_run(spec: &RunSpec, expected_seconds: f64, longest: Duration) -> Resul
     let (longest, algorithms) = (longest.as_secs_f64(), spec.algorithms.len());
     if granted(spec) > longest {
         return Err(EngineError::Invalid(format!(
-            "The limit for a guest's run is {} of measuring; {algorithms} algorithms at {} each may take {}. Set the budget to {:.0} s \
+            "A guest's run may measure for at most {}; {algorithms} algorithms at {} each may take {}. Set the budget to {:.0} s \
              per algorithm or less, choose fewer algorithms, or log in.",
             time(longest),
             time(spec.budget_seconds),
@@ -156,7 +156,7 @@ fn can_be_run(spec: &RunSpec, expected_seconds: f64, longest: Duration) -> Resul
     }
     if expected_seconds > longest {
         return Err(EngineError::Invalid(format!(
-            "The time limit for a guest's run is {}; this one is expected to take {}. Choose fewer configurations or algorithms, or \
+            "A guest's run may take at most {}; this one is expected to take {}. Choose fewer configurations or algorithms, or \
              log in.",
             time(longest),
             time(expected_seconds)

@@ -54,7 +54,7 @@ impl Engine {
         let request = Request { owner, resource: made.name(), key, digest: &digest };
         let (id, first) = self.inner.store.request(request, &id).await?;
         if first != digest {
-            let told = format!("The key {key:?} was used for another request; give every request a key of its own.");
+            let told = format!("The key {key:?} was used for another request; use a new key for each request.");
             return Err(EngineError::Invalid(told));
         }
         Ok(id)

@@ -54,14 +54,15 @@ impl Inner {
         let (mut heatmap, mesh) = self.map_of(run, &request.algorithm, &request).await?;
         if let Some((other_run, other)) = request.subtrahend() {
             if request.measure == Measure::Density && other_run.is_none() {
-                let sentence = "The density is that of the set, so two algorithms of one run do not differ in it.";
+                let sentence =
+                    "The density belongs to the configuration set, so it is the same for all algorithms of a run.";
                 return Err(EngineError::Invalid(sentence.into()));
             }
             let other_run = other_run.unwrap_or(run);
             let (subtracted, other_mesh) = self.map_of(other_run, other, &request).await?;
             if !Arc::ptr_eq(&mesh, &other_mesh) && mesh.sha256() != other_mesh.sha256() {
                 return Err(EngineError::Invalid(format!(
-                    "The runs {run} and {other_run} have different objects there; a difference needs the same one."
+                    "The runs {run} and {other_run} have different objects there; a difference needs the same object."
                 )));
             }
             subtract(&mut heatmap, &subtracted);
@@ -143,7 +144,7 @@ impl Inner {
             return Err(EngineError::NotFound(if row.spec.algorithms.iter().any(|a| a == algorithm) {
                 format!("The algorithm {algorithm:?} has no result in this run yet.")
             } else {
-                format!("The algorithm {algorithm:?} is not in this run; there are: {there_are}.")
+                format!("The algorithm {algorithm:?} is not in this run; available: {there_are}.")
             }));
         };
         let Some(blob) = stored.records.clone() else {

@@ -130,14 +130,14 @@ impl Engine {
 
     /// The run that was asked for under the key of this one, or that repeats the same one in its campaign.
     async fn asked_before(&self, row: &RunRow, key: &str) -> Result<String> {
-        let missing = || EngineError::Fault("A run was lost while it was asked for.".into());
+        let missing = || EngineError::Fault("The run was lost while it was being stored.".into());
         if let (Some(campaign), Some(repeated)) = (&row.campaign, &row.rerun_of) {
             return Ok(self.inner.store.repeat_of(campaign, repeated).await?.ok_or_else(missing)?.id);
         }
         let owner = row.owner.as_deref().unwrap_or_default();
         let known = self.inner.store.run_of_request(owner, key).await?.ok_or_else(missing)?;
         if known.spec != row.spec {
-            let told = format!("The key {key:?} was used for another run; give every run a key of its own.");
+            let told = format!("The key {key:?} was used for another run; use a new key for each run.");
             return Err(EngineError::Invalid(told));
         }
         Ok(known.id)
@@ -150,10 +150,9 @@ impl Engine {
     pub async fn refine(&self, id: &str, caller: Option<&str>) -> Result<RunInfo> {
         let row = self.inner.run_row(id).await?;
         if caller.is_none() || row.owner.as_deref() != caller {
-            return Err(EngineError::Forbidden("Only who asked for this run may refine it.".into()));
+            return Err(EngineError::Forbidden("Only the owner of this run may refine it.".into()));
         }
-        let nothing =
-            || EngineError::Busy("Only a run that has ended as a preview can be refined; this one has not.".into());
+        let nothing = || EngineError::Busy("Only a run that has ended as a preview can be refined.".into());
         if row.preview.is_none() {
             return Err(nothing());
         }
@@ -209,7 +208,7 @@ impl Engine {
     pub async fn cancel(&self, id: &str, caller: Option<&str>) -> Result<RunInfo> {
         let row = self.inner.run_row(id).await?;
         if caller.is_none() || row.owner.as_deref() != caller {
-            return Err(EngineError::Forbidden("Only who asked for this run may cancel it.".into()));
+            return Err(EngineError::Forbidden("Only the owner of this run may cancel it.".into()));
         }
         self.end(&row, None).await?;
         self.run(id, caller).await

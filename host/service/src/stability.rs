@@ -29,7 +29,7 @@ impl Engine {
         selection.check()?;
         let unknown = || {
             let known: Vec<String> = self.algorithms(None).into_iter().map(|a| a.id).collect();
-            EngineError::Invalid(format!("There is no algorithm {algorithm:?}; there are: {}.", known.join(", ")))
+            EngineError::Invalid(format!("There is no algorithm {algorithm:?}; available: {}.", known.join(", ")))
         };
         let contestant = self.inner.registry.choose(algorithm, None)?.ok_or_else(unknown)?;
         let whole = selection.parts.is_empty() && selection.at.is_none() && selection.seed.is_none();
@@ -40,7 +40,7 @@ impl Engine {
             // Who asked may have gone.
             drop(sender.send(stability::run(inner.registry.runner(), &contestant, &selection, &stop, &at)));
         });
-        let found = found.await.map_err(|_| EngineError::Fault("The stability run broke down.".into()))??;
+        let found = found.await.map_err(|_| EngineError::Fault("The stability run failed.".into()))??;
         if whole {
             self.inner.store.keep_stability(&found).await?;
         }

@@ -61,14 +61,14 @@ impl Suite {
         let Some(file) = file else { return Self::read(NEWEST) };
         let bad = |why: String| EngineError::Invalid(format!("The suite {} cannot be used: {why}", file.display()));
         let bytes = ocb_sandbox::given::read(file, MAX_BYTES).map_err(|e| bad(format!("{e}.")))?;
-        let text = String::from_utf8(bytes).map_err(|_| bad("it is no text.".into()))?;
+        let text = String::from_utf8(bytes).map_err(|_| bad("it is not text.".into()))?;
         Self::read(&text).map_err(|e| bad(e.to_string()))
     }
 
     /// From the text of its file.
     pub fn read(text: &str) -> Result<Self> {
         let document: Document = serde_json::from_str(text)
-            .map_err(|e| EngineError::Invalid(format!("It is no description of a suite: {e}.")))?;
+            .map_err(|e| EngineError::Invalid(format!("It is not a description of a suite: {e}.")))?;
         let Document { scenes, separations, queries, .. } = &document;
         let scenarios = scenes.len() * separations.len() * queries.len();
         if !(1..=MAX_SCENARIOS).contains(&scenarios) {
@@ -146,7 +146,7 @@ mod tests {
         let published = [(2, "387285b6f896d2990e99fa9f588a65362c328220278c7b514272a9d3308c2299")];
         assert!(
             published.contains(&(suite.document.version, suite.sha256.as_str())),
-            "results lie under the hash of a version: give the changed suite another one ({}: {})",
+            "results are stored by the hash of a version: give the changed suite a new version ({}: {})",
             suite.document.version,
             suite.sha256
         );

@@ -19,7 +19,7 @@ impl Engine {
     pub async fn change_object_visibility(&self, id: &str, to: Visibility, caller: &str) -> Result<ObjectInfo> {
         let inner = &self.inner;
         if !inner.objects.info_for(id, Some(caller)).await?.mine {
-            return Err(EngineError::Forbidden("Only who added this object decides who sees it.".to_owned()));
+            return Err(EngineError::Forbidden("Only the owner of this object may change its visibility.".to_owned()));
         }
         may_publish(to, caller)?;
         inner.store.set_object_visibility(id, to).await?;
@@ -31,7 +31,7 @@ impl Engine {
     pub async fn change_run_visibility(&self, id: &str, to: Visibility, caller: &str) -> Result<RunInfo> {
         let row = self.inner.run_row(id).await?;
         if row.owner.as_deref() != Some(caller) {
-            return Err(EngineError::Forbidden("Only who asked for this run decides who sees it.".to_owned()));
+            return Err(EngineError::Forbidden("Only the owner of this run may change its visibility.".to_owned()));
         }
         may_publish(to, caller)?;
         if row.private && to > Visibility::Private {
@@ -110,7 +110,7 @@ impl Inner {
 fn may_publish(to: Visibility, owner: &str) -> Result<()> {
     if to == Visibility::Public && Owner::of(owner).account().is_none() {
         return Err(EngineError::Forbidden(
-            "Publishing needs an account; make one on the account page and keep your things in it.".to_owned(),
+            "Publishing requires an account; create one on the account page and move your data into it.".to_owned(),
         ));
     }
     Ok(())

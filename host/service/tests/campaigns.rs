@@ -165,7 +165,7 @@ async fn another_hardware_class_is_measured_once_and_stands_beside_the_old_one()
     let listed = engine.campaigns(&Page::default()).await.unwrap().entries;
     assert!(listed.len() == 1 && listed[0].results.is_empty());
     let log = engine.audit(&format!("campaign:{}", made.id)).await.unwrap();
-    assert_eq!((log[0].actor.as_str(), log[0].action.as_str()), ("the operator", "campaign made"));
+    assert_eq!((log[0].actor.as_str(), log[0].action.as_str()), ("the operator", "campaign created"));
     engine.shutdown().await;
     let engine = Engine::open(config(data.path(), "old")).await.unwrap();
     let nothing = engine.create_campaign(None, asked(), None).await;

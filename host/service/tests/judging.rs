@@ -76,7 +76,7 @@ async fn solid_bodies_are_refused_where_they_mean_nothing() {
         (RunSpec { object_a: open.clone(), ..good.clone() }, "\"open\" is open"),
         (RunSpec { object_b: Some(open), ..good.clone() }, "\"open\" is open"),
         (RunSpec { algorithms: vec!["parry".into()], ..good.clone() }, "of solid bodies; these do: brute-force"),
-        (RunSpec { query: ocb_core::query::Query::CollisionAll, ..good.clone() }, "first contact or for the distance"),
+        (RunSpec { query: ocb_core::query::Query::CollisionAll, ..good.clone() }, "choose first contact or distance"),
     ] {
         match engine.submit(spec, Some("guest")).await {
             Err(EngineError::Invalid(sentence)) => assert!(sentence.contains(must_say), "{sentence}"),

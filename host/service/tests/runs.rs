@@ -323,8 +323,8 @@ async fn a_selection_has_its_own_charts(engine: &Engine, run: &str, whole: &Ecdf
     let counted: u64 = tests.series[0].points.iter().map(|point| point.n).sum();
     assert_eq!(counted, u64::from(whole.n));
     for (kind, selection, word) in [
-        (ChartKind::Ecdf, "time in [1us, 1s]", "of which algorithm"),
-        (ChartKind::Ecdf, "time of parry in [1000s, 2000s]", "holds no configuration"),
+        (ChartKind::Ecdf, "time in [1us, 1s]", "does not name an algorithm"),
+        (ChartKind::Ecdf, "time of parry in [1000s, 2000s]", "has none of these"),
         (ChartKind::Ecdf, "tame", "character 1"),
         (ChartKind::Accuracy, slow.as_str(), "whole runs"),
     ] {

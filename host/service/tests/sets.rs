@@ -130,9 +130,9 @@ async fn what_cannot_be_is_refused_in_one_sentence() {
     let random = |share: f64| json!({ "kind": "random", "count": 9, "hit_share": share });
     let cases = [
         (counted("sphere"), json!({ "step": 0.5 }), "a step must be from 7e-15 to 0.1"),
-        (counted("sphere"), json!({ "step": 0.01, "ladder": true }), "not for two of them"),
-        (counted("grid"), json!({ "step": 0.01, "relative_distance": 0.1 }), "not for two of them"),
-        (random(0.5), json!({ "ladder": true }), "belong to the sphere and the grid method"),
+        (counted("sphere"), json!({ "step": 0.01, "ladder": true }), "only one of"),
+        (counted("grid"), json!({ "step": 0.01, "relative_distance": 0.1 }), "only one of"),
+        (random(0.5), json!({ "ladder": true }), "require the sphere or the grid method"),
         (random(1.0), json!({}), "the share of colliding poses must be more than 0 and less than 1"),
         (json!({ "kind": "trajectory", "center_distance": -1.0 }), json!({}), "the distance of the centres"),
         (json!({ "kind": "trajectory", "center_distance": 1.0, "count": 0 }), json!({}), "at least 1"),

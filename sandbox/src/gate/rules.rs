@@ -84,7 +84,7 @@ pub const RULES: [Rule; 13] = [
     },
     Rule {
         name: "segments",
-        why: "what is looked at here must be what the loader maps",
+        why: "the check must read exactly what the loader maps",
         mend: "use the linker's own layout; packers and post-link editors break it",
         broken: misplaced,
     },
@@ -104,7 +104,7 @@ pub const RULES: [Rule; 13] = [
         broken: |s| {
             let mut stacks = s.segments(PT_GNU_STACK);
             match (stacks.next(), stacks.next()) {
-                (None, _) => Some("it does not say that its stack is not executable (no PT_GNU_STACK)".into()),
+                (None, _) => Some("it does not declare its stack non-executable (no PT_GNU_STACK)".into()),
                 (Some(_), Some(_)) => Some("it has more than one PT_GNU_STACK".into()),
                 (Some(stack), None) => (stack.p_flags & PF_X != 0).then(|| "it asks for an executable stack".into()),
             }
@@ -130,7 +130,7 @@ pub const RULES: [Rule; 13] = [
                 None => Some(format!("it does not export the function {ENTRY}")),
                 Some(sym) if sym.st_shndx == 0 => Some(format!("it uses {ENTRY} but does not define it")),
                 Some(sym) if sym.st_bind() != STB_GLOBAL || sym.st_type() != STT_FUNC => {
-                    Some(format!("its {ENTRY} is no global function"))
+                    Some(format!("its {ENTRY} is not a global function"))
                 }
                 Some(_) => None,
             }
@@ -138,7 +138,7 @@ pub const RULES: [Rule; 13] = [
     },
     Rule {
         name: "libraries",
-        why: "the jail holds glibc, libgcc and libstdc++ and nothing else",
+        why: "the jail contains only glibc, libgcc and libstdc++",
         mend: "link other libraries statically (the .a file, or -static-libgomp where there is one) or leave them out",
         broken: |s| {
             let known = |name: &str| name == LOADER || name == OPENMP || s.offers(name);
@@ -149,7 +149,7 @@ pub const RULES: [Rule; 13] = [
     },
     Rule {
         name: "threads",
-        why: "the library starts threads, which the multi-threaded track alone allows (where the machine has it)",
+        why: "the library starts threads, which only the multi-threaded track allows (if the machine has the library)",
         mend: "compile without -fopenmp, or declare OCB_CAPABILITY_THREADS and enter the multi-threaded track",
         broken: |s| {
             let needed = s.dynamic(DT_NEEDED).any(|at| s.string(at) == OPENMP);
@@ -164,7 +164,7 @@ pub const RULES: [Rule; 13] = [
     },
     Rule {
         name: "search paths",
-        why: "they name folders of the author's machine, and the jail has none of them",
+        why: "they name folders of the author's machine, which the jail does not have",
         mend: "remove -Wl,-rpath, or run patchelf --remove-rpath FILE",
         broken: |s| {
             let paths: Vec<String> =
@@ -191,12 +191,12 @@ pub const RULES: [Rule; 13] = [
     },
     Rule {
         name: "symbols",
-        why: "the host looks for one function, and a table of so many costs every trial its start",
+        why: "the host looks up one function, and a large symbol table slows down the start of every trial",
         mend: "compile with -fvisibility=hidden (cc), or use crate-type cdylib (Rust)",
         broken: |s| {
             const MOST: usize = 200_000;
             let count = s.elf.dynsyms.len();
-            (count > MOST).then(|| format!("it has {count} dynamic symbols, at most {MOST} may be"))
+            (count > MOST).then(|| format!("it has {count} dynamic symbols; at most {MOST} are allowed"))
         },
     },
 ];
@@ -224,7 +224,7 @@ fn misplaced(s: &Subject<'_>) -> Option<String> {
     }
     let mut tables = s.segments(PT_DYNAMIC);
     let (Some(table), None) = (tables.next(), tables.next()) else {
-        return Some("it has not exactly one dynamic table".into());
+        return Some("it does not have exactly one dynamic table".into());
     };
     let inside = s.segments(PT_LOAD).any(|load| {
         let at = table.p_vaddr.checked_sub(load.p_vaddr);

@@ -51,7 +51,7 @@ fn launch_with(control: &Control) -> Result<(), Report> {
     confine::close_from(3).map_err(|e| fault(ConfineError::Descriptors(e)))?;
     let Some((order, files)) = control.receive::<Order>().map_err(talk)? else { return Ok(()) };
     let mut files = files.into_iter();
-    let mut file = || files.next().ok_or_else(|| talk(io::Error::other("the order came without its four files")));
+    let mut file = || files.next().ok_or_else(|| talk(io::Error::other("the order's four files are missing")));
     let [trial, request, answer, plugin] = [file()?, file()?, file()?, file()?];
     // Init and runner are born into it.
     for entrance in files {
@@ -292,7 +292,7 @@ fn exec(arguments: &[String], search_path: &str) -> Result<std::convert::Infalli
     };
     let error = io::Error::last_os_error();
     Err(ConfineError::EnterRoot(io::Error::other(format!(
-        "ocb-runner cannot be executed inside the jail ({error}); its file must be readable and executable by everybody"
+        "ocb-runner cannot be executed inside the jail ({error}); its file must be readable and executable by all users"
     ))))
 }
 

@@ -126,7 +126,7 @@ impl Plugin {
         let plugin = unsafe { sized(plugin, |p| (*p).struct_size, "ocb_plugin") }?;
         let count = plugin.algorithm_count as usize;
         if !(1..=64).contains(&count) || plugin.algorithms.is_null() {
-            return Err(Failure::not_loaded(format!("it offers {count} algorithms; 1 to 64 may be")));
+            return Err(Failure::not_loaded(format!("it offers {count} algorithms; 1 to 64 are allowed")));
         }
         // SAFETY: by plugin.h so many pointers stand there.
         let pointers = unsafe { std::slice::from_raw_parts(plugin.algorithms, count) };
@@ -149,7 +149,7 @@ impl Plugin {
     pub fn algorithm(&self, id: &str) -> Result<Algorithm, Failure> {
         self.algorithms.iter().find(|a| text(a.raw.id) == id).copied().ok_or_else(|| {
             let known: Vec<String> = self.algorithms.iter().map(|a| text(a.raw.id)).collect();
-            Failure::not_loaded(format!("it has no algorithm '{id}', but {}", known.join(", ")))
+            Failure::not_loaded(format!("it has no algorithm '{id}'; it has {}", known.join(", ")))
         })
     }
 }
@@ -178,7 +178,7 @@ unsafe fn sized<T>(pointer: *const T, size: impl Fn(*const T) -> u32, name: &str
     let size = size(pointer) as usize;
     if size < size_of::<T>() {
         return Err(Failure::not_loaded(format!(
-            "its struct {name} says a size of {size} bytes; version 1 of the interface has {}",
+            "its struct {name} declares a size of {size} bytes; in version 1 of the interface it has {}",
             size_of::<T>()
         )));
     }
@@ -214,7 +214,7 @@ impl Algorithm {
             return Err(Failure::not_loaded(format!("algorithm '{}' has no load_mesh", text(raw.id))));
         }
         if algorithm.queries().is_empty() {
-            return Err(Failure::not_loaded(format!("algorithm '{}' answers no question", text(raw.id))));
+            return Err(Failure::not_loaded(format!("algorithm '{}' answers no query", text(raw.id))));
         }
         Ok(algorithm)
     }
@@ -263,7 +263,7 @@ impl Algorithm {
         let Some(table) = self.parameters else { return Ok(Vec::new()) };
         let count = table.parameter_count as usize;
         if count > 64 || (count > 0 && table.parameters.is_null()) {
-            return Err(Failure::not_loaded(format!("it has {count} parameters; at most 64 may be")));
+            return Err(Failure::not_loaded(format!("it has {count} parameters; at most 64 are allowed")));
         }
         // SAFETY: by parameters.h each pointer is to a static struct, and so many stand there.
         (0..count).map(|i| unsafe { sized(*table.parameters.add(i), |p| (*p).struct_size, "ocb_parameter") }).collect()

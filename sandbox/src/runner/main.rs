@@ -18,7 +18,7 @@ fn main() {
         [_, "probe"] => probe::probe(),
         [_, "run", mode, plugin, trial_bytes, libraries @ ..] => serve::run(mode, plugin, trial_bytes, libraries),
         _ => {
-            eprintln!("ocb-runner is started by OpenCollBench to run one plugin in a jail; it does nothing by hand.");
+            eprintln!("OpenCollBench starts ocb-runner to run one plugin in a jail; it cannot be used by hand.");
             std::process::exit(2);
         }
     }

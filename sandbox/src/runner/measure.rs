@@ -95,7 +95,7 @@ impl Measured {
         });
         let offered: Vec<_> = offered.collect();
         let found = std::panic::catch_unwind(|| look(bytes, &offered));
-        let confused = || unreadable(Inspection::unreadable("its ELF structure confuses the reader"));
+        let confused = || unreadable(Inspection::unreadable("its ELF structure cannot be parsed"));
         Ok(found.unwrap_or_else(|_| confused()))
     }
 
@@ -108,7 +108,7 @@ impl Measured {
         let descriptors = plugin.describe()?;
         let json = serde_json::to_vec(&descriptors).map_err(|e| Failure::not_loaded(e.to_string()))?;
         if json.len() > answer::TEXT_BYTES {
-            return Err(Failure::not_loaded("it says too much of itself"));
+            return Err(Failure::not_loaded("its description is too long"));
         }
         shared.say(slot, &json);
         self.plugin = Some(plugin);
@@ -143,10 +143,10 @@ impl Measured {
     fn build(&mut self, shared: &Shared, which: usize) -> Result<(), Failure> {
         let algorithm = self.algorithm()?;
         let head = shared.head()?;
-        let place = head.meshes.get(which).ok_or_else(|| Failure::error("the trial has no such mesh"))?;
+        let place = head.meshes.get(which).ok_or_else(|| Failure::error("the trial does not have this mesh"))?;
         let positions = shared.trial_address(place.positions_at).cast();
         let triangles = shared.trial_address(place.triangles_at).cast();
-        let load = algorithm.raw.load_mesh.ok_or_else(|| Failure::error("load_mesh has gone"))?;
+        let load = algorithm.raw.load_mesh.ok_or_else(|| Failure::error("load_mesh is missing"))?;
         let mut object = std::ptr::null_mut();
         // SAFETY: by plugin.h; both arrays lie in the sealed trial mapping, aligned to 64 bytes, as long as said.
         let status = self.guarded(|| unsafe {

@@ -5,7 +5,13 @@ use crate::Expected::{Denied, Refused, Says};
 use crate::Form::{Loading, Query, Twice};
 
 pub const ALL: &[Attack] = &[
-    attack!("T14", "a table of answers", "nothing_more"["TABLE=(65<<20)"], Loading, Refused("at most 67108864 may be")),
+    attack!(
+        "T14",
+        "a table of answers",
+        "nothing_more"["TABLE=(65<<20)"],
+        Loading,
+        Refused("at most 67108864 are allowed")
+    ),
     attack!("T15", "leave a file", "create_file", Twice, Denied("openat")),
     attack!("T15", "leave shared memory", "leave_shared_memory", Twice, Denied("openat")),
     attack!("T15", "leave a key", "raw_call"["RAW=248"], Twice, Denied("add_key")),

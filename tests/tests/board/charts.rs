@@ -165,7 +165,7 @@ fn every_chart_of_a_run_holds_the_numbers_of_its_files() {
             1e9 / result["time"]["mean_ns"]["value"].as_f64().unwrap()
         ));
     }
-    assert!(fs::read_to_string(data.join("board.svg")).expect("a file").contains("questions per second"));
+    assert!(fs::read_to_string(data.join("board.svg")).expect("a file").contains("queries per second"));
     let table = ocb(data, &["board"]);
     for words in ["Fastest with no wrong answer seen", "box-tree", "ocb-fast", "--scene", "torus-knot@600"] {
         assert!(table.contains(words), "{words} in {table}");

@@ -117,7 +117,7 @@ fn places_go_by_speed_with_ties_and_only_what_is_right_has_one() {
     assert!(row(&board, "voxmap-pointshell").reason.as_deref().is_some_and(|why| why.contains("wrong")));
     assert_eq!(
         board.finding,
-        "Fastest with no wrong answer seen: box-tree, 1,000,000 questions per second, 1.0 times the next \
+        "Fastest with no wrong answer seen: box-tree, 1,000,000 queries per second, 1.0 times the next \
          (box-tree:leaf_size=8); the 95 % intervals overlap, so the order is not decided."
     );
 }

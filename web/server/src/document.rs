@@ -31,12 +31,13 @@ pub(crate) fn completed(mut document: OpenApi) -> OpenApi {
 
 /// What a token hears that opens nothing, or is not for that.
 fn to_tokens(path: &str, reads: bool) -> Vec<(&'static str, &'static str)> {
-    let mut all = vec![("401", "The token in `Authorization` opens nothing")];
+    let mut all = vec![("401", "The token in `Authorization` is not valid")];
     // What is there for everybody may be read with any token.
     if !(reads && anybody_reads(path)) {
         all.push((
             "403",
-            "The token in `Authorization` is not for that, or the request was sent by a page of another site",
+            "The token in `Authorization` does not have the required scope, or the request was sent by a page of \
+             another site",
         ));
     }
     all
@@ -51,7 +52,7 @@ fn answers(operation: &Operation) -> Vec<(&'static str, &'static str)> {
             ("413", "The body is too large"),
         ]);
         if body.content.contains_key("application/json") {
-            all.extend([("415", "The body does not say that it is JSON"), ("422", "The body does not fit")]);
+            all.extend([("415", "The content type of the body is not JSON"), ("422", "The body is not valid")]);
         }
     } else if operation.parameters.as_ref().is_some_and(|parameters| !parameters.is_empty()) {
         all.push(("400", "The address cannot be read"));

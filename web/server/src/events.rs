@@ -35,7 +35,7 @@ const RETRY: Duration = Duration::from_secs(2);
     responses(
         (status = 200, description = "The events", body = RunEvent, content_type = "text/event-stream"),
         (status = 204, description = "The run has ended and every event was seen"),
-        (status = 400, description = "Last-Event-ID is no number", body = Problem, content_type = "application/problem+json"),
+        (status = 400, description = "Last-Event-ID is not a number", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn follow_run(
@@ -86,8 +86,8 @@ fn as_sse(event: &RunEvent) -> Event {
 
 /// A fault in the middle of a stream: no status is left to say it with, so the browser is told to come back.
 fn failure(error: impl std::fmt::Display) -> Event {
-    tracing::error!(%error, "a progress stream failed by our fault");
-    Event::default().comment("our fault; connect again")
+    tracing::error!(%error, "a progress stream failed: internal error");
+    Event::default().comment("internal error; connect again")
 }
 
 fn has_ended(state: RunState) -> bool {

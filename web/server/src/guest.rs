@@ -94,14 +94,14 @@ async fn account(
         None => None,
     };
     let unknown =
-        || Problem::new(StatusCode::UNAUTHORIZED, "This token opens nothing; make a new one on the account page.");
+        || Problem::new(StatusCode::UNAUTHORIZED, "This token is not valid; create a new one on the account page.");
     let (account, scopes) = opened.ok_or_else(unknown)?;
     match scope_of(path, reads) {
         Some(scope) if scopes.contains(&scope) => Ok(Some((account, Some(scopes)))),
         // What is there for everybody may be read by everybody.
         _ if reads && anybody_reads(path) => Ok(None),
         _ => {
-            let detail = "This token may not be used for that; log in, or make a token with the right scope.";
+            let detail = "This token does not have the required scope; log in, or create a token that has it.";
             Err(Problem::new(StatusCode::FORBIDDEN, detail))
         }
     }
@@ -168,7 +168,7 @@ impl<S: Send + Sync> FromRequestParts<S> for Member {
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self> {
         let nobody =
-            || Problem::new(StatusCode::UNAUTHORIZED, "Log in for that; an account is made on the account page.");
+            || Problem::new(StatusCode::UNAUTHORIZED, "Log in first, or create an account on the account page.");
         parts.extensions.get::<Self>().cloned().ok_or_else(nobody)
     }
 }

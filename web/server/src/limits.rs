@@ -34,27 +34,27 @@ pub(crate) const LOG_IN_ANYWHERE: Limit = limit("log in", "name", 100, 3600);
 /// Old passwords, per account.
 pub(crate) const CHANGE_PASSWORD: Limit = limit("change the password", "account", 10, 60);
 /// New accounts, per address.
-pub(crate) const MAKE_ACCOUNT: Limit = limit("make an account", "address", 20, 3600);
+pub(crate) const MAKE_ACCOUNT: Limit = limit("create an account", "address", 20, 3600);
 
 /// Secrets of invitations, per address.
 pub(crate) const ACCEPT: Limit = limit("accept an invitation", "address", 20, 60);
 
 /// Addresses that mails are to go to, per address of the visitor and per account; and mails asking about one, per that address.
-pub(crate) const GIVE_ADDRESS: Limit = limit("give an address", "anybody", 10, 3600);
-pub(crate) const MAIL_TO: Limit = limit("have a mail sent", "address", 5, 3600);
+pub(crate) const GIVE_ADDRESS: Limit = limit("set an address", "anybody", 10, 3600);
+pub(crate) const MAIL_TO: Limit = limit("send a mail", "address", 5, 3600);
 
 /// Secrets of links that confirm an address, per address of the visitor and per account.
 pub(crate) const CONFIRM: Limit = limit("confirm an address", "anybody", 20, 60);
 
 /// Wrong links that would turn mails off, per address of the visitor.
-pub(crate) const TURN_OFF: Limit = limit("turn mails off", "address", 20, 60);
+pub(crate) const TURN_OFF: Limit = limit("turn mail off", "address", 20, 60);
 
 /// Plugins, per account.
 pub(crate) const SUBMIT: Limit = limit("submit a plugin", "account", 30, 3600);
 
 /// Runs, requests for advice, objects and uploaded MiB, per address.
-pub(crate) const ASK_RUN: Limit = limit("ask for a run", "address", 120, 600);
-pub(crate) const ASK_ADVICE: Limit = limit("ask for advice", "address", 60, 3600);
+pub(crate) const ASK_RUN: Limit = limit("request a run", "address", 120, 600);
+pub(crate) const ASK_ADVICE: Limit = limit("request advice", "address", 60, 3600);
 pub(crate) const ADD_OBJECT: Limit = limit("add an object", "address", 120, 3600);
 pub(crate) const ADD_MEBIBYTES: Limit = limit("upload so much", "MiB", 4096, 24 * 3600);
 
@@ -86,7 +86,7 @@ impl Limits {
         let limiter = limiters.entry((limit.name, limit.of)).or_insert_with(|| RateLimiter::hashmap(quota(limit)));
         let Ok(Err(not_until)) = limiter.check_key_n(&self.place(who), many) else { return Ok(()) };
         let wait = not_until.wait_time_from(DefaultClock::default().now()).as_secs_f64().ceil().max(1.0) as u32;
-        let detail = format!("Too many tries to {}; wait {wait} seconds and try again.", limit.name);
+        let detail = format!("Too many attempts to {}; wait {wait} seconds and try again.", limit.name);
         Err(Problem::too_much(detail, wait))
     }
 

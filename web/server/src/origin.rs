@@ -51,7 +51,7 @@ pub(crate) async fn refuse_other_names(State(app): State<App>, request: Request,
 pub(crate) async fn refuse_other_sites(request: Request, next: Next) -> Response {
     let reads = matches!(*request.method(), Method::GET | Method::HEAD | Method::OPTIONS);
     if !reads && from_elsewhere(request.headers()) {
-        let detail = "This request was sent by a page of another site; open this service's own pages to do it.";
+        let detail = "This request was sent by a page of another site; use this service's own pages.";
         return Problem::new(StatusCode::FORBIDDEN, detail).into_response();
     }
     next.run(request).await
@@ -72,9 +72,7 @@ pub(crate) fn own_origin(headers: &HeaderMap) -> Result<String> {
     let host = headers.get(header::HOST).and_then(|host| host.to_str().ok()).unwrap_or_default();
     let plain = |c: char| c.is_ascii_alphanumeric() || ".-:[]".contains(c);
     if host.is_empty() || !host.chars().all(plain) {
-        return Err(Problem::bad_request(
-            "The request does not say in Host where it was sent to, so there is no link.",
-        ));
+        return Err(Problem::bad_request("The request has no valid Host header, so there is no link."));
     }
     Ok(format!("{}://{host}", if is_secure(headers) { "https" } else { "http" }))
 }

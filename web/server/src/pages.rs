@@ -24,7 +24,7 @@ pub(crate) async fn serve(request: Request) -> Response {
             .into_response();
     }
     if request.method() != Method::GET && request.method() != Method::HEAD {
-        return Problem::new(StatusCode::METHOD_NOT_ALLOWED, "The pages can only be read.").into_response();
+        return Problem::new(StatusCode::METHOD_NOT_ALLOWED, "Pages support only GET and HEAD.").into_response();
     }
     let name = path.trim_start_matches('/');
     if let Some(file) = Dist::get(name) {
@@ -32,7 +32,7 @@ pub(crate) async fn serve(request: Request) -> Response {
     }
     // A missing asset must not be answered with a page: the browser would take HTML for a script.
     if name.starts_with(HASHED) {
-        return Problem::not_found("There is no such file; reload the page, the service was renewed.").into_response();
+        return Problem::not_found("No such file; the service was updated, so reload the page.").into_response();
     }
     match Dist::get("index.html") {
         Some(index) => answer("index.html", &index, &request),

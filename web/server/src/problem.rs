@@ -58,9 +58,9 @@ impl Problem {
     /// The upload is larger than what may be sent there.
     pub fn too_large(most: usize) -> Self {
         let detail = if most < 1 << 20 {
-            format!("A part of the form is larger than {} KiB, the most that it may have.", most >> 10)
+            format!("A form field exceeds the limit of {} KiB.", most >> 10)
         } else {
-            format!("The file is larger than {} MiB, the most that it may have.", most >> 20)
+            format!("The file exceeds the limit of {} MiB.", most >> 20)
         };
         Self::new(StatusCode::PAYLOAD_TOO_LARGE, detail)
     }
@@ -70,10 +70,10 @@ impl Problem {
     /// Causes name paths and addresses of the machine, which are nobody else's business.
     pub fn fault(cause: impl std::fmt::Display) -> Self {
         let number = Uuid::new_v4().simple().to_string();
-        tracing::error!(number, %cause, "a request failed by our fault");
+        tracing::error!(number, %cause, "a request failed: internal error");
         Self::new(
             StatusCode::INTERNAL_SERVER_ERROR,
-            format!("This is our fault, not yours; the service's log has the cause under {number}. Please try again."),
+            format!("Internal error; the cause is in the service's log under {number}. Please try again."),
         )
     }
 }
@@ -135,7 +135,7 @@ mod tests {
     fn a_fault_never_shows_its_cause() {
         let problem = Problem::from(EngineError::Fault("disk /srv/secret is full".to_owned()));
         assert_eq!(problem.status, 500);
-        assert!(problem.detail.contains("our fault"));
+        assert!(problem.detail.contains("Internal error"));
         assert!(!problem.detail.contains("secret"));
     }
 

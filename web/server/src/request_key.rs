@@ -41,6 +41,6 @@ impl RequestKey {
 fn of(headers: &HeaderMap) -> Result<Option<String>> {
     let Some(value) = headers.get(KEY) else { return Ok(None) };
     let key = value.to_str().ok().filter(|key| (1..=200).contains(&key.len()));
-    let bad = || Problem::bad_request("An Idempotency-Key has 1 to 200 visible characters of ASCII.");
+    let bad = || Problem::bad_request("An Idempotency-Key must have 1 to 200 visible ASCII characters.");
     key.map(|key| Some(key.to_owned())).ok_or_else(bad)
 }

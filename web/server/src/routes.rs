@@ -36,25 +36,27 @@ use crate::{App, events, layers, pages, upload};
 #[openapi(
     info(
         title = "OpenCollBench",
-        description = "Benchmarks of collision detection: objects, runs, progress and heatmaps. Times are microseconds since \
-            the Unix epoch, durations say their unit in their name. Every error is a `Problem` (RFC 9457) with one sentence \
-            in `detail`. Long lists come part by part, newest first, with the way on in the header `Link` (RFC 8288); what is \
-            added meanwhile shifts nothing. The cookie `ocb_guest`, set on first contact, owns what a visitor makes; whoever knows the id of an \
-            object or a run may look at it, unless its owner has made it private. An account, entered by the cookie `ocb_session` or by a token in `Authorization: Bearer`, \
-            owns what is made with it, and may publish.",
+        description = "Benchmarks of collision detection: objects, runs, progress and heatmaps. Times are \
+            microseconds since the Unix epoch; the name of a duration contains its unit. Every error is a `Problem` \
+            (RFC 9457) with one sentence in `detail`. Long lists are returned in pages, newest first; the header \
+            `Link` (RFC 8288) has the address of the next page, and new entries do not shift it. The cookie \
+            `ocb_guest`, set on first contact, identifies a visitor, who owns what they create; anyone who knows the \
+            id of an object or a run can see it, unless its owner has made it private. An account, identified by the \
+            cookie `ocb_session` or by a token in `Authorization: Bearer`, owns what is created with it and may \
+            publish.",
         license(name = "MIT OR Apache-2.0")
     ),
     components(schemas(ocb_service::model::Accuracy, ocb_service::model::ChartKind)),
     tags(
-        (name = "objects", description = "Meshes to measure on"),
-        (name = "algorithms", description = "What the plugins offer"),
-        (name = "runs", description = "Asking, following, cancelling"),
+        (name = "objects", description = "Meshes to measure"),
+        (name = "algorithms", description = "Algorithms and their parameters"),
+        (name = "runs", description = "Requesting, following and cancelling runs"),
         (name = "results", description = "Numbers and files of a run"),
-        (name = "account", description = "An account of one's own: optional, for those who publish"),
-        (name = "plugins", description = "What developers bring"),
-        (name = "curation", description = "What curators decide"),
-        (name = "advice", description = "How much of a model a question needs"),
-        (name = "data", description = "What one has made: how long it stays, and taking it away"),
+        (name = "account", description = "Accounts: optional, needed for publishing"),
+        (name = "plugins", description = "Submitted plugins"),
+        (name = "curation", description = "Curation and roles"),
+        (name = "advice", description = "How much of a model a query needs"),
+        (name = "data", description = "Owned items: retention, export and deletion"),
         (name = "service", description = "The service itself"),
     )
 )]

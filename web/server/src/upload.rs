@@ -267,7 +267,7 @@ fn broken(error: axum::extract::multipart::MultipartError) -> Problem {
     if error.status() == StatusCode::PAYLOAD_TOO_LARGE {
         return Problem::too_large(MAX_BYTES);
     }
-    Problem::bad_request("The upload ended early or is no well-formed multipart/form-data; send it again.")
+    Problem::bad_request("The upload ended early or is not well-formed multipart/form-data; send it again.")
 }
 
 /// The last part of the name, without what could mislead a terminal or a page: control characters and directions.

@@ -113,7 +113,7 @@ pub enum LineFault {
         vertices: usize,
     },
     /// A negative index that reaches before the first vertex.
-    #[error("vertex number {index} counts back {} vertices, but only {vertices} stand above; correct the number", index.unsigned_abs())]
+    #[error("vertex number {index} counts back {} vertices, but only {vertices} precede it; correct the number", index.unsigned_abs())]
     IndexTooSmall {
         /// The index as written.
         index: i64,
@@ -160,7 +160,7 @@ pub fn read(bytes: &[u8]) -> Result<ReadObj, ObjError> {
     triangles.iter().flatten().for_each(|&i: &u32| used[i as usize] = true);
     let unused = used.iter().filter(|&&u| !u).count();
     if unused > 0 {
-        warnings.push(format!("{unused} of {vertices} vertices belong to no face; they keep their numbers."));
+        warnings.push(format!("{unused} of {vertices} vertices are not used by any face; they keep their numbers."));
     }
     let mesh = Mesh::new(positions, triangles)?;
     if mesh.degenerate_triangles() > 0 {

@@ -53,7 +53,7 @@ pub enum SamplingError {
     #[error("a step must be from {least:e} to {most} of the scene's size, apart (+) or crossing (-), not {0}", least = placer::LEAST_STEP, most = Separation::LARGEST_STEP)]
     Step(f64),
     /// The grid has too many nodes for one rotation.
-    #[error("the grid would have {0} places for each rotation; at most {most} are possible: choose a larger move-by or a smaller number", most = grid::MAX_NODES)]
+    #[error("the grid would have {0} positions for each rotation; at most {most} are possible: choose a larger move-by or a smaller number", most = grid::MAX_NODES)]
     TooFine(u64),
     /// Negative, infinite or not a number.
     #[error("the distance of the centres must be a number from 0 to 1000 times L, not {0}")]
@@ -62,7 +62,7 @@ pub enum SamplingError {
     #[error("the share of colliding poses must be more than 0 and less than 1, not {0}")]
     HitShare(f64),
     /// No size of the box gives the wanted share.
-    #[error("in no box does a share of {wanted} of the random poses collide; the nearest to be had is {found}")]
+    #[error("no box gives a share of {wanted} colliding random poses; the nearest possible share is {found}")]
     NoBox {
         /// What was asked for.
         wanted: f64,

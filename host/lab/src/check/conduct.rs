@@ -58,7 +58,7 @@ impl Checking<'_> {
                     self.not_reached(
                         format!("{id}: determinism"),
                         CheckVerdict::Fail,
-                        &format!("{all} questions, asked twice, were not"),
+                        &format!("{all} queries, each sent twice, were not"),
                     );
                     return Ok(());
                 }
@@ -74,7 +74,7 @@ impl Checking<'_> {
         let memory = heard.iter().filter_map(|once| once.memory).max();
         let memory = memory.map_or_else(|| "an unknown amount".into(), |bytes| format!("{} KiB", bytes >> 10));
         let build = heard.iter().map(|once| once.build_ns).fold(0.0, f64::max) / 1e6;
-        let evidence = format!("Builds an object in {build:.2} ms and takes {memory} of memory at most.");
+        let evidence = format!("Builds an object in {build:.2} ms and uses at most {memory} of memory.");
         self.line(format!("{id}: limits"), CheckVerdict::Pass, evidence, None);
         self.timing(launcher, &trial, query, scene, until)
     }
@@ -87,7 +87,7 @@ impl Checking<'_> {
             let evidence = format!("Two fresh processes give the same {all} answers.");
             self.line(check, CheckVerdict::Pass, evidence, None);
         } else {
-            let evidence = format!("Two fresh processes answer {} of {all} questions differently.", all - same);
+            let evidence = format!("Two fresh processes answer {} of {all} queries differently.", all - same);
             let hint = "Look for memory that is read before it is written, addresses as keys, and random numbers.";
             self.line(check, CheckVerdict::Fail, evidence, Some(hint));
         }
@@ -115,7 +115,7 @@ impl Checking<'_> {
             self.line(check, CheckVerdict::Pass, "The counters are plausible.".into(), None);
         } else {
             let evidence = format!(
-                "{odd} of {} counts are missing, or cannot be: a hit without a test, or more tests than pairs.",
+                "{odd} of {} counts are missing or impossible: a hit without a test, or more tests than pairs.",
                 heard.answers.len()
             );
             self.line(check, CheckVerdict::Note, evidence, Some("Count each test between two triangles once."));
@@ -133,7 +133,7 @@ impl Checking<'_> {
     ) -> Result<()> {
         let check = format!("{}: timing integrity", trial.algorithm);
         // Every run looks again, so no plugin fails for this.
-        let late = "the timed questions were not";
+        let late = "the timed queries were not";
         let mut session = match launcher.start_with(trial, &self.term.killer(until)) {
             Ok(session) => session,
             Err(ending) if ending.outcome.ours() => return Err(LabError::Fault(ending.to_string())),
@@ -164,17 +164,17 @@ impl Checking<'_> {
         let facts = [facts];
         match integrity::violated(&facts) {
             None if facts[0].reached == 0 => {
-                let evidence = "The time allowed ended before the first answer.".to_owned();
-                self.line(check, CheckVerdict::Note, evidence, Some("The machine is busy; every run looks again."));
+                let evidence = "The time limit was reached before the first answer.".to_owned();
+                self.line(check, CheckVerdict::Note, evidence, Some("The machine is busy; every run repeats this."));
             }
             None => {
                 let looked = integrity::measured(&facts).len();
                 let evidence =
-                    format!("{} timed answers, {looked} checks of the clock, nothing odd.", facts[0].reached);
+                    format!("{} timed answers, {looked} checks of the clock, no anomalies.", facts[0].reached);
                 self.line(check, CheckVerdict::Pass, evidence, None);
             }
             Some(finding) => {
-                let hint = "A busy machine can cause it; a curator looks at it, and every run checks it again.";
+                let hint = "A busy machine can cause this; a curator will review it, and every run repeats this check.";
                 self.line(check, CheckVerdict::Note, format!("{finding}."), Some(hint));
             }
         }

@@ -13,7 +13,7 @@ const VERSION: usize = 32;
 
 /// A manifest that can be taken.
 pub fn check_manifest(manifest: &Manifest) -> Result<()> {
-    let bad = |what: String| Err(LabError::Invalid(format!("The manifest cannot be taken: {what}.")));
+    let bad = |what: String| Err(LabError::Invalid(format!("The manifest is not valid: {what}.")));
     let Manifest { name, version, authors, license, paper, source, queries, .. } = manifest;
     for (field, text) in [("name", name), ("authors", authors), ("license", license), ("version", version)] {
         if text.trim().is_empty() {
@@ -25,8 +25,8 @@ pub fn check_manifest(manifest: &Manifest) -> Result<()> {
     {
         if text.chars().count() > WORDS || !is_label(text) {
             return bad(format!(
-                "{field:?} must be one line of at most {WORDS} characters, without < and > and without characters that \
-                 cannot be seen"
+                "{field:?} must be one line of at most {WORDS} characters, without < and > and without invisible \
+                 characters"
             ));
         }
     }
@@ -34,13 +34,13 @@ pub fn check_manifest(manifest: &Manifest) -> Result<()> {
         return bad(format!("\"version\" has at most {VERSION} letters, digits and . + - _"));
     }
     if let Err(e) = spdx::Expression::parse(license) {
-        return bad(format!("{license:?} is no SPDX licence expression ({}), such as MIT OR Apache-2.0", e.reason));
+        return bad(format!("{license:?} is not an SPDX licence expression ({}), such as MIT OR Apache-2.0", e.reason));
     }
     if !source.is_empty() && !source.starts_with("https://") && !source.starts_with("http://") {
         return bad("\"source\" must be an address that begins with https://".into());
     }
     if queries.is_empty() {
-        return bad("\"queries\" is empty; name the questions that the plugin answers".into());
+        return bad("\"queries\" is empty; list the queries that the plugin answers".into());
     }
     Ok(())
 }
@@ -76,16 +76,16 @@ impl Checking<'_> {
             differs.push("the file names another licence".to_owned());
         }
         if manifest.threads != algorithms.iter().any(|a| a.threads) {
-            differs.push("the file says otherwise of the multi-threaded track".to_owned());
+            differs.push("manifest and file disagree about the multi-threaded track".to_owned());
         }
         if !missing.is_empty() {
-            let evidence = format!("The manifest promises what the file does not answer: {missing}.");
+            let evidence = format!("The manifest lists queries that the file does not answer: {missing}.");
             self.line("manifest", CheckVerdict::Fail, evidence, Some("Correct \"queries\" in the manifest."));
         } else if differs.is_empty() {
             self.line("manifest", CheckVerdict::Pass, "Manifest and descriptor agree.".into(), None);
         } else {
             let evidence = format!("Manifest and descriptor differ: {}.", differs.join("; "));
-            self.line("manifest", CheckVerdict::Note, evidence, Some("A curator will ask; say the same in both."));
+            self.line("manifest", CheckVerdict::Note, evidence, Some("Make them agree; a curator will ask."));
         }
     }
 }

@@ -150,31 +150,32 @@ impl Checking<'_> {
         if let Some((question, verdict)) = first {
             let repro = reduced(self.term, until, launcher, file, algorithm, query, question, verdict)?;
             let size = match &repro {
-                None => "There was no time left to look for a small repro.".to_owned(),
+                None => "The time limit was reached before a small repro was found.".to_owned(),
                 Some(Repro { alone: true, triangles: [a, b], .. }) => {
-                    format!("It fails still with {a} and {b} triangles.")
+                    format!("It still fails with {a} and {b} triangles.")
                 }
-                Some(_) => "Asked alone in a fresh process it is answered rightly: answers depend on what was asked \
-                            before."
-                    .to_owned(),
+                Some(_) => {
+                    "Alone in a fresh process, the query is answered correctly: answers depend on earlier queries."
+                        .to_owned()
+                }
             };
             let name = verdict.name().replace('_', " ");
-            let evidence = format!("{wrong} of {answers} answers are wrong, the first is a {name}. {size}");
-            let hint = "Take the repro and ask it again: ocb plugin check FILE.so --repro REPRO.json";
+            let evidence = format!("{wrong} of {answers} answers are wrong; the first is a {name}. {size}");
+            let hint = "Repeat the query from the repro: ocb plugin check FILE.so --repro REPRO.json";
             let (hint, repro) = (repro.is_some().then(|| hint.to_owned()), repro.map(Box::new));
             self.add(CheckLine { check, verdict: CheckVerdict::Fail, evidence, hint, repro });
         } else if let Some((outcome, stderr)) = ending {
             let hint = hint_for(&outcome);
             self.line(check, CheckVerdict::Fail, with_output(&outcome.to_string(), &stderr), hint);
         } else if answers == 0 {
-            self.not_reached(check, CheckVerdict::Fail, "not one question was");
+            self.not_reached(check, CheckVerdict::Fail, "no query was");
         } else if silent > 0 {
-            let evidence = format!("No answer to {silent} of {answers} questions, the others are right.");
+            let evidence = format!("No answer to {silent} of {answers} queries; the others are correct.");
             self.line(
                 check,
                 CheckVerdict::Note,
                 evidence,
-                Some("An algorithm that offers a question should answer it."),
+                Some("An algorithm should answer every query that it offers."),
             );
         } else {
             self.line(check, CheckVerdict::Pass, format!("All {answers} answers agree with the reference."), None);

@@ -183,18 +183,18 @@ fn part(mesh: &Mesh, kept: impl Iterator<Item = usize>) -> Option<Mesh> {
 fn expected(placed: &Placed) -> String {
     let truth = &placed.truth;
     if truth.hit {
-        return format!("The surfaces meet; every vertex may move by {:e} and they still do.", truth.margin);
+        return format!("The surfaces intersect; they still do if every vertex moves by {:e}.", truth.margin);
     }
-    format!("The surfaces are apart; their distance is from {:e} to {:e}.", truth.distance_lo, truth.distance_hi)
+    format!("The surfaces are disjoint; their distance is from {:e} to {:e}.", truth.distance_lo, truth.distance_hi)
 }
 
 fn got(answer: &Answer) -> String {
     let of = |pair: &Option<[u32; 2]>| pair.map_or_else(String::new, |[a, b]| format!(", triangles {a} and {b}"));
     match answer {
-        Answer::Collision { hit: true, pair } => format!("They meet{}.", of(pair)),
-        Answer::Collision { hit: false, .. } => "They do not meet.".into(),
-        Answer::Contacts { total, .. } => format!("{total} pairs of triangles meet."),
-        Answer::Distance { distance, triangles, .. } => format!("Their distance is {distance:e}{}.", of(triangles)),
+        Answer::Collision { hit: true, pair } => format!("A collision{}.", of(pair)),
+        Answer::Collision { hit: false, .. } => "No collision.".into(),
+        Answer::Contacts { total, .. } => format!("{total} intersecting pairs of triangles."),
+        Answer::Distance { distance, triangles, .. } => format!("A distance of {distance:e}{}.", of(triangles)),
         Answer::GaveUp | Answer::Unsupported => "Nothing.".into(),
     }
 }
@@ -211,9 +211,9 @@ impl Checking<'_> {
         let algorithm = known.ok_or_else(|| bad("algorithm", &format!("{:?} is not in this file", repro.algorithm)))?;
         let killer = self.term.killer(self.term.ends());
         let asked = ask_once(launcher, &killer, file, &algorithm, repro.query, [&a, &b], &configuration)?;
-        let check = format!("{}: {}, the question of the repro", algorithm.id, query_name(repro.query));
+        let check = format!("{}: {}, the query of the repro", algorithm.id, query_name(repro.query));
         let Some(asked) = asked else {
-            self.not_reached(check, CheckVerdict::Fail, "the question was not");
+            self.not_reached(check, CheckVerdict::Fail, "the query was not");
             return Ok(());
         };
         let verdict =

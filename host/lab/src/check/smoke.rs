@@ -85,7 +85,7 @@ impl Checking<'_> {
             Ok(session) => session,
             Err(ending) if ending.outcome.ours() => return Err(LabError::Fault(ending.to_string())),
             Err(ending) if ending.outcome == Outcome::Cancelled => {
-                self.not_reached(check, CheckVerdict::Fail, &format!("not one of {all} questions was"));
+                self.not_reached(check, CheckVerdict::Fail, &format!("none of the {all} queries was"));
                 return Ok(());
             }
             Err(ending) => {
@@ -119,7 +119,7 @@ impl Checking<'_> {
             let many = wrong.len();
             let (first, verdict, answer) = wrong.swap_remove(0);
             let evidence =
-                format!("{many} of {answers} answers are wrong, the first ({verdict:?}) on configuration {first}.");
+                format!("{many} of {answers} answers are wrong; the first is on configuration {first} ({verdict:?}).");
             let hint = "Compare with brute-force; triangles are closed sets, so touching counts as a collision.";
             // Fewer triangles of a solid body are none.
             let repro = if self.quick || semantics == Semantics::Solid {
@@ -133,10 +133,10 @@ impl Checking<'_> {
             let hint = Some(hint.to_owned());
             self.add(CheckLine { check, verdict: CheckVerdict::Fail, evidence, hint, repro });
         } else if !in_time {
-            self.not_reached(check, CheckVerdict::Fail, &format!("{answers} of {all} questions were"));
+            self.not_reached(check, CheckVerdict::Fail, &format!("{answers} of {all} queries were"));
         } else if silent > 0 {
-            let evidence = format!("No answer on {silent} of {all} configurations, the others are right.");
-            let hint = "An algorithm that offers a question should answer it.";
+            let evidence = format!("No answer on {silent} of {all} configurations; the others are correct.");
+            let hint = "An algorithm should answer every query that it offers.";
             self.line(check, CheckVerdict::Note, evidence, Some(hint));
         } else {
             let evidence = format!("All {all} answers agree with the reference.");

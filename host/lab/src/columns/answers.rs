@@ -163,7 +163,7 @@ fn append(all: &mut Vec<AnswerRow>, batch: &RecordBatch) -> Result<(), String> {
     for row in 0..batch.num_rows() {
         let name = kind.value(row);
         let known =
-            KINDS.iter().find(|known| **known == name).ok_or_else(|| format!("{name:?} is no kind of answer"))?;
+            KINDS.iter().find(|known| **known == name).ok_or_else(|| format!("{name:?} is not a kind of answer"))?;
         all.push(AnswerRow {
             configuration: configuration.value(row),
             asked: AskedAs {

@@ -95,7 +95,7 @@ fn maybe(number: Option<f64>) -> String {
 }
 
 fn json(value: &impl serde::Serialize) -> Result<String> {
-    serde_json::to_string(value).map_err(|e| LabError::fault("Naming the method failed", e))
+    serde_json::to_string(value).map_err(|e| LabError::fault("Encoding the method failed", e))
 }
 
 /// Reads back a stored set.
@@ -200,14 +200,14 @@ fn containment(placed: &[Placed]) -> ArrayRef {
 
 fn named_containment(name: &str) -> std::result::Result<Containment, String> {
     let known = Containment::NAMES.iter().find(|(_, known)| *known == name).map(|(containment, _)| *containment);
-    known.ok_or_else(|| format!("{name:?} is no containment"))
+    known.ok_or_else(|| format!("{name:?} is not a containment"))
 }
 
 fn lists(placed: &[Placed], width: i32, of: impl Fn(&Placed) -> Vec<f64>) -> Result<ArrayRef> {
     let values: Float64Array = placed.iter().flat_map(of).collect::<Vec<_>>().into();
     let item = Arc::new(Field::new("item", DataType::Float64, false));
     let list = FixedSizeListArray::try_new(item, width, Arc::new(values), None)
-        .map_err(|e| LabError::fault("Laying out the columns failed", e))?;
+        .map_err(|e| LabError::fault("Building the columns failed", e))?;
     Ok(Arc::new(list))
 }
 
@@ -215,7 +215,7 @@ fn lists(placed: &[Placed], width: i32, of: impl Fn(&Placed) -> Vec<f64>) -> Res
 fn list(batch: &RecordBatch, name: &str, row: usize, width: usize) -> std::result::Result<Vec<f64>, String> {
     let lists = column::<FixedSizeListArray>(batch, name)?;
     if lists.is_null(row) {
-        return Err(format!("{name} is absent"));
+        return Err(format!("{name} is missing"));
     }
     let values = lists.value(row);
     let numbers = values.as_any().downcast_ref::<Float64Array>().ok_or(format!("{name} does not hold f64"))?;
@@ -249,7 +249,7 @@ fn named_class(name: &str) -> std::result::Result<Class, String> {
         "clear" => Ok(Class::Clear),
         "colliding" => Ok(Class::Colliding),
         "grazing" => Ok(Class::Grazing),
-        other => Err(format!("{other:?} is no class")),
+        other => Err(format!("{other:?} is not a class")),
     }
 }
 

@@ -36,7 +36,8 @@ pub fn check(a: &Shape, b: &Shape, poses: &[Configuration]) -> Result<(), String
         }
         if triangles > MOST_TRIANGLES {
             return Err(format!(
-                "up to row {row} there are {} matrices that are no rotations; so many would cost too much with {each} triangles",
+                "up to row {row} there are {} matrices that are not rotations; so many are too expensive with {each} \
+                 triangles",
                 triangles / each
             ));
         }
@@ -97,6 +98,6 @@ mod tests {
         let shear = placing(Matrix3::new(1.0, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), 1.0);
         assert_eq!(refused(&vec![shear; 1000]), None);
         let reason = refused(&vec![shear; 250_000]).expect("a reason");
-        assert!(reason.contains("no rotations"), "{reason}");
+        assert!(reason.contains("not rotations"), "{reason}");
     }
 }

@@ -93,9 +93,9 @@ fn read(bytes: &[u8]) -> std::result::Result<Vec<Configuration>, String> {
 /// What costs without limit is stopped here, before the oracle meets it.
 fn checked(poses: Vec<Configuration>) -> std::result::Result<Vec<Configuration>, String> {
     match poses.len() as u64 {
-        0 => return Err("it holds none".into()),
+        0 => return Err("it has no configurations".into()),
         n if n > MAX_CONFIGURATIONS => {
-            return Err(format!("it holds {n}, but at most {MAX_CONFIGURATIONS} are measured"));
+            return Err(format!("it has {n} configurations, but at most {MAX_CONFIGURATIONS} are measured"));
         }
         _ => {}
     }
@@ -104,7 +104,7 @@ fn checked(poses: Vec<Configuration>) -> std::result::Result<Vec<Configuration>,
             let bad = |x: &&f64| x.abs() > LARGEST || (**x != 0.0 && x.abs() < SMALLEST);
             if let Some(x) = pose.linear.iter().chain(pose.translation.iter()).find(bad) {
                 return Err(format!(
-                    "row {row}: the number {x:e} is out of range; what is not 0 must be between {SMALLEST:e} and {LARGEST:e}"
+                    "row {row}: the number {x:e} is out of range; it must be 0 or between {SMALLEST:e} and {LARGEST:e}"
                 ));
             }
         }
@@ -130,7 +130,7 @@ fn pose(numbers: &[f64]) -> std::result::Result<Pose, String> {
 fn read_raw(bytes: &[u8]) -> std::result::Result<Vec<Configuration>, String> {
     if !bytes.len().is_multiple_of(MATRIX_BYTES) {
         return Err(format!(
-            "it is neither Parquet nor JSON nor CSV, and its {} bytes are no whole number of 4x4 matrices of 8-byte \
+            "it is neither Parquet nor JSON nor CSV, and its {} bytes are not a whole number of 4x4 matrices of 8-byte \
              numbers (128 bytes each)",
             bytes.len()
         ));
@@ -160,7 +160,7 @@ fn read_csv(text: &str) -> std::result::Result<Vec<Configuration>, String> {
         first = false;
         if !header {
             let number_of =
-                |field: &str| field.parse().map_err(|_| format!("line {number}: {} is no number", shown(field)));
+                |field: &str| field.parse().map_err(|_| format!("line {number}: {} is not a number", shown(field)));
             let numbers: Vec<f64> = fields().map(number_of).collect::<std::result::Result<_, _>>()?;
             all.push(placing_b(&numbers).map_err(|e| format!("line {number}: {e}"))?);
         }
@@ -210,7 +210,7 @@ impl Matrix {
 /// matrices, of which `pose_a` may be missing.
 fn read_json(text: &str) -> std::result::Result<Vec<Configuration>, String> {
     let rows: Vec<serde_json::Value> =
-        serde_json::from_str(text).map_err(|e| format!("it is no array in JSON: {e}"))?;
+        serde_json::from_str(text).map_err(|e| format!("it is not a JSON array: {e}"))?;
     let configuration = |(number, row): (usize, serde_json::Value)| {
         let read = serde_json::from_value(row)
             .map_err(|_| "it is neither a matrix nor an object with pose_a and pose_b".to_owned())
@@ -290,9 +290,9 @@ mod tests {
 
     #[test]
     fn a_bad_file_is_refused_with_the_place() {
-        assert_eq!(refused(&[]), "Not a configuration file: it holds none.");
-        assert_eq!(refused(b"# nothing\n"), "Not a configuration file: it holds none.");
-        assert!(refused(&[0; 5]).contains("5 bytes are no whole number"));
+        assert_eq!(refused(&[]), "Not a configuration file: it has no configurations.");
+        assert_eq!(refused(b"# nothing\n"), "Not a configuration file: it has no configurations.");
+        assert!(refused(&[0; 5]).contains("5 bytes are not a whole number"));
         let with = |i: usize, x: f64| {
             let mut m = SHIFT;
             m[i] = x;
@@ -304,13 +304,13 @@ mod tests {
         assert!(refused(b"PAR1 but no more").starts_with("Not a configuration file: "));
         let good = line(&SHIFT, ",");
         let text = |s: String| refused(s.as_bytes());
-        assert!(text(format!("{good}\n1,2,x")).contains("line 2: \"x\" is no number"));
+        assert!(text(format!("{good}\n1,2,x")).contains("line 2: \"x\" is not a number"));
         assert!(text(format!("{good}\n1,2,3")).contains("line 2: a matrix has 16 numbers, or 12"));
-        assert!(text("a,b\nc,d".to_owned()).contains("line 2: \"c\" is no number"));
+        assert!(text("a,b\nc,d".to_owned()).contains("line 2: \"c\" is not a number"));
         assert!(text(format!("{good}\n{}", line(&with(0, f64::INFINITY), ","))).contains("line 2: matrix entry 0"));
         assert!(text("[1, 2]".to_owned()).contains("row 1: it is neither a matrix"));
-        assert!(text("[[1,2,3-4,5,6,7,8,9,10,11,12,13]]".to_owned()).contains("no array in JSON: expected"));
-        assert!(text("[[1,2,3],".to_owned()).contains("no array in JSON"));
+        assert!(text("[[1,2,3-4,5,6,7,8,9,10,11,12,13]]".to_owned()).contains("not a JSON array: expected"));
+        assert!(text("[[1,2,3],".to_owned()).contains("not a JSON array"));
         assert!(text("[[[1,2],[3,4]]]".to_owned()).contains("row 1: every row of a matrix has 4 numbers"));
     }
 

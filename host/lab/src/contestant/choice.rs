@@ -18,13 +18,13 @@ pub(super) fn with_settings(plain: &Contestant, settings: &str) -> Result<Contes
     for setting in settings.split(':') {
         let (name, value) = setting
             .split_once('=')
-            .ok_or_else(|| invalid(plain, &format!("{setting:?} is no setting; write it as name=value")))?;
+            .ok_or_else(|| invalid(plain, &format!("{setting:?} is not a setting; write it as name=value")))?;
         if said.contains(&name) {
             return Err(invalid(plain, &format!("{name:?} is set twice; leave one out")));
         }
         said.push(name);
         let number: f64 =
-            value.parse().map_err(|_| invalid(plain, &format!("{name:?} must be a number, and {value:?} is none")))?;
+            value.parse().map_err(|_| invalid(plain, &format!("{name:?} must be a number, not {value:?}")))?;
         let declared = plain.info.parameters.iter().find(|p| p.name == name);
         if name == THREADS && plain.info.threads {
             chosen.threads = threads(plain, number)?;
@@ -62,7 +62,7 @@ fn rename(chosen: &mut Contestant) {
 fn threads(plain: &Contestant, number: f64) -> Result<usize> {
     let most = std::thread::available_parallelism().map_or(1, usize::from);
     if number.fract() != 0.0 || !(1.0..=most as f64).contains(&number) {
-        return Err(invalid(plain, &format!("threads must be a whole number from 1 to {most}, the CPUs there are")));
+        return Err(invalid(plain, &format!("threads must be a whole number from 1 to {most}, the number of CPUs")));
     }
     Ok(number as usize)
 }
@@ -81,7 +81,7 @@ fn there_are(plain: &Contestant) -> String {
     if plain.info.threads && !names.contains(&THREADS) {
         names.push(THREADS);
     }
-    if names.is_empty() { "there is nothing to set".to_owned() } else { format!("there are: {}", names.join(", ")) }
+    if names.is_empty() { "it has no parameters".to_owned() } else { format!("available: {}", names.join(", ")) }
 }
 
 fn invalid(plain: &Contestant, why: &str) -> LabError {
@@ -141,15 +141,15 @@ mod tests {
     #[test]
     fn what_cannot_be_set_is_said() {
         let cases = [
-            ("", "is no setting; write it as name=value"),
-            ("size", "is no setting; write it as name=value"),
+            ("", "is not a setting; write it as name=value"),
+            ("size", "is not a setting; write it as name=value"),
             ("size=", "must be a number"),
             ("size=four", "must be a number"),
             ("size=9", "must be a whole number from 0 to 8, not 9"),
             ("size=1.5", "must be a whole number from 0 to 8, not 1.5"),
             ("slack=NaN", "must be a number from 0 to 2, not NaN"),
             ("slack=0.5:slack=0.6", "is set twice"),
-            ("speed=1", "it has no parameter \"speed\"; there are: size, slack"),
+            ("speed=1", "it has no parameter \"speed\"; available: size, slack"),
         ];
         for (settings, expected) in cases {
             let Err(LabError::Invalid(said)) = with_settings(&plain(false), settings) else {

@@ -125,7 +125,7 @@ pub fn dependence(units: &[Found]) -> Option<UnitDependence> {
         if here.differs(there) {
             answers.push(other.exponent);
             let of = |Tally { answers, wrong, .. }: Tally| format!("{wrong} of {answers}");
-            said.push(format!("{} answers are wrong, in the file's unit {}", of(here), of(there)));
+            said.push(format!("{} answers are wrong ({} in the file's unit)", of(here), of(there)));
         }
         if !said.is_empty() {
             parts.push(format!("with all coordinates times {}, {}", factor(other.exponent), said.join(", and ")));
@@ -204,8 +204,8 @@ mod tests {
         let both = dependence(&three([(0, 0.4), (2, 0.4)], 40)).unwrap();
         assert_eq!((both.time, both.answers), (vec![-3], vec![-3]));
         assert!(both.message.ends_with(
-            "times 1/8, a query takes 0.40 times as long (0.40 to 0.40), and 40 of 50 answers are wrong, in the file's unit 0 of \
-             250."
+            "times 1/8, a query takes 0.40 times as long (0.40 to 0.40), and 40 of 50 answers are wrong (0 of 250 in \
+             the file's unit)."
         ), "{}", both.message);
     }
 

@@ -88,6 +88,6 @@ mod tests {
         assert_eq!(why(20, 0, 1), Some(UnrankedCause::SilentControls { silent: 1, n: 20 }));
         assert_eq!(why(20, 0, 0), Some(UnrankedCause::FewControls { n: 20, of: 30, least: LEAST }));
         let few = |n, of| Unranked::from(UnrankedCause::FewControls { n, of, least: LEAST }).message;
-        assert!(few(20, 30).contains("give it more time") && few(9, 9).contains("these objects"));
+        assert!(few(20, 30).contains("increase the budget") && few(9, 9).contains("these objects"));
     }
 }

@@ -36,7 +36,7 @@ pub fn preview(task: &Task, lanes: &[Lane], n: usize, looks: u32) -> Preview {
     }
     if found.is_empty() {
         found.push(
-            "No two of the algorithms deliver the same without a wrong answer: there is nothing to compare.".into(),
+            "No two algorithms answer the same query without a wrong answer, so there is nothing to compare.".into(),
         );
     }
     let of = task.part.of;
@@ -98,10 +98,10 @@ fn finding(beside: &[Beside], precision: f64) -> Option<String> {
         (true, Some(Estimated { value, lo, hi })) => {
             let next = &nearest.algorithm;
             Some(format!(
-                "Fastest is {fastest}; the next, {next}, takes {value:.2} times as long ({lo:.2} to {hi:.2})."
+                "{fastest} is fastest; the next, {next}, takes {value:.2} times as long ({lo:.2} to {hi:.2})."
             ))
         }
-        _ => Some(format!("Who is fastest: {}.", parts.join("; "))),
+        _ => Some(format!("Fastest algorithm: {}.", parts.join("; "))),
     }
 }
 

@@ -13,13 +13,13 @@ use crate::sha256_hex;
 use crate::{LabError, Result};
 
 /// What a person finds in the archive.
-const READ_ME: &str = "The answers of a benchmark of collision detection, with everything that they follow from.\n\n\
-    ocb replay FILE.zip   asks every question again, in a jail, and compares every answer bit by bit\n\n\
-    recipe.json             what was asked, the seed, versions, objects, algorithms, and the hash of every file\n\
+const READ_ME: &str = "The answers of a collision detection benchmark, with everything that determines them.\n\n\
+    ocb replay FILE.zip   repeats every query in a jail and compares every answer bit by bit\n\n\
+    recipe.json             queries, seed, versions, objects, algorithms, and the hash of every file\n\
     configurations.parquet  poses and certified truth\n\
-    answers/*.parquet       one row per answer: time, answer, verdict, and as which instance the question was put\n\
-    objects/*.obj           objects that are not in stock everywhere\n\
-    plugins/*.so            plugins under licences that let them be given away\n";
+    answers/*.parquet       one row per answer: time, answer, verdict, and the instance of the query\n\
+    objects/*.obj           objects that are not stock objects\n\
+    plugins/*.so            plugins whose licences permit redistribution\n";
 
 /// An archive that grows file by file.
 pub struct Packing {

@@ -48,7 +48,7 @@ impl Unpacked {
         let bad = |why: String| LabError::Invalid(format!("The answers of {:?} cannot be read: {why}.", of.id));
         let rows = read_answers(&self.files[&of.answers]).map_err(bad)?;
         match rows.iter().find(|row| row.configuration as usize >= self.poses.len()) {
-            Some(row) => Err(bad(format!("there is no configuration {}", row.configuration))),
+            Some(row) => Err(bad(format!("it has no configuration {}", row.configuration))),
             None => Ok(rows),
         }
     }
@@ -66,24 +66,24 @@ impl Unpacked {
 
 fn read(path: &Path) -> std::result::Result<Unpacked, String> {
     let file = given::open(path).map_err(|e| format!("it cannot be opened ({e})"))?;
-    let mut zip = ZipArchive::new(file).map_err(|e| format!("it is no zip archive ({e})"))?;
+    let mut zip = ZipArchive::new(file).map_err(|e| format!("it is not a zip archive ({e})"))?;
     if zip.len() > MOST_FILES + 1 || zip.has_duplicate_names() {
-        return Err(format!("it holds a file twice, or more than {MOST_FILES} files"));
+        return Err(format!("it has a file twice, or more than {MOST_FILES} files"));
     }
     let recipe = taken(&mut zip, RECIPE, MOST_RECIPE, None)?;
     let recipe = recipe_of(&recipe)?;
     let known = |path: &str| path == RECIPE || recipe.files.iter().any(|file| file.path == path);
     for name in zip.file_names() {
-        let name = name.map_err(|_| "the name of a file in it is no text".to_owned())?;
+        let name = name.map_err(|_| "a file name in it is not valid text".to_owned())?;
         if !known(&name) {
-            return Err(format!("it holds the file {name:?}, which {RECIPE} does not list"));
+            return Err(format!("it contains the file {name:?}, which {RECIPE} does not list"));
         }
     }
     let mut files = BTreeMap::new();
     for RecipeFile { path, bytes, sha256 } in &recipe.files {
         let content = taken(&mut zip, path, MOST_FILE, Some(*bytes))?;
         if sha256_hex(&content) != *sha256 {
-            return Err(format!("{path:?} in it is another file than {RECIPE} says: its SHA-256 differs"));
+            return Err(format!("{path:?} in it does not match {RECIPE}: its SHA-256 differs"));
         }
         files.insert(path.clone(), content);
     }
@@ -94,7 +94,7 @@ fn read(path: &Path) -> std::result::Result<Unpacked, String> {
         .find(|path| !files.contains_key(*path))
         .cloned();
     if let Some(missing) = missing {
-        return Err(format!("{RECIPE} speaks of the file {missing:?} and does not list it"));
+        return Err(format!("{RECIPE} refers to the file {missing:?} but does not list it"));
     }
     let poses =
         read_poses(&files[&recipe.configurations]).map_err(|e| format!("{:?} in it: {e}", recipe.configurations))?;
@@ -110,7 +110,7 @@ fn taken(
 ) -> std::result::Result<Vec<u8>, String> {
     let entry = zip.by_name(path).map_err(|e| format!("the file {path:?} in it cannot be read ({e})"))?;
     if !entry.is_file() {
-        return Err(format!("{path:?} in it is no plain file"));
+        return Err(format!("{path:?} in it is not a regular file"));
     }
     let length = exactly.unwrap_or(entry.size());
     if length > most {
@@ -119,29 +119,30 @@ fn taken(
     let mut content = Vec::new();
     entry.take(length + 1).read_to_end(&mut content).map_err(|e| format!("{path:?} in it is damaged ({e})"))?;
     if content.len() as u64 != length {
-        return Err(format!("{path:?} in it does not have the {length} bytes that are said"));
+        return Err(format!("{path:?} in it does not have the {length} bytes declared"));
     }
     Ok(content)
 }
 
 fn recipe_of(bytes: &[u8]) -> std::result::Result<Recipe, String> {
     let value: serde_json::Value =
-        serde_json::from_slice(bytes).map_err(|e| format!("{RECIPE} in it is no JSON ({e})"))?;
+        serde_json::from_slice(bytes).map_err(|e| format!("{RECIPE} in it is not valid JSON ({e})"))?;
     let format = value["format"].as_u64();
     if format != Some(u64::from(FORMAT)) {
         let said = format.map_or_else(|| "none".to_owned(), |format| format.to_string());
-        return Err(format!("this program reads format {FORMAT} of such archives, and its format is {said}"));
+        return Err(format!("its format is {said}, but this program reads format {FORMAT}"));
     }
-    let recipe: Recipe = serde_json::from_value(value).map_err(|e| format!("{RECIPE} in it does not fit ({e})"))?;
+    let recipe: Recipe = serde_json::from_value(value).map_err(|e| format!("{RECIPE} in it is not valid ({e})"))?;
     let ours = instance::VERSION;
     if recipe.versions.instances != ours {
         let (theirs, version) = (recipe.versions.instances, &recipe.version);
         return Err(format!(
-            "it was measured with instances of version {theirs}, and this program draws version {ours}; take ocb {version}"
+            "it was measured with instances of version {theirs}, but this program creates version {ours}; use ocb \
+             {version}"
         ));
     }
     if let Some(file) = recipe.files.iter().find(|file| !is_plain(&file.path)) {
-        return Err(format!("{:?} is no path inside an archive", file.path));
+        return Err(format!("{:?} is not a path inside an archive", file.path));
     }
     let all = recipe.files.iter().fold(0, |sum: u64, file| sum.saturating_add(file.bytes));
     if recipe.files.len() > MOST_FILES || all > MOST_BYTES {

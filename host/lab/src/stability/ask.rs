@@ -68,7 +68,7 @@ impl<'a> Asker<'a> {
         let mut deaths = 0;
         while all.len() < questions.len() {
             if self.stop.asked() {
-                return Err(LabError::Invalid("The stability run was stopped; nothing of it is kept.".into()));
+                return Err(LabError::Invalid("The stability run was stopped; its results were discarded.".into()));
             }
             let ending = match self.process(a, b, semantics, &questions[all.len()..], &mut all) {
                 Ok(()) => continue,

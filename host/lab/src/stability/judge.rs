@@ -90,7 +90,7 @@ impl Known {
     /// The truth as a sentence.
     pub fn expected(&self, semantics: Semantics) -> String {
         match self.truth(semantics) {
-            None => "any answer, in time".into(),
+            None => "any answer within the time limit".into(),
             Some(truth) if truth.hit => format!("collision; every vertex may move by {:e}", truth.margin),
             Some(truth) => format!("no collision; distance from {:e} to {:e}", truth.distance_lo, truth.distance_hi),
         }

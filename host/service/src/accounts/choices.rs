@@ -15,7 +15,7 @@ impl Engine {
     /// What the account has chosen.
     #[boxed]
     pub async fn choices(&self, account: &AccountInfo) -> Result<Choices> {
-        let gone = || EngineError::NotFound("There is no such account any more.".into());
+        let gone = || EngineError::NotFound("This account no longer exists.".into());
         let row = self.inner.store.choices(&account.id).await?.ok_or_else(gone)?;
         Ok(Choices {
             agrees_to_reruns: row.agrees_to_reruns,
@@ -41,7 +41,7 @@ impl Engine {
         let asking = asking && self.inner.config.mail.is_some();
         let subject = account.owner();
         // Where to is the account's own business, and the log is kept for ever.
-        let note = Note { actor: &account.name, action: "address given", subject: &subject, detail: "" };
+        let note = Note { actor: &account.name, action: "address added", subject: &subject, detail: "" };
         self.inner.store.set_address(&account.id, &to, asking, note).await?;
         if asking {
             self.inner.posting.notify_one();
@@ -65,13 +65,13 @@ impl Engine {
         let known = self.inner.store.account_of_off_link(&sha256_hex(secret.as_bytes()), now_us()).await?;
         let Some(([id, name], wanted)) = known else {
             return Err(EngineError::NotFound(
-                "This link turns no mails off: it is too old, the address was changed since, or a part of it was lost; take the one \
-                 of a newer mail, or log in and turn them off on the account page."
+                "This unsubscribe link is not valid: it has expired, the address was changed, or the link is \
+                 incomplete; use the link of a newer mail, or log in and turn mail off on the account page."
                     .into(),
             ));
         };
         let subject = Owner::Account(&id).to_string();
-        let note = Note { actor: &name, action: "mails turned off by a link", subject: &subject, detail: "" };
+        let note = Note { actor: &name, action: "mail turned off by link", subject: &subject, detail: "" };
         self.inner.store.turn_mails_off(&id, wanted.then_some(note)).await
     }
 
@@ -82,8 +82,8 @@ impl Engine {
         let note = Note { actor: &account.name, action: "address confirmed", subject: &subject, detail: "" };
         if !self.inner.store.confirm_address(&hash, &account.id, now_us(), note).await? {
             return Err(EngineError::NotFound(
-                "This link confirms no address of this account: it was opened before, its time is over, or the address was \
-                 changed; have another one sent."
+                "This confirmation link is not valid: it was used before, it has expired, or the address was changed; \
+                 request a new one."
                     .into(),
             ));
         }

@@ -120,8 +120,8 @@ impl Inner {
         }
         let role = account.role.name();
         Ok(Some(format!(
-            "This is the last {role} here, and somebody has to decide about {what}; make another {role} first, such as by \
-             `ocb admin create NAME --role {role}` on the data folder."
+            "This is the last {role}, who is needed to decide about {what}; create another {role} first, for example \
+             with `ocb admin create NAME --role {role}` on the data folder."
         )))
     }
 }

@@ -39,13 +39,13 @@ impl Engine {
         let length = recipient.chars().count();
         if length == 0 || length > RECIPIENT || recipient.chars().any(char::is_control) {
             return Err(EngineError::Invalid(format!(
-                "Say in 1 to {RECIPIENT} characters for whom the invitation is."
+                "State in 1 to {RECIPIENT} characters for whom the invitation is."
             )));
         }
         if !DAYS.contains(&asked.days) {
             let (least, most) = (DAYS.start(), DAYS.end());
             return Err(EngineError::Invalid(format!(
-                "An invitation lasts {least} to {most} days, not {}.",
+                "An invitation is valid for {least} to {most} days, not {}.",
                 asked.days
             )));
         }
@@ -65,11 +65,11 @@ impl Engine {
             expires_us: now + (DAY * asked.days).as_micros() as i64,
         };
         let (actor, subject) = (actor(by), subject(&invitation.id));
-        let note = Note { actor, action: "invitation made", subject: &subject, detail: &invitation.recipient };
+        let note = Note { actor, action: "invitation created", subject: &subject, detail: &invitation.recipient };
         let hash = sha256_hex(secret.as_bytes());
         if !self.inner.store.add_invitation(&hash, by.map(|by| by.id.as_str()), &invitation, note).await? {
             return Err(EngineError::Busy(
-                "This invitation was accepted or withdrawn before; make another one.".into(),
+                "This invitation was already accepted or withdrawn; create a new one.".into(),
             ));
         }
         Ok(NewInvitation { link: format!("{origin}/account#invitation={secret}"), invitation, secret })
@@ -91,7 +91,7 @@ impl Engine {
         let subject = subject(id);
         let note = Note { actor: actor(by), action: "invitation withdrawn", subject: &subject, detail: "" };
         if !self.inner.store.revoke_invitation(id, note).await? {
-            return Err(EngineError::Busy("This invitation was accepted or withdrawn before.".into()));
+            return Err(EngineError::Busy("This invitation was already accepted or withdrawn.".into()));
         }
         self.inner.store.invitation(id).await?.ok_or_else(missing)
     }
@@ -101,7 +101,7 @@ impl Engine {
     pub async fn accept_invitation(&self, account: &AccountInfo, secret: &str) -> Result<AccountInfo> {
         if account.role != Role::User {
             return Err(EngineError::Busy(
-                "This account may submit plugins already; the invitation stays open.".into(),
+                "This account can already submit plugins; the invitation stays open.".into(),
             ));
         }
         let owner = account.owner();
@@ -114,11 +114,11 @@ impl Engine {
         let hash = sha256_hex(secret.trim().as_bytes());
         if self.inner.store.accept_invitation(&hash, &account.id, note).await?.is_none() {
             return Err(EngineError::NotFound(
-                "This invitation opens nothing: it was accepted or withdrawn, or its time is over; ask for a new one."
+                "This invitation is not valid: it was accepted or withdrawn, or it has expired; ask for a new one."
                     .into(),
             ));
         }
-        let gone = || EngineError::Fault("An account was lost while it accepted an invitation.".into());
+        let gone = || EngineError::Fault("The account was lost while it accepted the invitation.".into());
         self.inner.store.account(&account.id).await?.ok_or_else(gone)
     }
 }

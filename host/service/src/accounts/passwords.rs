@@ -27,7 +27,7 @@ async fn in_turn<T: Send + 'static>(work: impl FnOnce() -> Result<T> + Send + 's
     let (sender, done) = oneshot::channel();
     let threads = THREADS.as_ref().map_err(|e| EngineError::Fault(e.to_string()))?;
     threads.spawn_fifo(move || drop(sender.send(work())));
-    done.await.map_err(|e| EngineError::fault("Hashing a password broke down", e))?
+    done.await.map_err(|e| EngineError::fault("Hashing a password failed", e))?
 }
 
 /// Argon2id with the crate's parameters (19 MiB, two passes), as OWASP recommends them.

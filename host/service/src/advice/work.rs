@@ -127,7 +127,7 @@ impl Job {
         let Some(chosen_by) = placed(CONFIGURATIONS, 0, "configurations")? else { return Ok(None) };
         let Some(held_out) = placed(HELD_OUT, 1, "held-out configurations")? else { return Ok(None) };
         if chosen_by.is_empty() {
-            return Err(EngineError::Invalid("B never comes that close to A; ask for another distance.".to_owned()));
+            return Err(EngineError::Invalid("B never comes that close to A; choose another distance.".to_owned()));
         }
         let Some(_right) = self.right_to_measure()? else { return Ok(None) };
         let ladders = [of_a.as_slice(), of_b.as_slice()];

@@ -80,7 +80,7 @@ pub fn classes(measured: &[Measured]) -> Vec<Option<ContractClass>> {
 }
 
 fn suite(m: &Measured) -> Named {
-    m.suite.clone().unwrap_or_else(|| Named { value: NO_SUITE.into(), words: "runs of people".into() })
+    m.suite.clone().unwrap_or_else(|| Named { value: NO_SUITE.into(), words: "user runs".into() })
 }
 
 /// The suite of the highest version; without any, the runs of people.
@@ -93,7 +93,7 @@ fn newest(options: &[BoardOption]) -> Option<String> {
 /// What failed before its first answer has shown no class: it stands in each.
 fn class(m: &Measured) -> Option<Named> {
     let known = m.result.class.filter(|_| m.result.n > 0);
-    let old = Named { value: "unknown".into(), words: "not noted (older version)".into() };
+    let old = Named { value: "unknown".into(), words: "not recorded (older version)".into() };
     match known {
         Some(class) => Some(keys::class(&class)),
         None => (m.result.n > 0).then_some(old),

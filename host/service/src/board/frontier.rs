@@ -55,11 +55,10 @@ pub fn finding(rows: &[BoardRow]) -> String {
     clean.sort_by(|(_, a), (_, b)| b.value.total_cmp(&a.value));
     let Some((first, rate)) = clean.first() else {
         let any = rows.iter().any(comparable);
-        return if any { "No algorithm came without a wrong answer." } else { "There is nothing to compare here." }
-            .into();
+        return if any { "Every algorithm gave a wrong answer." } else { "There is nothing to compare here." }.into();
     };
-    let head = format!("Fastest with no wrong answer seen: {}, {} questions per second", first.name, whole(rate.value));
-    let Some((second, next)) = clean.get(1) else { return format!("{head}; no other one came without.") };
+    let head = format!("Fastest with no wrong answer seen: {}, {} queries per second", first.name, whole(rate.value));
+    let Some((second, next)) = clean.get(1) else { return format!("{head}; every other one gave a wrong answer.") };
     let overlap = rate.lo <= next.hi;
     let decided = if overlap { "overlap, so the order is not decided" } else { "do not overlap" };
     format!("{head}, {:.1} times the next ({}); the 95 % intervals {decided}.", rate.value / next.value, second.name)

@@ -27,7 +27,7 @@ pub fn chart(rows: &[BoardRow], accuracy: Accuracy, kind: &str, finding: &str) -
         title: "Speed against accuracy".into(),
         finding: finding.into(),
         x: axis(accuracy, &shown),
-        y: Axis::new("questions per second (logarithmic), by the mean time", "1/s", Scale::Log),
+        y: Axis::new("queries per second (logarithmic), by the mean time", "1/s", Scale::Log),
         series: all,
         notes: notes(accuracy, hidden),
     }
@@ -52,7 +52,7 @@ fn axis(accuracy: Accuracy, shown: &[(&BoardRow, Point)]) -> Axis {
         Accuracy::Distance => Axis {
             lane: Some("never outside".into()),
             ..Axis::new(
-                "worst error of a distance, in roundings u S (logarithmic); better to the left",
+                "worst error of a distance, in units of u S (logarithmic); better to the left",
                 "u S",
                 Scale::Log,
             )
@@ -103,7 +103,7 @@ fn words(row: &BoardRow, rate: Estimated) -> String {
         }
     };
     let [value, lo, hi] = [rate.value, rate.lo, rate.hi].map(whole);
-    format!("{}: {value} questions per second ({lo} to {hi}), {wrong}; {}.", row.name, row.family)
+    format!("{}: {value} queries per second ({lo} to {hi}), {wrong}; {}.", row.name, row.family)
 }
 
 /// A thin line through those on the frontier, for each class.
@@ -123,20 +123,19 @@ fn frontiers(shown: &[(&BoardRow, Point)]) -> Vec<Series> {
 
 fn notes(accuracy: Accuracy, hidden: usize) -> Vec<String> {
     let mut notes = vec![
-        "Grey line: nothing else is as accurate and faster. Filled: on it; hollow: not, or a collision was missed.".into(),
+        "Grey line: the frontier of speed and accuracy. Filled: on it; hollow: not on it, or a collision was missed.".into(),
         "Bars are 95 % intervals: of the speed over the processes, of shares Wilson's. Settings of one algorithm are joined.".into(),
     ];
     notes.extend(match accuracy {
         Accuracy::Digits => Some(
-            "Arrow: no wrong answer was seen, so it may tell apart more than these configurations could show."
+            "Arrow: no wrong answer was seen, so the true value may be better than these configurations can show."
                 .to_owned(),
         ),
         Accuracy::Distance => None,
         _ => Some("None seen: with n answers and none wrong, the share is below 3/n at 95 %.".to_owned()),
     });
     if hidden > 0 {
-        notes
-            .push(format!("{hidden} more have no mark here: they failed, or have no such number; the table says why."));
+        notes.push(format!("{hidden} more are not shown: they failed or have no such value; see the table."));
     }
     notes
 }

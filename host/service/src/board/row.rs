@@ -122,7 +122,7 @@ fn why_not(best: &[&Measured], of: u32) -> Option<String> {
         return Some("Nothing was measured.".into());
     }
     if best.iter().any(|m| !m.ranked) {
-        return Some("Measured in the development profile, without every layer of the jail.".into());
+        return Some("Measured in the development profile, without some layers of the jail.".into());
     }
     if let Some((n, all)) = best.iter().find_map(|m| m.preview) {
         return Some(format!("A preview: {n} of {all} configurations were measured. Refine the run to compare it."));
@@ -131,10 +131,10 @@ fn why_not(best: &[&Measured], of: u32) -> Option<String> {
         |r: &AlgorithmResult| r.verdicts.iter().filter(|v| v.verdict.is_silent()).map(|v| v.count).sum::<u32>();
     let silent: u32 = best.iter().map(|m| silent(&m.result)).sum();
     if silent > 0 {
-        return Some(format!("It gave no answer to {silent} questions."));
+        return Some(format!("It did not answer {silent} queries."));
     }
     if (best.len() as u32) < of {
-        return Some(format!("Measured on {} of {of} scenarios: its speed does not compare.", best.len()));
+        return Some(format!("Measured on {} of {of} scenarios: its speed cannot be compared.", best.len()));
     }
     let wrong = best.iter().any(|m| m.result.wrong > 0);
     match best.iter().find_map(|m| m.result.unranked.as_ref()) {
@@ -155,4 +155,4 @@ fn is_typical(best: &[&Measured]) -> bool {
 }
 
 /// Wrong answers take the place away, but not the mark in the chart.
-pub const WRONG: &str = "It gave wrong answers: a time for a wrong answer is no result.";
+pub const WRONG: &str = "It gave wrong answers: the time of a wrong answer does not count.";

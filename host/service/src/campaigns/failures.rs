@@ -43,8 +43,7 @@ impl Inner {
     ) -> Result<()> {
         let (id, class) = (plugin.id.as_str(), campaign.hardware_class.as_str());
         let note = Note { actor: THE_SERVICE, action: "excluded", subject: id, detail: report };
-        let told =
-            "It is measured no more on this hardware class until a curator brings it back; its results on others stay.";
+        let told = "It is no longer measured on this hardware class until a curator reinstates it; its results on other classes stay.";
         let notice = to_author(plugin, &format!("is excluded on the hardware class {class}"), told, report);
         let new_notice = self.new_notice(&plugin.account, &notice);
         if !self.store.exclude_submission(id, class, failed_us, Some(new_notice), note).await? {
@@ -69,7 +68,7 @@ impl Inner {
                 self.store.ask_less(&run.id, &spec, &fresh_stages(&spec.algorithms)).await?;
                 continue;
             }
-            let told = "What it was to measure is not public any more.";
+            let told = "Its algorithms are no longer public.";
             if self.store.end_run(&run.id, State::Queued, State::Cancelled, Some(told)).await? {
                 self.run_events.tell(&self.store, &run.id, plain_event(State::Cancelled, 0)).await?;
                 if let Some(campaign) = &run.campaign {
@@ -146,8 +145,7 @@ mod tests {
         killed.outcome.signal = Some(9);
         // What it says itself spares nobody.
         for name in ["Failed", "Signaled"] {
-            let liar =
-                result(name, "The plugin reported an error while loading: SIGKILL, signal 9.", false, 0);
+            let liar = result(name, "The plugin reported an error while loading: SIGKILL, signal 9.", false, 0);
             assert!(failing(&liar, true, Some(&well)).is_some(), "{name}");
         }
         for innocent in [

@@ -24,10 +24,10 @@ pub fn chart(results: &[AlgorithmResult]) -> Chart {
         y: Axis::new("wrong decisions, share", "share", Scale::Linear),
         series: results.iter().enumerate().filter_map(line).collect(),
         notes: vec![
-            "Left: collisions missed, by how far the objects cross; right: false alarms, by how far they are apart; each as a \
+            "Left: missed collisions, by the depth of the crossing; right: false alarms, by the distance; each as a \
              share of the scene's size S, by powers of ten."
                 .into(),
-            "Every decision counts, however narrow, even those that no verdict scores. Bars: Wilson's 95 % intervals.".into(),
+            "Every decision counts, including those without a verdict. Bars: Wilson's 95 % intervals.".into(),
         ],
     }
 }
@@ -48,7 +48,7 @@ fn finding(results: &[AlgorithmResult]) -> String {
     let eps = |r: &AlgorithmResult| r.resolution.as_ref().and_then(|r| r.eps.filter(|_| r.seen));
     let worst = results.iter().filter_map(|r| Some((r, eps(r)?))).max_by(|(_, a), (_, b)| a.total_cmp(b));
     match worst {
-        Some((result, eps)) => format!("{} decides wrongly up to {eps:.1e} of the scene's size.", result.name),
+        Some((result, eps)) => format!("{} makes wrong decisions up to {eps:.1e} of the scene's size.", result.name),
         None => "No decision was wrong.".into(),
     }
 }

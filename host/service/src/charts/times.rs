@@ -171,7 +171,7 @@ fn chart(kind: &str, title: &str, x: Axis, series: Vec<Series>, runs: usize) -> 
             format!(
                 "From {from}. Filled: mean with its 95 % bootstrap interval over the configurations; hollow: maximum."
             ),
-            "The bar of a maximum begins at the sixth largest time: it says nothing upwards.".into(),
+            "The bar of a maximum begins at the sixth largest time and has no upper end.".into(),
         ],
     }
 }

@@ -74,7 +74,7 @@ impl Inner {
             y: Axis::new("mean time per query (logarithmic)", "ns", Scale::Log),
             series: all,
             notes: vec![
-                "A mark is the mean of all queries with about as many tests (a quarter of a power of ten), its bar the 95 % \
+                "A mark is the mean of all queries with a similar number of tests (a quarter of a power of ten), its bar the 95 % \
                  bootstrap interval; queries without a test stand at 1."
                     .into(),
             ],

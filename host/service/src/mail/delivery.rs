@@ -31,7 +31,7 @@ pub async fn deliver(server: &MailServer, mail: &Message) -> Result<(), Refused>
     let mut connection = match brought {
         Ok(brought) => brought.map_err(|e| refused(server, &e))?,
         Err(_) => {
-            let reason = format!("it did not take the mail within {} s", patience.as_secs_f64());
+            let reason = format!("it did not accept the mail within {} s", patience.as_secs_f64());
             return Err(Refused { reason, for_good: false });
         }
     };
@@ -72,10 +72,10 @@ fn told(server: &MailServer, e: &lettre::transport::smtp::Error) -> String {
     let Some((_, why)) = told.split_once("invalid peer certificate: ") else { return told };
     let server = server.named();
     if why.contains("not valid for name") {
-        return format!("nothing was sent, because the certificate of {server} names another one: {why}");
+        return format!("nothing was sent: the certificate of {server} is for another host ({why})");
     }
-    let mend = "name the authority with --smtp-ca if it is your own";
-    format!("nothing was sent, because nobody whom we trust vouches for the certificate of {server} ({why}); {mend}")
+    let mend = "give its authority with --smtp-ca if it is your own";
+    format!("nothing was sent: cannot verify the certificate of {server} ({why}); {mend}")
 }
 
 fn refused(server: &MailServer, e: &lettre::transport::smtp::Error) -> Refused {

@@ -27,8 +27,9 @@ impl Letter {
     pub fn notice(server: &MailServer, account: &str, to: &str, notice: [&str; 3], off: &str) -> Self {
         let (origin, [subject, text, link], off) = (&server.origin, notice, off_link(server, off));
         let text = format!(
-            "{text}\n\n{origin}{link}\n\n-- \nThe account {account} at {origin} wants its notices by mail. This turns them off, \
-             without logging in:\n{off}\nAnd this is where it chooses what it wants:\n{origin}/account#mails\n"
+            "{text}\n\n{origin}{link}\n\n\
+             -- \nThe account {account} at {origin} gets its notices by mail. Unsubscribe without logging in:\n{off}\n\
+             Mail settings:\n{origin}/account#mails\n"
         );
         Self { to: to.to_owned(), subject: subject.to_owned(), text, off }
     }
@@ -37,12 +38,12 @@ impl Letter {
     pub fn confirmation(server: &MailServer, account: &str, to: &str, secret: &str, off: &str) -> Self {
         let (origin, hours, off) = (&server.origin, server.pace.link.as_secs().div_ceil(3600), off_link(server, off));
         let text = format!(
-            "Somebody gave this address to the account {account} at {origin}. If that was you, open this link within {hours} h, \
-             logged in there:\n\n{origin}/account#confirm={secret}\n\n\
-             If it was not, do nothing: no notice is mailed to an address whose link was not opened.\n\n\
-             -- \nThis turns off the mails of that account, without logging in:\n{off}\n"
+            "This address was entered for the account {account} at {origin}. To confirm it, log in there and open this link \
+             within {hours} h:\n\n{origin}/account#confirm={secret}\n\n\
+             If this was not you, ignore this mail: no notices are sent to an unconfirmed address.\n\n\
+             -- \nUnsubscribe this account from all mail, without logging in:\n{off}\n"
         );
-        Self { to: to.to_owned(), subject: "Is this your address?".to_owned(), text, off }
+        Self { to: to.to_owned(), subject: "Confirm your address".to_owned(), text, off }
     }
 
     /// The mail as it is sent; `id` names it, so that a receiver that gets it twice can tell.

@@ -22,12 +22,12 @@ impl Inner {
     /// Brings mails to the server until the engine closes; without a server, nothing.
     pub(crate) async fn post(self: Arc<Self>) {
         let Some(server) = self.config.mail.clone() else { return };
-        tracing::info!("mails are brought to {}", server.named());
+        tracing::info!("mails are sent through {}", server.named());
         while !self.closing() {
             let wait = match self.post_due(&server).await {
                 Ok(wait) => wait.min(IDLE),
                 Err(e) => {
-                    tracing::error!("mails could not be looked at: {e}");
+                    tracing::error!("mails could not be read: {e}");
                     BACK_OFF
                 }
             };
@@ -85,11 +85,11 @@ impl Inner {
         let (account, reason) = (&mail.account[0], refused.reason.replace(&mail.address, "the address"));
         let waited = Duration::from_micros((now_us() - mail.created_us).max(0) as u64);
         if refused.for_good || waited >= server.pace.give_up {
-            tracing::error!("a mail to account {account} is given up: {reason}");
+            tracing::error!("a mail to account {account} was dropped: {reason}");
             return self.store.forget_mail(&mail.id).await;
         }
         let wait = server.pace.wait(mail.tries + 1);
-        tracing::warn!("a mail to account {account} waits {} s more: {reason}", wait.as_secs_f64());
+        tracing::warn!("a mail to account {account} is retried in {} s: {reason}", wait.as_secs_f64());
         self.store.postpone_mail(&mail.id, now_us() + wait.as_micros() as i64).await
     }
 }

@@ -86,7 +86,7 @@ impl MailServer {
             return Err(EngineError::left_out("mail"));
         }
         let wrong = |what: &str| {
-            let shape = "smtps://user:password@host:port, with %XX for odd characters of the password";
+            let shape = "smtps://user:password@host:port, with %XX for special characters in the password";
             EngineError::Invalid(format!("The URL of the mail server {what}; it looks like {shape}."))
         };
         let url = Url::parse(url).map_err(|e| wrong(&format!("cannot be read ({e})")))?;
@@ -94,7 +94,7 @@ impl MailServer {
             Some(Host::Domain(name)) => (name.to_owned(), name == "localhost"),
             Some(Host::Ipv4(address)) => (address.to_string(), address.is_loopback()),
             Some(Host::Ipv6(address)) => (address.to_string(), address.is_loopback()),
-            None => return Err(wrong("names no host")),
+            None => return Err(wrong("has no host")),
         };
         // The host of a scheme that is no web address is not read as an IPv4 address.
         let here = here || host.parse::<std::net::Ipv4Addr>().is_ok_and(|address| address.is_loopback());
@@ -102,20 +102,21 @@ impl MailServer {
             "smtps" => (Security::Wrapped, 465),
             "smtp" if here => (Security::Plain, 25),
             "smtp" => (Security::StartTls, 587),
-            _ => return Err(wrong("is neither smtps:// nor smtp://")),
+            _ => return Err(wrong("must begin with smtps:// or smtp://")),
         };
         let decoded = |text: &str| {
-            let text =
-                percent_decode_str(text).decode_utf8().map_err(|_| wrong("has a name or password that is no UTF-8"))?;
+            let text = percent_decode_str(text)
+                .decode_utf8()
+                .map_err(|_| wrong("has a name or password that is not UTF-8"))?;
             Ok::<_, EngineError>(text.into_owned())
         };
         let credentials = match (url.username(), url.password()) {
             ("", None) => None,
             (user, Some(password)) if !user.is_empty() => Some((decoded(user)?, decoded(password)?)),
-            _ => return Err(wrong("has a name without a password, or a password without a name")),
+            _ => return Err(wrong("has a user name without a password, or a password without a user name")),
         };
         if !matches!(url.path(), "" | "/") || url.query().is_some() || url.fragment().is_some() {
-            return Err(wrong("says more than a host and a port"));
+            return Err(wrong("has more than a host and a port"));
         }
         let port = url.port().unwrap_or(port);
         Ok(Self {
@@ -137,14 +138,14 @@ impl MailServer {
     /// `Invalid` when there is no certificate in it, or one that cannot be read.
     pub fn trusting(mut self, pem: &[u8]) -> Result<Self> {
         let wrong = |what: &str| {
-            let shape = "it has lines from -----BEGIN CERTIFICATE----- to -----END CERTIFICATE-----";
+            let shape = "it consists of lines from -----BEGIN CERTIFICATE----- to -----END CERTIFICATE-----";
             EngineError::Invalid(format!("The file with the mail server's authority {what}; {shape}."))
         };
         if !String::from_utf8_lossy(pem).contains("-----BEGIN CERTIFICATE-----") {
-            return Err(wrong("holds no certificate"));
+            return Err(wrong("contains no certificate"));
         }
         self.authorities = Some(pem.to_vec());
-        self.tls().map_err(|_| wrong("holds a certificate that cannot be read"))?;
+        self.tls().map_err(|_| wrong("contains a certificate that cannot be read"))?;
         if self.security == Security::Plain {
             self.security = Security::StartTls;
         }
@@ -173,14 +174,14 @@ pub fn address(text: &str) -> Result<Address> {
     let plain = text.len() <= ADDRESS && text.chars().all(|c| c.is_ascii_graphic() && !"\"<>()[],;:\\".contains(c));
     let parsed = if plain { text.parse::<Address>().ok() } else { None };
     parsed.filter(|address| address.domain().contains('.')).ok_or_else(|| {
-        EngineError::Invalid("An address looks like name@example.org, in plain letters, digits and signs.".into())
+        EngineError::Invalid("An address must look like name@example.org and contain only ASCII characters.".into())
     })
 }
 
 fn pages(origin: &str) -> Result<String> {
     let wrong = || {
         EngineError::Invalid(format!(
-            "{origin:?} does not say where the pages of this service are; say https://host or http://host:port."
+            "{origin:?} is not the address of this service's pages; write https://host or http://host:port."
         ))
     };
     let url = Url::parse(origin).map_err(|_| wrong())?;

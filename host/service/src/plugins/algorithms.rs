@@ -29,7 +29,7 @@ impl Engine {
             let term = Term::new(&stop, limit);
             sender.send(check_plugin(&runner, &file, &extent, &term, &mut |_| true))
         });
-        let report = report.await.map_err(|_| EngineError::Fault("The plugin check broke down.".into()))?;
+        let report = report.await.map_err(|_| EngineError::Fault("The plugin check failed.".into()))?;
         Ok(report?)
     }
 }

@@ -33,7 +33,7 @@ pub async fn carry_out(inner: &Arc<Inner>, row: &SubmissionRow, stop: &Stop) -> 
         let _ = sender.send(check(&for_check, &for_row, &file, &for_stop, &handle));
     });
     thread.map_err(|e| EngineError::fault("Starting the check's thread failed", e))?;
-    let report = ended.await.unwrap_or_else(|_| Err(EngineError::Fault("The check broke down; see the log.".into())));
+    let report = ended.await.unwrap_or_else(|_| Err(EngineError::Fault("The check failed; see the log.".into())));
     match report {
         _ if stop.asked() => inner.store.put_back_check(&row.id).await,
         Ok(Some(report)) => settle(inner, row, report).await,
@@ -93,7 +93,7 @@ async fn settle(inner: &Inner, row: &SubmissionRow, report: PluginReport) -> Res
     let failed = report.lines.iter().find(|line| line.verdict == CheckVerdict::Fail);
     let reason = match failed {
         Some(line) => Some(format!("{}: {}", line.check, line.evidence)),
-        None if !report.passed => Some("The check did not come to its end.".to_owned()),
+        None if !report.passed => Some("The check did not finish.".to_owned()),
         None => conflict(&described, &all, |id| inner.registry.contestant(id).is_some()),
     };
     match reason {

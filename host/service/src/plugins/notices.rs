@@ -13,9 +13,9 @@ pub(crate) fn of_decision(row: &SubmissionRow, action: Action, reason: &str) -> 
 pub fn of_check(row: &SubmissionRow, state: PluginState, reason: &str) -> NoticeInfo {
     let (what, text) = match state {
         PluginState::Validated => {
-            ("passed its check", "You may benchmark it now, and offer it to the curators on its page.")
+            ("passed its check", "You can benchmark it now and submit it for review on its page.")
         }
-        _ => ("failed its check", "Its page shows the report line by line."),
+        _ => ("failed its check", "Its page shows the full report."),
     };
     to_author(row, what, text, reason)
 }
@@ -31,16 +31,12 @@ pub(crate) fn to_author(row: &SubmissionRow, what: &str, text: &str, reason: &st
 fn decided(action: Action) -> Option<(&'static str, &'static str)> {
     match action {
         Action::Offer | Action::Answer | Action::Withdraw => None,
-        Action::EndCheck => Some(("was not checked", "Change it, so that it is checked sooner, and send it again.")),
-        Action::Approve => Some(("is public", "A curator approved it: everybody may benchmark it from now on.")),
-        Action::Ask => Some(("raises a question", "A curator asks that; answer on its page.")),
-        Action::Reject => Some(("was rejected", "A curator decided so, for the reason above.")),
-        Action::Suspend => {
-            Some(("was suspended", "A curator decided so: nobody may benchmark it until that is settled."))
-        }
-        Action::Exclude => {
-            Some(("was excluded", "A curator decided so: its results have no place among the others any more."))
-        }
-        Action::Reinstate => Some(("was reinstated", "A curator decided so: everybody may benchmark it from now on.")),
+        Action::EndCheck => Some(("was not checked", "Make it faster to check and submit it again.")),
+        Action::Approve => Some(("is public", "A curator approved it: anyone may benchmark it now.")),
+        Action::Ask => Some(("needs an answer", "A curator asked this question; answer it on the plugin's page.")),
+        Action::Reject => Some(("was rejected", "A curator rejected it for the reason above.")),
+        Action::Suspend => Some(("was suspended", "A curator suspended it: it cannot be benchmarked for now.")),
+        Action::Exclude => Some(("was excluded", "A curator excluded it: its results are no longer ranked.")),
+        Action::Reinstate => Some(("was reinstated", "A curator reinstated it: anyone may benchmark it now.")),
     }
 }

@@ -41,7 +41,7 @@ impl Registry {
         };
         if !config.runner.is_file() {
             registry.problems.push(format!(
-                "The runner {} is missing, so nothing can be measured; build it or name it with --runner.",
+                "The runner {} is missing, so nothing can be measured; build it or specify it with --runner.",
                 config.runner.display()
             ));
             return Ok(registry);
@@ -53,7 +53,7 @@ impl Registry {
                     for contestant in found {
                         if let Some(twin) = all.iter().find(|c| c.info.id == contestant.info.id) {
                             registry.problems.push(format!(
-                                "The algorithm {:?} is in {} and in {}; only the first is offered.",
+                                "The algorithm {:?} is in both {} and {}; only the first is used.",
                                 contestant.info.id,
                                 twin.file.display(),
                                 file.display()
@@ -63,7 +63,7 @@ impl Registry {
                         }
                     }
                 }
-                Err(e) => registry.problems.push(format!("The plugin {} is not offered: {e}", file.display())),
+                Err(e) => registry.problems.push(format!("The plugin {} is not available: {e}", file.display())),
             }
         }
         all.sort_by(|x, y| x.info.id.cmp(&y.info.id));

@@ -9,7 +9,7 @@ pub fn public_key(text: &str) -> Result<String> {
     let line = text.trim().lines().last().unwrap_or_default().trim();
     PublicKey::from_base64(line).map(|_| line.to_owned()).map_err(|_| {
         let mend = "paste the content of minisign.pub, or its last line, which begins with RW";
-        EngineError::Invalid(format!("That is no public key of minisign; {mend}."))
+        EngineError::Invalid(format!("This is not a minisign public key; {mend}."))
     })
 }
 
@@ -23,8 +23,8 @@ pub fn check(file: &[u8], signature: &str, key: &str) -> Result<()> {
     key.verify(file, &signature, false).map_err(|e| {
         let e = e.to_string().trim_end_matches('.').to_owned();
         EngineError::Invalid(format!(
-            "The signature is not that of this file by your registered key ({e}); sign the file anew, or register the key \
-             that you sign with on the account page."
+            "The signature does not match this file and your registered key ({e}); sign the file again, or register \
+             your signing key on the account page."
         ))
     })
 }
@@ -43,7 +43,7 @@ mod tests {
         assert!(key.starts_with("RW") && public_key(&key).unwrap() == key);
         check(FILE, SIGNED, &key).unwrap();
         let told = |result: Result<()>| result.unwrap_err().to_string();
-        assert!(told(check(b"\x7fELF and something behind it", SIGNED, &key)).contains("not that of this file"));
+        assert!(told(check(b"\x7fELF and something behind it", SIGNED, &key)).contains("does not match this file"));
         assert!(told(check(FILE, "signed, me", &key)).contains("cannot be read"));
         // The same key but for one bit of its id, and a comment that nobody has signed.
         let other = key.replacen("RW", "RX", 1);

@@ -55,7 +55,7 @@ impl Inner {
     /// The worst configurations of an algorithm: wrong answers first, missed collisions before all.
     pub async fn worst(&self, run: &str, request: &WorstRequest) -> Result<Vec<WorstCase>> {
         if !(1..=MOST_CASES).contains(&request.limit) {
-            return Err(EngineError::Invalid(format!("A list of the worst has 1 to {MOST_CASES} entries.")));
+            return Err(EngineError::Invalid(format!("A list of worst configurations has 1 to {MOST_CASES} entries.")));
         }
         let selection = request.selection.as_deref().map(read).transpose()?;
         let table = self.table(run, &request.algorithm, selection.as_ref(), false).await?;

@@ -130,8 +130,7 @@ impl Table {
     fn errors(&self, lane: &Lane) -> Result<Vec<f64>> {
         if self.query != Query::Proximity {
             return Err(EngineError::Invalid(
-                "This run asked whether the objects collide, and only distances have an error; look at wrong answers."
-                    .into(),
+                "This run has collision queries, and only distances have an error; use the wrong answers.".into(),
             ));
         }
         let grain = self.grain(lane.unit_roundoff());
@@ -146,7 +145,7 @@ impl Table {
 
     fn flips(&self, lane: &Lane) -> Result<Vec<f64>> {
         if lane.records.flips.iter().all(Option::is_none) {
-            let sentence = "The records of this run were made by a version that did not count flips; run it again.";
+            let sentence = "The records of this run come from a version that did not count flips; run it again.";
             return Err(EngineError::Invalid(sentence.into()));
         }
         Ok(self.spread(lane, |row| lane.records.flips[row].map_or(f64::NAN, |n| f64::from(u8::from(n > 0)))))
@@ -169,7 +168,7 @@ impl Table {
             }
         }
         if others.iter().all(|n| *n == 0.0) {
-            let sentence = "Disagreement needs a second algorithm that answered the same configurations.";
+            let sentence = "Disagreement requires a second algorithm on the same configurations.";
             return Err(EngineError::Invalid(sentence.into()));
         }
         Ok(against.into_iter().zip(others).map(|(n, of): (f64, f64)| n / of).collect())
@@ -207,14 +206,14 @@ impl Columns for Table {
         let algorithm = of.unwrap_or(&self.looked_at);
         if algorithm.is_empty() {
             let sentence =
-                "The selection does not say of which algorithm; write for example `time of box-tree in [1ms, 1s]`.";
+                "The selection does not name an algorithm; write for example `time of box-tree in [1ms, 1s]`.";
             return Err(EngineError::Invalid(sentence.to_owned()));
         }
         let lane = self.lane(algorithm)?;
         let counted = |tests: &[Option<u64>]| {
             if tests.iter().all(Option::is_none) {
                 let algorithm = &lane.algorithm;
-                return Err(EngineError::Invalid(format!("The algorithm {algorithm:?} does not count its tests.")));
+                return Err(EngineError::Invalid(format!("The algorithm {algorithm:?} does not report its tests.")));
             }
             Ok(self.spread(lane, |row| tests[row].map_or(f64::NAN, |n| n as f64)))
         };

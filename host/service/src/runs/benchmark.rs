@@ -143,7 +143,7 @@ impl Bench<'_> {
             let set = self.log.wait(self.inner.set(&stored.blob))?;
             self.log.wait(store.set_of_run(&self.row.id, &stored.info, &stored.blob))?;
             self.log.progress(CONFIGURATIONS, n, n)?;
-            let again = Some("Saved positions were used again.".to_owned());
+            let again = Some("Saved positions were reused.".to_owned());
             self.log.end(CONFIGURATIONS, State::Done, sentences([again, straightened]), None)?;
             return Ok(Some((set, stored.info)));
         }
@@ -157,7 +157,7 @@ impl Bench<'_> {
         let blob = info.sha256.clone();
         self.log.wait(store.set_of_run(&self.row.id, &info, &blob))?;
         let missed = (info.missed_rays > 0)
-            .then(|| format!("On {} rays the objects do not come to what is wanted.", info.missed_rays));
+            .then(|| format!("On {} rays the requested separation was not reached.", info.missed_rays));
         self.log.end(CONFIGURATIONS, State::Done, sentences([missed, straightened]), None)?;
         Ok(Some((self.inner.sets.put(&blob, set), info)))
     }
@@ -193,7 +193,7 @@ impl Bench<'_> {
                 self.log.progress_slowly(CONFIGURATIONS, gauge.done.load(Ordering::Relaxed).min(total), total)?;
             }
             let found = worker.join();
-            Ok(found.map_err(|_| EngineError::Fault("Finding the configurations broke down.".into()))??)
+            Ok(found.map_err(|_| EngineError::Fault("Finding the configurations failed.".into()))??)
         })?;
         if set.is_some() {
             self.log.progress(CONFIGURATIONS, total, total)?;
@@ -267,7 +267,7 @@ impl Bench<'_> {
                     Err(RecvTimeoutError::Disconnected) => break,
                 }
             }
-            worker.join().map_err(|_| EngineError::Fault("The measuring thread broke down.".into()))
+            worker.join().map_err(|_| EngineError::Fault("The measuring thread failed.".into()))
         })?;
         if self.stop.asked() {
             return Ok(End::Stopped);
@@ -289,7 +289,7 @@ impl Bench<'_> {
                 thread::sleep(TICK.min(Duration::from_millis(5)));
                 way.look();
             }
-            worker.join().map_err(|_| EngineError::Fault("Drawing the control questions broke down.".into()))
+            worker.join().map_err(|_| EngineError::Fault("Drawing the control questions failed.".into()))
         })
     }
 
@@ -398,7 +398,7 @@ impl Bench<'_> {
         } else {
             result
                 .budget_limited
-                .then(|| format!("The time allowed sufficed for {} of {} configurations.", result.n, result.of))
+                .then(|| format!("The time limit was reached after {} of {} configurations.", result.n, result.of))
         };
         let state = if failed { State::Failed } else { State::Done };
         self.log.end(FIRST_MEASURING + lane, state, message, Some(result))
@@ -461,5 +461,5 @@ fn sentences(all: [Option<String>; 2]) -> Option<String> {
 /// What is said while the reference algorithm, for which nobody asked, has its turn.
 fn turn_of_reference(name: &str, done: u64, total: u64) -> String {
     let of = if total > 0 { format!(" of {total}") } else { String::new() };
-    format!("Now the reference algorithm, {name}: {done}{of} questions.")
+    format!("Now the reference algorithm, {name}: {done}{of} queries.")
 }

@@ -65,7 +65,7 @@ pub async fn work(inner: Arc<Inner>) {
                 let _ = tokio::time::timeout(idle, inner.wake.notified()).await;
             }
             Err(e) => {
-                tracing::error!("looking at the queue: {e}");
+                tracing::error!("reading the queue: {e}");
                 tokio::time::sleep(BACK_OFF).await;
             }
         }
@@ -136,7 +136,7 @@ async fn carry_out(inner: &Arc<Inner>, id: &str) -> Result<()> {
         tokio::time::sleep(BACK_OFF).await;
     }
     if let Err(e) = inner.run_of_campaign_ended(id).await {
-        tracing::error!("run {id}: its campaign could not take note of its end: {e}");
+        tracing::error!("run {id}: its end could not be recorded in its campaign: {e}");
     }
     inner.run_events.queue_moved();
     Ok(())
@@ -163,7 +163,7 @@ async fn run_in_time(inner: &Arc<Inner>, id: &str, stop: &Stop) -> Result<End> {
         }
     };
     // The sender is dropped without a word only when the thread panicked.
-    ended.unwrap_or_else(|_| Err(EngineError::Fault("The run broke down; see the log.".into())))
+    ended.unwrap_or_else(|_| Err(EngineError::Fault("The run failed; see the log.".into())))
 }
 
 async fn note_end(inner: &Inner, id: &str, state: State, message: Option<&str>) -> Result<()> {

@@ -33,7 +33,7 @@ impl Engine {
     async fn repro_of(&self, run: &str) -> Result<File> {
         let row = self.inner.run_row(run).await?;
         if matches!(row.state, State::Queued | State::Running) {
-            return Err(EngineError::Busy("This run is under way; it can be taken along when it has ended.".into()));
+            return Err(EngineError::Busy("This run has not ended; it can be exported when it has.".into()));
         }
         let (Some(set), Some(environment)) = (&row.set_blob, &row.environment) else { return Err(not_yet(run)) };
         let seed = environment.draw.as_ref().ok_or_else(too_old)?.seed;
@@ -113,7 +113,7 @@ impl Engine {
         if let Some(unknown) = only.iter().find(|id| recipe.algorithms.iter().all(|a| a.id != **id)) {
             let there_are: Vec<&str> = recipe.algorithms.iter().map(|a| a.id.as_str()).collect();
             return Err(EngineError::Invalid(format!(
-                "The algorithm {unknown:?} is not in this archive; there are: {}.",
+                "The algorithm {unknown:?} is not in this archive; available: {}.",
                 there_are.join(", ")
             )));
         }
@@ -153,7 +153,7 @@ impl Engine {
             let algorithms: Vec<Replayed> = asked.into_iter().map(ask).collect();
             let _ = sender.send((recipe.run.clone(), algorithms));
         });
-        let broken = |_| EngineError::Fault("Asking again broke down.".into());
+        let broken = |_| EngineError::Fault("Repeating the queries failed.".into());
         let (run, algorithms) = algorithms.await.map_err(broken)?;
         Ok(Replay { run, identical: algorithms.iter().all(Replayed::is_identical), algorithms })
     }
@@ -165,10 +165,10 @@ impl Engine {
         let mesh = match archive.object(of) {
             Some(bytes) => Arc::new(obj::read(bytes).map_err(|e| bad(format!("cannot be read: {e}")))?.mesh),
             None if of.id.starts_with("stock:") => self.inner.objects.mesh(&of.id).await?,
-            None => return Err(bad("did not come with it".into())),
+            None => return Err(bad("is missing".into())),
         };
         if mesh.sha256() != of.sha256 {
-            return Err(bad("is another one than that of the run: its SHA-256 differs".into()));
+            return Err(bad("is not the object of the run: its SHA-256 differs".into()));
         }
         Ok(mesh)
     }
@@ -191,12 +191,13 @@ impl Engine {
 
 fn not_here(of: &RecipeAlgorithm) -> String {
     format!(
-        "Its plugin, the file with the SHA-256 {}, is neither in the archive nor installed here; name it with --plugins.",
+        "Its plugin, the file with the SHA-256 {}, is neither in the archive nor installed here; provide it with \
+         --plugins.",
         of.plugin_sha256
     )
 }
 
 fn too_old() -> EngineError {
-    let told = "This run was measured by a version that did not note as what each question was put; measure it again.";
+    let told = "This run was measured by a version that did not record the instance of each query; measure it again.";
     EngineError::Busy(told.into())
 }

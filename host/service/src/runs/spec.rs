@@ -60,7 +60,7 @@ pub async fn check(
     }
     if spec.seed.is_some_and(|seed| seed >= MAX_SEED) {
         return invalid(
-            "The seed must be a whole number below 2^53 (9007199254740992); leave it out to have one drawn.".into(),
+            "The seed must be a whole number below 2^53 (9007199254740992); leave it out for a random seed.".into(),
         );
     }
     let configurations = set_size(spec, store, blobs).await?;
@@ -90,16 +90,16 @@ fn check_partial(spec: &RunSpec, contestants: usize) -> Result<()> {
         (_, Some(0)) => "A quick look needs at least 1 configuration.".into(),
         (None, None) => return Ok(()),
         _ if matches!(spec.method, Method::Trajectory { .. }) => {
-            "A trajectory is measured as a whole, because its order is part of what is measured; leave out the precision and \
-             the quick look."
+            "A trajectory is measured as a whole, because its order matters; leave out the precision and the quick \
+             look."
                 .into()
         }
         (Some(_), _) if contestants < 2 => {
-            "A precision is that of a comparison; choose at least two algorithms, or leave it out.".into()
+            "A precision requires a comparison; choose at least two algorithms, or leave it out.".into()
         }
-        (Some(_), _) if spec.passes < MIN_PASSES => format!(
-            "How precise a comparison is shows in several passes only; ask for at least {MIN_PASSES}, or leave out the precision."
-        ),
+        (Some(_), _) if spec.passes < MIN_PASSES => {
+            format!("A precision requires several passes; choose at least {MIN_PASSES}, or leave out the precision.")
+        }
         _ => return Ok(()),
     };
     Err(EngineError::Invalid(why_not))
@@ -109,8 +109,8 @@ fn check_partial(spec: &RunSpec, contestants: usize) -> Result<()> {
 fn check_solid(objects: &[&ObjectInfo]) -> Result<()> {
     match objects.iter().find(|object| !object.closed) {
         Some(open) => Err(EngineError::Invalid(format!(
-            "Solid bodies need closed objects, and {:?} is open (an edge of it does not belong to two triangles); choose a \
-             closed object, or ask for surfaces.",
+            "Solid bodies need closed objects, and {:?} is open (an edge of it does not belong to two triangles); \
+             choose a closed object, or surfaces.",
             open.name
         ))),
         None => Ok(()),
@@ -122,13 +122,11 @@ pub async fn set_size(spec: &RunSpec, store: &Store, blobs: &Blobs) -> Result<u6
     let invalid = |sentence: &str| Err(EngineError::Invalid(sentence.into()));
     let RunSpec { relative_distance, step, ladder, .. } = *spec;
     if [relative_distance != 0.0, step.is_some(), ladder].iter().filter(|given| **given).count() > 1 {
-        return invalid("Ask for a relative distance, a step or the ladder of steps, not for two of them.");
+        return invalid("Choose only one of relative distance, step and ladder of steps.");
     }
     let separation = spec.separation().unwrap_or(Separation::Relative { distance: relative_distance });
     if spec.separation().is_none() && (step.is_some() || ladder) {
-        return invalid(
-            "Steps and the ladder belong to the sphere and the grid method; the poses of the others are given.",
-        );
+        return invalid("Steps and the ladder require the sphere or the grid method.");
     }
     sampling::check_separation(separation)
         .map_err(|e| EngineError::Invalid(format!("These configurations are not possible: {e}.")))?;
@@ -154,8 +152,8 @@ const ALL: &str = "all";
 fn contestants(spec: &RunSpec, registry: &Registry, viewer: Option<&str>) -> Result<Vec<Arc<Contestant>>> {
     if spec.semantics == Semantics::Solid && spec.query == Query::CollisionAll {
         return Err(EngineError::Invalid(
-            "All contacts are pairs of triangles that meet, and an object inside another one has none; ask solid bodies \
-             for the first contact or for the distance."
+            "All contacts are pairs of intersecting triangles, and an object inside another one has none; for solid \
+             bodies, choose first contact or distance."
                 .into(),
         ));
     }
@@ -175,7 +173,7 @@ fn contestants(spec: &RunSpec, registry: &Registry, viewer: Option<&str>) -> Res
     for name in names {
         let there_are = || fitting.join(", ");
         let contestant = registry.choose(name, viewer)?.ok_or_else(|| {
-            EngineError::Invalid(format!("There is no algorithm {name:?}; for {question} there are: {}.", there_are()))
+            EngineError::Invalid(format!("There is no algorithm {name:?}; available for {question}: {}.", there_are()))
         })?;
         if !answers(&contestant.info, spec) {
             return Err(EngineError::Invalid(format!(
@@ -186,8 +184,8 @@ fn contestants(spec: &RunSpec, registry: &Registry, viewer: Option<&str>) -> Res
         match chosen.iter().find(|(_, c)| c.info.id == contestant.info.id) {
             Some((other, _)) if *other != name => {
                 return Err(EngineError::Invalid(format!(
-                    "{other:?} and {name:?} are the same contestant: a setting at its default value does not make another one. \
-                     List it once."
+                    "{other:?} and {name:?} are the same algorithm: a setting at its default value makes no \
+                     difference. List it once."
                 )));
             }
             Some(_) => {}

@@ -71,7 +71,7 @@ impl Engine {
         let public = inner.public();
         if let Some(unknown) = only.iter().find(|id| public.iter().all(|a| a.id != **id)) {
             return Err(EngineError::Invalid(format!(
-                "There is no public algorithm {unknown:?}; the suite is for public ones, as they are when nothing is set."
+                "There is no public algorithm {unknown:?}; the suite measures public algorithms with default settings."
             )));
         }
         inner.keep_suite().await?;
@@ -182,7 +182,7 @@ impl Inner {
             return Ok(());
         }
         Err(EngineError::Invalid(format!(
-            "Another suite of the version {} was measured here; give this one another version.",
+            "A different suite with version {} was measured here; give this one a new version.",
             self.suite.document.version
         )))
     }

@@ -27,7 +27,7 @@ pub(crate) async fn show_account(member: Option<axum::Extension<Member>>) -> Ans
 /// Makes an account and enters it. A name that is taken gets 409: names stand beside plugins, so they are no secret.
 #[utoipa::path(post, path = "/account", tag = "account", request_body = Credentials,
     responses(
-        (status = 201, description = "Made and entered", body = Identity),
+        (status = 201, description = "Created and logged in", body = Identity),
         (status = 409, description = "The name is taken", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "No name or no password", body = Problem, content_type = "application/problem+json"),
         (status = 429, description = "Too many accounts", body = Problem, content_type = "application/problem+json"),
@@ -48,10 +48,10 @@ pub(crate) async fn make_account(
 /// Enters an account. A wrong name and a wrong password get the same answer, in the same time.
 #[utoipa::path(post, path = "/account/login", tag = "account", request_body = Credentials,
     responses(
-        (status = 200, description = "Entered", body = Identity),
+        (status = 200, description = "Logged in", body = Identity),
         (status = 403, description = "Wrong user name or password", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "Something is missing", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many tries", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "A field is missing", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many attempts", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn log_in(
     State(app): State<App>,
@@ -82,7 +82,7 @@ async fn enter(app: &App, guest: &str, headers: &HeaderMap, account: AccountInfo
 }
 
 /// Leaves the account in this browser.
-#[utoipa::path(post, path = "/account/logout", tag = "account", responses((status = 204, description = "Left")))]
+#[utoipa::path(post, path = "/account/logout", tag = "account", responses((status = 204, description = "Logged out")))]
 pub(crate) async fn log_out(State(app): State<App>, headers: HeaderMap) -> Result<Response> {
     if let Some(session) = CookieJar::from_headers(&headers).get(SESSION) {
         app.engine.end_session(session.value()).await?;
@@ -93,8 +93,8 @@ pub(crate) async fn log_out(State(app): State<App>, headers: HeaderMap) -> Resul
 /// Leaves the account in every browser; tokens stay.
 #[utoipa::path(post, path = "/account/logout-everywhere", tag = "account",
     responses(
-        (status = 204, description = "Left everywhere"),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 204, description = "Logged out everywhere"),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn log_out_everywhere(
     State(app): State<App>,
@@ -114,9 +114,9 @@ fn left(headers: &HeaderMap) -> Response {
 #[utoipa::path(post, path = "/account/password", tag = "account", request_body = NewPassword,
     responses(
         (status = 204, description = "Changed; log in again"),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "The old password is another one", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The new one is too short", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "The old password is wrong", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The new password is too short", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn change_password(
     State(app): State<App>,
@@ -133,7 +133,7 @@ pub(crate) async fn change_password(
 #[utoipa::path(get, path = "/account/deletion-preview", tag = "account",
     responses(
         (status = 200, body = DeletionPreview),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn show_deletion_preview(
     State(app): State<App>,
@@ -147,12 +147,12 @@ pub(crate) async fn show_deletion_preview(
 /// again. `GET /data.tar` takes everything along first.
 #[utoipa::path(delete, path = "/account", tag = "account", request_body = DeleteAccount,
     responses(
-        (status = 200, description = "What has gone and what stays; nobody is logged in any more", body = DeletionPreview),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "The password is another one", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Nobody else could decide in its place, or a run is just ending", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "What was deleted and what stays; all sessions are closed", body = DeletionPreview),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "Wrong password", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "The account is the last curator or administrator, or a run is just ending", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "No password", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many tries", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many attempts", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn delete_account(
     State(app): State<App>,
@@ -169,9 +169,9 @@ pub(crate) async fn delete_account(
 /// Asks the curators to be made a developer, who submits plugins.
 #[utoipa::path(post, path = "/account/developer", tag = "account", request_body = DeveloperRequest,
     responses(
-        (status = 204, description = "Asked"),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Is one already", body = Problem, content_type = "application/problem+json"),
+        (status = 204, description = "Requested"),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Already a developer", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "No reason given", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn ask_to_develop(
@@ -186,9 +186,9 @@ pub(crate) async fn ask_to_develop(
 /// Registers the key that plugins of this account are signed with, in the place of an earlier one.
 #[utoipa::path(post, path = "/account/signing-key", tag = "account", request_body = SigningKey,
     responses(
-        (status = 200, description = "The account as it is now", body = AccountInfo),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No public key of minisign", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "The updated account", body = AccountInfo),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "Not a minisign public key", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn register_key(
     State(app): State<App>,
@@ -201,8 +201,8 @@ pub(crate) async fn register_key(
 /// Forgets the key; plugins that were signed with it stay signed.
 #[utoipa::path(delete, path = "/account/signing-key", tag = "account",
     responses(
-        (status = 204, description = "There is no key any more"),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 204, description = "The key was removed"),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn forget_key(State(app): State<App>, Member(account): Member) -> Result<StatusCode> {
     app.engine.set_signing_key(&account, None).await?;
@@ -213,7 +213,7 @@ pub(crate) async fn forget_key(State(app): State<App>, Member(account): Member) 
 #[utoipa::path(get, path = "/account/tokens", tag = "account",
     responses(
         (status = 200, body = Vec<TokenInfo>),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn list_tokens(State(app): State<App>, Member(account): Member) -> Result<Answer<Vec<TokenInfo>>> {
     Ok(Answer(app.engine.tokens(&account).await?))
@@ -224,7 +224,7 @@ pub(crate) async fn list_tokens(State(app): State<App>, Member(account): Member)
 #[utoipa::path(post, path = "/account/tokens", tag = "account", request_body = TokenRequest, params(IdempotencyKey),
     responses(
         (status = 201, body = NewToken),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
         (status = 409, description = "Too many tokens", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "No name or no scope", body = Problem, content_type = "application/problem+json"),
     ))]
@@ -241,8 +241,8 @@ pub(crate) async fn make_token(
 #[utoipa::path(delete, path = "/account/tokens/{id}", tag = "account",
     params(("id" = String, Path, description = "Token id")),
     responses(
-        (status = 204, description = "It opens nothing any more"),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 204, description = "The token was revoked"),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such token", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn end_token(

@@ -21,12 +21,12 @@ use crate::request_key::{IdempotencyKey, RequestKey};
 /// Asks for advice; it is worked on when its turn comes.
 #[utoipa::path(post, path = "/advice", tag = "advice", request_body = AdviceSpec, params(IdempotencyKey),
     responses(
-        (status = 200, description = "Was asked for before under this key", body = AdviceInfo),
-        (status = 201, description = "Queued; `Location` names it", body = AdviceInfo),
-        (status = 400, description = "No JSON", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "Already requested with this key", body = AdviceInfo),
+        (status = 201, description = "Queued; its address is in `Location`", body = AdviceInfo),
+        (status = 400, description = "Not JSON", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The question cannot be asked", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too much waits already; `Retry-After` says when to try again", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The question is not valid", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many requests are queued; `Retry-After` says when to try again", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn ask_advice(
     State(app): State<App>,
@@ -58,8 +58,8 @@ pub(crate) async fn show_advice(State(app): State<App>, Path(id): Path<String>) 
 #[utoipa::path(post, path = "/advice/{id}/cancel", tag = "advice",
     params(("id" = String, Path, description = "Advice id")),
     responses(
-        (status = 200, description = "As it is now", body = AdviceInfo),
-        (status = 403, description = "Somebody else's", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "The updated advice", body = AdviceInfo),
+        (status = 403, description = "It belongs to someone else", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such advice", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn cancel_advice(

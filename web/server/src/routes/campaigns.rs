@@ -37,8 +37,8 @@ fn yes() -> bool {
 #[utoipa::path(get, path = "/campaigns/preview", tag = "curation", params(What),
     responses(
         (status = 200, body = CampaignPreview, example = json!({ "suite_runs": 150, "suite_repeats": 144, "peoples_runs": 12, "expected_seconds": 5400.0, "hardware_class": "0d52c1f3b7a96e48", "oracle": 5, "suite_version": 1 })),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "No curator", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn preview_campaign(
     State(app): State<App>,
@@ -52,10 +52,10 @@ pub(crate) async fn preview_campaign(
 /// `Idempotency-Key` the same request, sent again because its answer was lost, gives the same campaign.
 #[utoipa::path(post, path = "/campaigns", tag = "curation", params(IdempotencyKey), request_body = CampaignRequest,
     responses(
-        (status = 200, description = "Was asked for before under this key", body = CampaignInfo),
-        (status = 201, description = "Queued; `Location` names it", body = CampaignInfo),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "No curator", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "Already requested with this key", body = CampaignInfo),
+        (status = 201, description = "Queued; its address is in `Location`", body = CampaignInfo),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
         (status = 409, description = "There is nothing to measure again", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "No reason, or neither suite nor people", body = Problem, content_type = "application/problem+json"),
     ))]
@@ -74,8 +74,8 @@ pub(crate) async fn create_campaign(
 /// Campaigns, newest first, without their results.
 #[utoipa::path(get, path = "/campaigns", tag = "results", params(Page),
     responses(
-        (status = 200, description = "A part of the list", body = Vec<CampaignInfo>, headers(("Link" = String, description = "Where the list goes on: `<...>; rel=\"next\"`; absent at its end"))),
-        (status = 422, description = "No part of the list", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "A page of the list", body = Vec<CampaignInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
+        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn list_campaigns(State(app): State<App>, Query(page): Query<Page>) -> Result<Response> {
     Ok(list::answer("/api/v1/campaigns", &page, app.engine.campaigns(&page).await?))
@@ -100,9 +100,9 @@ pub(crate) async fn show_campaign(
 #[utoipa::path(post, path = "/campaigns/{id}/cancel", tag = "curation",
     params(("id" = String, Path, description = "Campaign id")),
     responses(
-        (status = 200, description = "The campaign as it is now", body = CampaignInfo),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "No curator", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "The updated campaign", body = CampaignInfo),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such campaign", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn cancel_campaign(

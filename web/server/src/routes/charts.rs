@@ -22,7 +22,7 @@ const CSV: &str = "text/csv; charset=utf-8";
     responses(
         (status = 200, body = Board),
         (status = 400, description = "Unknown measure of accuracy", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The precision is none", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The precision is not valid", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn show_board(
     State(app): State<App>,
@@ -37,7 +37,7 @@ pub(crate) async fn show_board(
     params(BoardRequest),
     responses(
         (status = 200, description = "One line per algorithm with its settings", body = String, content_type = "text/csv"),
-        (status = 422, description = "The precision is none", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The precision is not valid", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn show_board_csv(
     State(app): State<App>,
@@ -55,7 +55,7 @@ pub(crate) async fn show_board_csv(
         (status = 200, body = Chart),
         (status = 400, description = "Unknown kind", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such run, or nothing to chart", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The selection cannot be read or applied", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The selection is not valid or cannot be applied", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn show_chart(
     State(app): State<App>,
@@ -72,7 +72,7 @@ pub(crate) async fn show_chart(
     responses(
         (status = 200, description = "One line per point", body = String, content_type = "text/csv"),
         (status = 404, description = "No such run, or nothing to chart", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The selection cannot be read or applied", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The selection is not valid or cannot be applied", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn chart_as_csv(
     State(app): State<App>,
@@ -90,7 +90,7 @@ pub(crate) async fn chart_as_csv(
     responses(
         (status = 200, description = "One row per point", body = [u8], content_type = "application/vnd.apache.parquet"),
         (status = 404, description = "No such run, or nothing to chart", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The selection cannot be read or applied", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The selection is not valid or cannot be applied", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn chart_as_parquet(
     State(app): State<App>,

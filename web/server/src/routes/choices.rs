@@ -15,7 +15,7 @@ use crate::problem::{Problem, Result};
 #[utoipa::path(get, path = "/account/choices", tag = "account",
     responses(
         (status = 200, body = Choices),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn show_choices(State(app): State<App>, Member(account): Member) -> Result<Answer<Choices>> {
     Ok(Answer(app.engine.choices(&account).await?))
@@ -24,8 +24,8 @@ pub(crate) async fn show_choices(State(app): State<App>, Member(account): Member
 /// Changes choices; what is absent stays as it is.
 #[utoipa::path(put, path = "/account/choices", tag = "account", request_body = NewChoices,
     responses(
-        (status = 200, description = "All choices as they are now", body = Choices),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "All current choices", body = Choices),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn choose(
     State(app): State<App>,
@@ -39,10 +39,10 @@ pub(crate) async fn choose(
 /// no more. The answer is the same whoever else has this address.
 #[utoipa::path(put, path = "/account/address", tag = "account", request_body = NewAddress,
     responses(
-        (status = 200, description = "All choices as they are now", body = Choices),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No address", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many tries", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "All current choices", body = Choices),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "Not an address", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many attempts", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn give_address(
     State(app): State<App>,
@@ -60,8 +60,8 @@ pub(crate) async fn give_address(
 /// Forgets the account's address, with all mails that wait to go there.
 #[utoipa::path(delete, path = "/account/address", tag = "account",
     responses(
-        (status = 200, description = "All choices as they are now", body = Choices),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "All current choices", body = Choices),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn forget_address(State(app): State<App>, Member(account): Member) -> Result<Answer<Choices>> {
     Ok(Answer(app.engine.forget_address(&account).await?))
@@ -70,10 +70,10 @@ pub(crate) async fn forget_address(State(app): State<App>, Member(account): Memb
 /// Confirms the account's address by the secret of the link that went there.
 #[utoipa::path(post, path = "/account/address/confirmation", tag = "account", request_body = OpenedLink,
     responses(
-        (status = 200, description = "All choices as they are now", body = Choices),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "The link confirms nothing of this account, or not any more: which of it is not said", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many tries", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "All current choices", body = Choices),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "The link is not valid for this account or has expired; the answer does not say which", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many attempts", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn confirm_address(
     State(app): State<App>,

@@ -17,7 +17,7 @@ use crate::problem::{Problem, Result};
     responses(
         (status = 200, body = Citation),
         (status = 404, description = "No such run, or nothing measured", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "It is under way", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "The run has not ended", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn cite_run(
     State(app): State<App>,

@@ -34,7 +34,7 @@ pub(crate) struct Colouring {
         (status = 200, body = Heatmap),
         (status = 404, description = "No such run, or no such values in it", body = Problem, content_type = "application/problem+json"),
         (status = 400, description = "Unknown measure, statistic, ...", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No such values: errors of a run that asked no distances, another object, ...", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No such values: errors of a run without distance queries, another object, ...", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn show_heatmap(
     State(app): State<App>,
@@ -55,7 +55,7 @@ pub(crate) async fn show_heatmap(
         (status = 200, body = VertexValue),
         (status = 404, description = "No such run, values or vertex", body = Problem, content_type = "application/problem+json"),
         (status = 400, description = "Unknown measure, statistic, ...", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No such values: errors of a run that asked no distances, another object, ...", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No such values: errors of a run without distance queries, another object, ...", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn show_vertex(
     State(app): State<App>,
@@ -77,7 +77,7 @@ pub(crate) async fn show_vertex(
         (status = 200, description = "The coloured mesh", body = [u8], content_type = "model/gltf-binary"),
         (status = 404, description = "No such run, or no such values in it", body = Problem, content_type = "application/problem+json"),
         (status = 400, description = "Unknown measure, colormap, ...", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No such values: errors of a run that asked no distances, another object, ...", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No such values: errors of a run without distance queries, another object, ...", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn heatmap_glb(
     State(app): State<App>,
@@ -96,7 +96,7 @@ pub(crate) async fn heatmap_glb(
         (status = 200, description = "The coloured mesh", body = [u8], content_type = "application/octet-stream"),
         (status = 404, description = "No such run, or no such values in it", body = Problem, content_type = "application/problem+json"),
         (status = 400, description = "Unknown measure, colormap, ...", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No such values: errors of a run that asked no distances, another object, ...", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No such values: errors of a run without distance queries, another object, ...", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn heatmap_ply(
     State(app): State<App>,

@@ -22,10 +22,10 @@ use crate::request_key::{IdempotencyKey, RequestKey};
     params(IdempotencyKey), request_body(content = InvitationRequest, example = json!({ "recipient": "Ada, of the GJK paper", "days": 14 })),
     responses(
         (status = 201, body = NewInvitation),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "No curator", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Too many are open", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "For nobody, or for too long", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Too many invitations are open", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No recipient, or valid for too long", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn invite(
     State(app): State<App>,
@@ -41,10 +41,10 @@ pub(crate) async fn invite(
 /// Invitations, newest first, without their secrets.
 #[utoipa::path(get, path = "/invitations", tag = "curation", params(Page),
     responses(
-        (status = 200, description = "A part of the list", body = Vec<InvitationInfo>, headers(("Link" = String, description = "Where the list goes on: `<...>; rel=\"next\"`; absent at its end"))),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "No curator", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No part of the list", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "A page of the list", body = Vec<InvitationInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn list_invitations(
     State(app): State<App>,
@@ -58,11 +58,11 @@ pub(crate) async fn list_invitations(
 #[utoipa::path(delete, path = "/invitations/{id}", tag = "curation",
     params(("id" = String, Path, description = "Invitation id")),
     responses(
-        (status = 200, description = "The invitation as it is now", body = InvitationInfo),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "No curator", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "The updated invitation", body = InvitationInfo),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such invitation", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Accepted or withdrawn before", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Already accepted or withdrawn", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn revoke_invitation(
     State(app): State<App>,
@@ -75,11 +75,11 @@ pub(crate) async fn revoke_invitation(
 /// Accepts an invitation for the account that is logged in, which is a developer from then on.
 #[utoipa::path(post, path = "/account/invitation", tag = "account", request_body = Acceptance,
     responses(
-        (status = 200, description = "The account as it is now", body = AccountInfo),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such invitation, or not any more: which of it is not said", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Is a developer already", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many tries", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "The updated account", body = AccountInfo),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "The invitation does not exist or has expired; the answer does not say which", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Already a developer", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many attempts", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn accept_invitation(
     State(app): State<App>,

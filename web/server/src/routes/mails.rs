@@ -14,11 +14,11 @@ use crate::problem::{Problem, Result};
 /// nothing. Mail programs send the same to the link itself, which `List-Unsubscribe` names (RFC 8058); what they send along is not
 /// read. Whoever opens the link sees a page with a button.
 #[utoipa::path(post, path = "/mails/off/{secret}", tag = "account",
-    params(("secret" = String, Path, description = "What stands behind the last `/` of the link",
+    params(("secret" = String, Path, description = "The part of the link after the last `/`",
         example = "5d0c4b7e9f1a4c6e8b3d2f1a0c9e8d7b6a5f4e3d2c1b40a98f7e6d5c4b3a2918")),
     responses(
-        (status = 204, description = "They are off"),
-        (status = 404, description = "The link turns nothing off, or not any more: which of it is not said", body = Problem, content_type = "application/problem+json"),
+        (status = 204, description = "Mail is turned off"),
+        (status = 404, description = "The link is not valid or has expired; the answer does not say which", body = Problem, content_type = "application/problem+json"),
         (status = 429, description = "Too many wrong links", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn turn_mails_off(

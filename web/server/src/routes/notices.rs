@@ -15,9 +15,9 @@ use crate::problem::{Problem, Result};
 /// What the account was told, newest first; the 500 newest are kept.
 #[utoipa::path(get, path = "/notices", tag = "account", params(Page),
     responses(
-        (status = 200, description = "A part of the list", body = Vec<NoticeInfo>, headers(("Link" = String, description = "Where the list goes on: `<...>; rel=\"next\"`; absent at its end"))),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No part of the list", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "A page of the list", body = Vec<NoticeInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn list_notices(
     State(app): State<App>,
@@ -31,8 +31,8 @@ pub(crate) async fn list_notices(
 #[utoipa::path(post, path = "/notices/{id}/read", tag = "account",
     params(("id" = String, Path, description = "Notice id")),
     responses(
-        (status = 200, description = "The notice as it is now", body = NoticeInfo),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "The updated notice", body = NoticeInfo),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such notice of this account", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn read_notice(
@@ -47,8 +47,8 @@ pub(crate) async fn read_notice(
 #[utoipa::path(delete, path = "/notices/{id}", tag = "account",
     params(("id" = String, Path, description = "Notice id")),
     responses(
-        (status = 204, description = "It is gone"),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
+        (status = 204, description = "Deleted"),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such notice of this account", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn remove_notice(

@@ -23,8 +23,8 @@ use crate::upload::Upload;
 /// published, newest first.
 #[utoipa::path(get, path = "/objects", tag = "objects", params(Page),
     responses(
-        (status = 200, description = "A part of the list", body = Vec<ObjectInfo>, headers(("Link" = String, description = "Where the list goes on: `<...>; rel=\"next\"`; absent at its end"))),
-        (status = 422, description = "No part of the list", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "A page of the list", body = Vec<ObjectInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
+        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn list_objects(
     State(app): State<App>,
@@ -49,9 +49,9 @@ struct UploadForm {
     request_body(content = inline(UploadForm), content_type = "multipart/form-data"), params(IdempotencyKey),
     responses(
         (status = 201, description = "The object", body = ObjectInfo),
-        (status = 400, description = "No well-formed upload", body = Problem, content_type = "application/problem+json"),
+        (status = 400, description = "The upload is not well-formed", body = Problem, content_type = "application/problem+json"),
         (status = 413, description = "Larger than 256 MiB", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No usable OBJ file; says line and reason", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "Not a usable OBJ file; the message has line and reason", body = Problem, content_type = "application/problem+json"),
         (status = 429, description = "Too many uploads; `Retry-After` says when to try again", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn add_object(
@@ -92,8 +92,8 @@ pub(crate) async fn show_object(
 #[utoipa::path(put, path = "/objects/{id}/visibility", tag = "objects", request_body = NewVisibility,
     params(("id" = String, Path, description = "Object id")),
     responses(
-        (status = 200, description = "The object as it is now", body = ObjectInfo),
-        (status = 403, description = "Somebody else's object, or a guest who publishes", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "The updated object", body = ObjectInfo),
+        (status = 403, description = "The object belongs to someone else, or a guest tries to publish", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn change_object_visibility(

@@ -21,7 +21,7 @@ pub(crate) async fn show_data(State(app): State<App>, Guest(guest): Guest) -> Re
 /// stay, because results belong to them.
 #[utoipa::path(delete, path = "/data", tag = "data",
     responses(
-        (status = 200, description = "What has gone", body = OwnedItems),
+        (status = 200, description = "What was deleted", body = OwnedItems),
         (status = 409, description = "A run is just ending", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn delete_all(State(app): State<App>, Guest(guest): Guest) -> Result<Json<OwnedItems>> {
@@ -39,8 +39,8 @@ pub(crate) async fn keep_longer(State(app): State<App>, Guest(guest): Guest) -> 
 /// scope.
 #[utoipa::path(get, path = "/data.tar", tag = "data",
     responses(
-        (status = 200, description = "A folder per thing, JSON beside OBJ and Parquet", body = [u8], content_type = "application/x-tar"),
-        (status = 429, description = "Too many archives are being sent", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "A folder per item, with JSON, OBJ and Parquet files", body = [u8], content_type = "application/x-tar"),
+        (status = 429, description = "Too many archives are being downloaded", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn export_data(
     State(app): State<App>,
@@ -58,8 +58,8 @@ pub(crate) async fn export_data(
 #[utoipa::path(get, path = "/runs/{id}/deletion-preview", tag = "data",
     params(("id" = String, Path, description = "Run id")),
     responses(
-        (status = 200, description = "What DELETE of the run takes away", body = OwnedItems),
-        (status = 403, description = "Somebody else's run", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "What DELETE of the run deletes", body = OwnedItems),
+        (status = 403, description = "The run belongs to someone else", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn deletion_preview_of_run(
@@ -74,10 +74,10 @@ pub(crate) async fn deletion_preview_of_run(
 #[utoipa::path(delete, path = "/runs/{id}", tag = "data",
     params(("id" = String, Path, description = "Run id")),
     responses(
-        (status = 200, description = "What has gone", body = OwnedItems),
-        (status = 403, description = "Somebody else's run", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "What was deleted", body = OwnedItems),
+        (status = 403, description = "The run belongs to someone else", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "It is just ending", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "The run is just ending", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn remove_run(
     State(app): State<App>,
@@ -91,8 +91,8 @@ pub(crate) async fn remove_run(
 #[utoipa::path(get, path = "/objects/{id}/deletion-preview", tag = "data",
     params(("id" = String, Path, description = "Object id")),
     responses(
-        (status = 200, description = "What DELETE of the object takes away", body = OwnedItems),
-        (status = 403, description = "Somebody else's object", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "What DELETE of the object deletes", body = OwnedItems),
+        (status = 403, description = "The object belongs to someone else", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn deletion_preview_of_object(
@@ -107,10 +107,10 @@ pub(crate) async fn deletion_preview_of_object(
 #[utoipa::path(delete, path = "/objects/{id}", tag = "data",
     params(("id" = String, Path, description = "Object id")),
     responses(
-        (status = 200, description = "What has gone", body = OwnedItems),
-        (status = 403, description = "Somebody else's object", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "What was deleted", body = OwnedItems),
+        (status = 403, description = "The object belongs to someone else", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "A run with it is just ending", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "A run with this object is just ending", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn remove_object(
     State(app): State<App>,

@@ -14,10 +14,10 @@ use crate::problem::{Problem, Result};
 /// Accounts, newest first; those that want to be developers say why.
 #[utoipa::path(get, path = "/accounts", tag = "curation", params(Page),
     responses(
-        (status = 200, description = "A part of the list", body = Vec<AccountInfo>, headers(("Link" = String, description = "Where the list goes on: `<...>; rel=\"next\"`; absent at its end"))),
-        (status = 422, description = "No part of the list", body = Problem, content_type = "application/problem+json"),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "No curator", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "A page of the list", body = Vec<AccountInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
+        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn list_accounts(
     State(app): State<App>,
@@ -31,11 +31,11 @@ pub(crate) async fn list_accounts(
 #[utoipa::path(post, path = "/accounts/{id}/role", tag = "curation", request_body = NewRole,
     params(("id" = String, Path, description = "Account id")),
     responses(
-        (status = 200, description = "The account as it is now", body = AccountInfo),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "Not for this curator to decide", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "The updated account", body = AccountInfo),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "Not permitted for this curator", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such account", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No role", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "Not a role", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn change_role(
     State(app): State<App>,

@@ -39,8 +39,8 @@ fn account(viewer: &Viewer) -> Option<&AccountInfo> {
 /// The public plugins and those of the visitor, newest first; each one's report and history stand on its own page.
 #[utoipa::path(get, path = "/plugins", tag = "plugins", params(Page),
     responses(
-        (status = 200, description = "A part of the list", body = Vec<PluginInfo>, headers(("Link" = String, description = "Where the list goes on: `<...>; rel=\"next\"`; absent at its end"))),
-        (status = 422, description = "No part of the list", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "A page of the list", body = Vec<PluginInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
+        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn list_plugins(State(app): State<App>, viewer: Viewer, Query(page): Query<Page>) -> Result<Response> {
     Ok(list::answer("/api/v1/plugins", &page, app.engine.plugins(account(&viewer), &page).await?))
@@ -63,14 +63,14 @@ struct SubmissionForm {
 #[utoipa::path(post, path = "/plugins", tag = "plugins",
     request_body(content = inline(SubmissionForm), content_type = "multipart/form-data"), params(IdempotencyKey),
     responses(
-        (status = 201, description = "Stored; its check waits in the queue", body = PluginInfo),
-        (status = 200, description = "Was there already", body = PluginInfo),
-        (status = 400, description = "No such form", body = Problem, content_type = "application/problem+json"),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "No developer", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Too many plugins wait, or the quota is used up", body = Problem, content_type = "application/problem+json"),
+        (status = 201, description = "Stored; its check is queued", body = PluginInfo),
+        (status = 200, description = "Already submitted", body = PluginInfo),
+        (status = 400, description = "The form is not valid", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "Not a developer", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Too many plugins are waiting, or the quota is used up", body = Problem, content_type = "application/problem+json"),
         (status = 413, description = "Too large", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No plugin, no manifest, or a signature that does not fit", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No plugin, no manifest, or a signature that does not match", body = Problem, content_type = "application/problem+json"),
         (status = 429, description = "Too many uploads", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn submit_plugin(
@@ -119,7 +119,7 @@ pub(crate) async fn show_plugin(
     params(("id" = String, Path, description = "Plugin id")),
     responses(
         (status = 200, description = "The events", body = PluginInfo, content_type = "text/event-stream"),
-        (status = 204, description = "The check is through"),
+        (status = 204, description = "The check has ended"),
         (status = 404, description = "No such plugin", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn follow_plugin(State(app): State<App>, viewer: Viewer, Path(id): Path<String>) -> Result<Response> {
@@ -168,12 +168,12 @@ impl Follower {
 #[utoipa::path(post, path = "/plugins/{id}/decisions", tag = "plugins", request_body = Decision,
     params(("id" = String, Path, description = "Plugin id")),
     responses(
-        (status = 200, description = "The plugin as it is now", body = PluginInfo),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "Somebody else's to decide", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "The updated plugin", body = PluginInfo),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "Not permitted for this account", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such plugin", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Not a step from where it is", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No such step, or no reason", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Not possible in the plugin's current state", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "Unknown action, or no reason", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn decide(
     State(app): State<App>,
@@ -187,10 +187,10 @@ pub(crate) async fn decide(
 /// Everything that waits for a curator, oldest first.
 #[utoipa::path(get, path = "/curation", tag = "curation", params(Page),
     responses(
-        (status = 200, description = "A part of the list", body = Vec<PluginInfo>, headers(("Link" = String, description = "Where the list goes on: `<...>; rel=\"next\"`; absent at its end"))),
-        (status = 422, description = "No part of the list", body = Problem, content_type = "application/problem+json"),
-        (status = 401, description = "Nobody is logged in", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "No curator", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "A page of the list", body = Vec<PluginInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
+        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn list_curation(
     State(app): State<App>,

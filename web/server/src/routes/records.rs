@@ -38,7 +38,7 @@ pub(crate) struct OfSelection {
     responses(
         (status = 200, body = Ecdf),
         (status = 404, description = "No such run, or no records of this algorithm", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The selection cannot be read or applied", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The selection is not valid or cannot be applied", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn show_ecdf(
     State(app): State<App>,
@@ -54,7 +54,7 @@ pub(crate) async fn show_ecdf(
     responses(
         (status = 200, description = "One row per configuration", body = [u8], content_type = "application/vnd.apache.parquet"),
         (status = 404, description = "No such run, or no records of this algorithm", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The selection cannot be read or applied", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The selection is not valid or cannot be applied", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn records_parquet(
     State(app): State<App>,
@@ -74,7 +74,7 @@ pub(crate) async fn records_parquet(
     responses(
         (status = 200, description = "One line per configuration", body = String, content_type = "text/csv"),
         (status = 404, description = "No such run, or no records of this algorithm", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The selection cannot be read or applied", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The selection is not valid or cannot be applied", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn records_csv(
     State(app): State<App>,
@@ -107,8 +107,8 @@ pub(crate) async fn configurations_parquet(State(app): State<App>, Path(id): Pat
     responses(
         (status = 200, description = "recipe.json lists the files: configurations, answers, objects, and plugins under free licences", body = [u8], content_type = "application/zip"),
         (status = 404, description = "No such run, or no configurations", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "It is under way, or was measured by too old a version", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many archives are being sent", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "The run has not ended, or was measured by a version that is too old", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many archives are being downloaded", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn repro_zip(State(app): State<App>, Path(id): Path<String>) -> Result<Response> {
     app.archives.send("application/zip", &format!("{id}-repro.zip"), app.engine.repro(&id)).await

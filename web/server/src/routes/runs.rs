@@ -31,7 +31,7 @@ fn example() -> serde_json::Value {
 #[utoipa::path(post, path = "/estimates", tag = "runs", request_body(content = RunSpec, example = json!(example())),
     responses(
         (status = 200, body = Estimate),
-        (status = 400, description = "No JSON", body = Problem, content_type = "application/problem+json"),
+        (status = 400, description = "Not JSON", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "The spec cannot be run", body = Problem, content_type = "application/problem+json"),
     ))]
@@ -47,12 +47,12 @@ pub(crate) async fn estimate_run(
 #[utoipa::path(post, path = "/runs", tag = "runs", request_body(content = RunSpec, example = json!(example())),
     params(IdempotencyKey),
     responses(
-        (status = 200, description = "Was asked for before under this key", body = RunInfo),
-        (status = 201, description = "Queued; `Location` names it", body = RunInfo),
-        (status = 400, description = "No JSON", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "Already requested with this key", body = RunInfo),
+        (status = 201, description = "Queued; its address is in `Location`", body = RunInfo),
+        (status = 400, description = "Not JSON", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The spec cannot be run, or asks for more time than its owner may have", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too much waits or is under way; `Retry-After` says when to try again", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The spec cannot be run, or exceeds the owner's time limit", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many runs are queued or running; `Retry-After` says when to try again", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn start_run(
     State(app): State<App>,
@@ -72,8 +72,8 @@ pub(crate) async fn start_run(
 /// The visitor's runs, newest first. A part holds fewer than asked for where the object of a run was hidden from them.
 #[utoipa::path(get, path = "/runs", tag = "runs", params(Page),
     responses(
-        (status = 200, description = "A part of the list", body = Vec<RunInfo>, headers(("Link" = String, description = "Where the list goes on: `<...>; rel=\"next\"`; absent at its end"))),
-        (status = 422, description = "No part of the list", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "A page of the list", body = Vec<RunInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
+        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn list_runs(
     State(app): State<App>,
@@ -102,8 +102,8 @@ pub(crate) async fn show_run(
 #[utoipa::path(post, path = "/runs/{id}/cancel", tag = "runs",
     params(("id" = String, Path, description = "Run id")),
     responses(
-        (status = 200, description = "The run as it is now", body = RunInfo),
-        (status = 403, description = "Somebody else's run", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "The updated run", body = RunInfo),
+        (status = 403, description = "The run belongs to someone else", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn cancel_run(
@@ -126,11 +126,11 @@ pub(crate) async fn cancel_run(
 #[utoipa::path(post, path = "/runs/{id}/refine", tag = "runs",
     params(("id" = String, Path, description = "Run id")),
     responses(
-        (status = 200, description = "The run as it is now", body = RunInfo),
-        (status = 403, description = "Somebody else's run", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "The updated run", body = RunInfo),
+        (status = 403, description = "The run belongs to someone else", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "No preview, or under way", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "It cannot be run any more", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "Not a preview, or not ended", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "It can no longer be run", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn refine_run(
     State(app): State<App>,
@@ -144,10 +144,10 @@ pub(crate) async fn refine_run(
 #[utoipa::path(put, path = "/runs/{id}/visibility", tag = "runs", request_body = NewVisibility,
     params(("id" = String, Path, description = "Run id")),
     responses(
-        (status = 200, description = "The run as it is now", body = RunInfo),
-        (status = 403, description = "Somebody else's run, or a guest who publishes", body = Problem, content_type = "application/problem+json"),
+        (status = 200, description = "The updated run", body = RunInfo),
+        (status = 403, description = "The run belongs to someone else, or a guest tries to publish", body = Problem, content_type = "application/problem+json"),
         (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "An object or a plugin of it is seen by fewer", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "An object or plugin of the run is less visible", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn change_run_visibility(
     State(app): State<App>,

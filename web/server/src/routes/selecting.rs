@@ -31,7 +31,7 @@ pub(crate) struct Where {
     responses(
         (status = 200, body = Selected),
         (status = 404, description = "No such run, or no records of an algorithm", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The selection cannot be read or applied", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The selection is not valid or cannot be applied", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn show_selection(
     State(app): State<App>,
@@ -47,7 +47,7 @@ pub(crate) async fn show_selection(
     responses(
         (status = 200, body = Vec<WorstCase>),
         (status = 404, description = "No such run, or no records of this algorithm", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No such list: errors of a run that asked no distances, a selection that cannot be read", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "No such list: errors of a run without distance queries, an invalid selection", body = Problem, content_type = "application/problem+json"),
     ))]
 pub(crate) async fn list_worst(
     State(app): State<App>,

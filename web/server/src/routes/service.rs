@@ -26,6 +26,6 @@ pub(crate) async fn show_document() -> Json<&'static utoipa::openapi::OpenApi> {
 
 /// Answers a method that a route does not have.
 pub(crate) async fn wrong_method() -> Problem {
-    let detail = "This route does not take that method; /api/v1/openapi.json lists what it takes.";
+    let detail = "This route does not support this method; /api/v1/openapi.json lists the supported methods.";
     Problem::new(StatusCode::METHOD_NOT_ALLOWED, detail)
 }

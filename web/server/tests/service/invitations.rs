@@ -71,7 +71,7 @@ async fn an_invitation_makes_one_developer() {
     assert_eq!(accept(&bob, &json!(operators.secret)).await.status(), StatusCode::OK);
     let log = service.engine.audit(&format!("invitation:{id}")).await.expect("a log");
     let told: Vec<_> = log.iter().map(|entry| (entry.actor.as_str(), entry.action.as_str())).collect();
-    assert_eq!(told, [("curator", "invitation made"), ("ada", "invitation accepted")]);
+    assert_eq!(told, [("curator", "invitation created"), ("ada", "invitation accepted")]);
     let bob = bob.json("/api/v1/account").await["account"]["id"].as_str().expect("an id").to_owned();
     let log = service.engine.audit(&format!("account:{bob}")).await.expect("a log");
     assert!(log.iter().any(|entry| entry.detail == "user to developer, invited"), "{log:?}");

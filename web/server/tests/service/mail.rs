@@ -113,7 +113,7 @@ async fn what_people_write_is_no_line_of_a_head() {
     // Nobody says an address in two lines, or two in one.
     for odd in ["ada@example.org\r\nBcc: eve@example.org", "ada@example.org, eve@example.org", "Ada <ada@example.org>"]
     {
-        assert!(problem(give(&author, odd).await, 422).await.contains("looks like"), "{odd}");
+        assert!(problem(give(&author, odd).await, 422).await.contains("look like"), "{odd}");
     }
     let evil = "No.\r\nBcc: eve@example.org\r\n\r\nInstead\r\n.\r\nMAIL FROM:<eve@example.org>\r\n";
     well(decide(&curator, &plugin, "ask", evil).await).await;

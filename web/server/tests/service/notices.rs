@@ -33,7 +33,7 @@ async fn an_author_is_told_of_every_step_that_others_take() {
     let name = format!("Your plugin {} 1.0 ", manifest("1.0")["name"].as_str().expect("a name"));
     let expected = [
         "passed its check",
-        "raises a question",
+        "needs an answer",
         "was rejected",
         "was reinstated",
         "was suspended",

@@ -49,7 +49,7 @@ async fn an_object_goes_with_what_was_made_with_it_and_with_no_file_of_others() 
     let bytes = shown["bytes"].as_u64().expect("bytes");
     assert!(bytes > 0 && service.blobs() == before, "{shown:#}");
     let taken = other.request(Method::DELETE, &path).send().await.expect("an answer");
-    assert!(problem(taken, 403).await.starts_with("Only who"));
+    assert!(problem(taken, 403).await.starts_with("Only the owner"));
 
     assert_eq!(remove(&owner, &path).await, shown);
     for path in

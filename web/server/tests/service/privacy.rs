@@ -263,7 +263,7 @@ async fn what_is_public_is_in_the_lists_of_others_and_only_accounts_publish() {
     for resource in ["runs", "objects"] {
         let path = format!("/api/v1/{resource}/{}/visibility", made.id(resource));
         let taken = stranger.request(Method::PUT, &path).json(&json!({ "visibility": "private" })).send().await;
-        assert!(problem(taken.expect("an answer"), 403).await.starts_with("Only who"));
+        assert!(problem(taken.expect("an answer"), 403).await.starts_with("Only the owner"));
     }
     let stock = stranger.request(Method::PUT, "/api/v1/objects/stock:box@500/visibility");
     let hidden = stock.json(&json!({ "visibility": "private" })).send().await.expect("an answer");

@@ -142,7 +142,7 @@ async fn what_is_no_plugin_is_refused_before_anything_is_kept() {
     let author = member(&service, "author", Role::Developer).await;
     let elf = || b"\x7fELF and nothing behind it".to_vec();
     let told = problem(submit(&author, &manifest("1.0"), b"hello".to_vec()).await, 422).await;
-    assert!(told.contains("no ELF file"), "{told}");
+    assert!(told.contains("not an ELF file"), "{told}");
     for (field, value, expected) in [
         ("license", json!("free as in beer"), "SPDX"),
         ("version", json!("one two"), "version"),
@@ -184,13 +184,13 @@ async fn a_signature_is_that_of_this_file_by_the_registered_key() {
     };
     assert!(problem(send(SIGNED, SIGNATURE).await, 422).await.contains("register your minisign.pub"));
     let register = |key: &str| author.post("/api/v1/account/signing-key").json(&json!({ "public_key": key })).send();
-    assert!(problem(register("RWnonsense").await.expect("an answer"), 422).await.contains("no public key"));
+    assert!(problem(register("RWnonsense").await.expect("an answer"), 422).await.contains("not a minisign public key"));
     let known = well(register(KEY).await.expect("an answer")).await;
     let key = KEY.lines().last().expect("a key");
     assert_eq!(known["signing_key"], key);
     assert_eq!(author.json("/api/v1/account").await["account"]["signing_key"], key);
 
-    assert!(problem(send(b"\x7fELF and more", SIGNATURE).await, 422).await.contains("not that of this file"));
+    assert!(problem(send(b"\x7fELF and more", SIGNATURE).await, 422).await.contains("does not match this file"));
     assert!(problem(send(SIGNED, "a scribble").await, 422).await.contains("cannot be read"));
     problem(send(SIGNED, &"x".repeat(5000)).await, 413).await;
     assert_eq!(author.json("/api/v1/plugins").await, json!([]), "nothing of these is kept");

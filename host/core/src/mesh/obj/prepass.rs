@@ -240,7 +240,7 @@ impl Pass {
         let warnings = &mut self.clean.warnings;
         for (word, count, line) in &self.skipped {
             let meaning = match word.as_str() {
-                "l" | "p" => "lines and points are no surface",
+                "l" | "p" => "lines and points are not surfaces",
                 "vp" | "cstype" | "deg" | "bmat" | "step" | "curv" | "curv2" | "surf" | "parm" | "trim" | "hole"
                 | "scrv" | "sp" | "end" | "con" => "free-form curves and surfaces are not read",
                 _ => "only vertices and faces are read",

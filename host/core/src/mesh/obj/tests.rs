@@ -59,7 +59,7 @@ fn index_errors_name_line_and_reason() {
     assert_eq!(error(with("f 1 2 4")), "line 4: vertex number 4, but the file has only 3 vertices; correct the number");
     assert_eq!(
         error(with("f -4 -2 -1")),
-        "line 4: vertex number -4 counts back 4 vertices, but only 3 stand above; correct the number"
+        "line 4: vertex number -4 counts back 4 vertices, but only 3 precede it; correct the number"
     );
     assert_eq!(error(with("f 0 1 2")), "line 4: vertex number 0, but vertices are numbered from 1");
     assert!(error(with("f 1 2 -9223372036854775808")).starts_with("line 4: vertex number -9223372036854775808 counts"));
@@ -125,7 +125,7 @@ fn groups_and_materials_do_not_renumber() {
     let read = ok(text);
     assert_eq!(read.mesh.triangles(), [[1, 2, 3], [4, 1, 3], [2, 4, 1]]);
     assert_eq!(read.mesh.positions()[0], Point3::new(9.0, 9.0, 9.0));
-    assert_eq!(read.warnings, ["1 of 5 vertices belong to no face; they keep their numbers."]);
+    assert_eq!(read.warnings, ["1 of 5 vertices are not used by any face; they keep their numbers."]);
 }
 
 #[test]
@@ -141,8 +141,8 @@ fn what_is_not_read_is_said() {
     assert_eq!(
         read.warnings,
         [
-            "Skipped 1 line(s) starting with 'l', the first in line 4: lines and points are no surface.",
-            "Skipped 1 line(s) starting with 'p', the first in line 5: lines and points are no surface.",
+            "Skipped 1 line(s) starting with 'l', the first in line 4: lines and points are not surfaces.",
+            "Skipped 1 line(s) starting with 'p', the first in line 5: lines and points are not surfaces.",
             "Skipped 1 line(s) starting with 'cstype', the first in line 6: free-form curves and surfaces are not read.",
             "Skipped 2 line(s) starting with 'frobnicate', the first in line 7: only vertices and faces are read.",
             "Skipped 1 face(s) with fewer than 3 corners, the first in line 9.",

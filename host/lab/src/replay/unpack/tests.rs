@@ -57,11 +57,11 @@ fn what_is_no_archive_of_ours_is_refused() {
     for bytes in [&b""[..], b"PK", b"PK\x05\x06", &[0; 4096]] {
         std::fs::write(file.path(), bytes).unwrap();
         let Err(LabError::Invalid(told)) = Unpacked::read(file.path()) else { panic!("{bytes:?} was accepted") };
-        assert!(told.contains("it is no zip archive"), "{told}");
+        assert!(told.contains("it is not a zip archive"), "{told}");
     }
     assert!(refused(&[]).contains("recipe.json"));
     assert!(refused(&[("poses", b"x")]).contains("recipe.json"));
-    assert!(refused(&[(RECIPE, b"{")]).contains("is no JSON"));
+    assert!(refused(&[(RECIPE, b"{")]).contains("is not valid JSON"));
     assert!(refused(&[(RECIPE, b"{}")]).contains("its format is none"));
     assert!(changed(|recipe| recipe["format"] = json!(2)).contains("its format is 2"));
     assert!(changed(|recipe| recipe["surprise"] = json!(1)).contains("surprise"));
@@ -83,7 +83,7 @@ fn files_must_be_listed_there_and_the_same() {
     assert!(changed(|recipe| recipe["configurations"] = json!("elsewhere")).contains("does not list it"));
     for path in ["../poses", "/etc/passwd", "a/../../b", "a//b", "", ".hidden", "a\\b", "a\u{0}b", "C:x"] {
         let told = changed(|recipe| recipe["files"][0]["path"] = json!(path));
-        assert!(told.contains("is no path inside an archive") || told.contains("does not list"), "{path}: {told}");
+        assert!(told.contains("is not a path inside an archive") || told.contains("does not list"), "{path}: {told}");
     }
     for path in ["../poses", "/etc/passwd", "a/../../b"] {
         let told = refused(&[good, (path, b"x")]);

@@ -50,7 +50,7 @@ pub async fn brought(store: &Store, blobs: &Blobs, data: &Path) -> Result<AllBro
                 tracing::error!("plugin {}: {e}", row.id);
                 let (name, version) = (&row.manifest.name, &row.manifest.version);
                 problems.push(format!(
-                    "The plugin {name} {version} cannot be read and is not offered; see the log of the service."
+                    "The plugin {name} {version} cannot be read and is not available; see the log of the service."
                 ));
                 continue;
             }
