@@ -79,6 +79,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/account/deletion-preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** What would go with the account and what would stay, and why it cannot be deleted, if so. */
+        get: operations["show_deletion_preview"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/account/developer": {
         parameters: {
             query?: never;
@@ -107,23 +124,6 @@ export interface paths {
         put?: never;
         /** Accepts an invitation for the account that is logged in, which is a developer from then on. */
         post: operations["accept_invitation"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/account/deletion-preview": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** What would go with the account and what would stay, and why it cannot be deleted, if so. */
-        get: operations["show_deletion_preview"];
-        put?: never;
-        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -513,6 +513,65 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/data": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Everything that the visitor has made, which is what `DELETE` takes away, and until when it stays. */
+        get: operations["show_data"];
+        put?: never;
+        post?: never;
+        /**
+         * Takes away everything that the visitor has made, with the stored files that nobody else uses; runs under way end. Plugins
+         *     stay, because results belong to them.
+         */
+        delete: operations["delete_all"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/data.tar": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Everything that the visitor has made, to take along: objects, runs with their configurations and records, advice with its
+         *     reduced objects, plugins with their reports, the account and its notices. A token gets no account data, and plugins only with their
+         *     scope.
+         */
+        get: operations["export_data"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/data/keep": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Keeps what a guest has made for as long again, from now on. */
+        post: operations["keep_longer"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/estimates": {
         parameters: {
             query?: never;
@@ -702,6 +761,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/objects/{id}/deletion-preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** What goes with an object: the visitor's runs and advice with it. */
+        get: operations["deletion_preview_of_object"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/objects/{id}/mesh.glb": {
         parameters: {
             query?: never;
@@ -714,23 +790,6 @@ export interface paths {
          *     the records and heatmaps.
          */
         get: operations["object_mesh"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/objects/{id}/deletion-preview": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** What goes with an object: the visitor's runs and advice with it. */
-        get: operations["deletion_preview_of_object"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1040,6 +1099,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{id}/deletion-preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** What goes with a run. */
+        get: operations["deletion_preview_of_run"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{id}/ecdf": {
         parameters: {
             query?: never;
@@ -1221,23 +1297,6 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/runs/{id}/deletion-preview": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** What goes with a run. */
-        get: operations["deletion_preview_of_run"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
     "/api/v1/runs/{id}/vertices/{vertex}": {
         parameters: {
             query?: never;
@@ -1360,65 +1419,6 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/data": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** Everything that the visitor has made, which is what `DELETE` takes away, and until when it stays. */
-        get: operations["show_data"];
-        put?: never;
-        post?: never;
-        /**
-         * Takes away everything that the visitor has made, with the stored files that nobody else uses; runs under way end. Plugins
-         *     stay, because results belong to them.
-         */
-        delete: operations["delete_all"];
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/data.tar": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Everything that the visitor has made, to take along: objects, runs with their configurations and records, advice with its
-         *     reduced objects, plugins with their reports, the account and its notices. A token gets no account data, and plugins only with their
-         *     scope.
-         */
-        get: operations["take_along"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/data/keep": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /** Keeps what a guest has made for as long again, from now on. */
-        post: operations["keep_longer"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
@@ -1435,6 +1435,8 @@ export interface components {
              * @description When it was made.
              */
             created_us: number;
+            /** @description Why its owner wants to be a developer, while that is undecided. */
+            developer_request?: string | null;
             /** @description Its id. */
             id: string;
             /** @description Its name, as it is shown beside plugins. */
@@ -1443,8 +1445,6 @@ export interface components {
             role: components["schemas"]["Role"];
             /** @description The minisign key that its plugins may be signed with. */
             signing_key?: string | null;
-            /** @description Why its owner wants to be a developer, while that is undecided. */
-            developer_request?: string | null;
         };
         /**
          * @description A measure of accuracy.
@@ -2424,10 +2424,57 @@ export interface components {
             reason?: string;
         };
         /**
+         * @description Deleting one's account.
+         * @example {
+         *       "password": "correct horse battery staple"
+         *     }
+         */
+        DeleteAccount: {
+            /** @description The password, once more. */
+            password: string;
+        };
+        /**
+         * @description What becomes of an account's things when it is deleted.
+         * @example {
+         *       "blocked_by": null,
+         *       "bytes": 7340032,
+         *       "goes": {
+         *         "advice": 1,
+         *         "objects": 3,
+         *         "plugins": 1,
+         *         "runs": 12
+         *       },
+         *       "stays": {
+         *         "advice": 0,
+         *         "objects": 1,
+         *         "plugins": 1,
+         *         "runs": 2
+         *       }
+         *     }
+         */
+        DeletionPreview: {
+            /** @description Why the account cannot be deleted now, and how to mend that. */
+            blocked_by?: string | null;
+            /**
+             * Format: int64
+             * @description Bytes of the stored files that go: those that nobody else uses.
+             */
+            bytes: number;
+            /** @description What is not public is deleted, with everything that the account was told and has chosen. */
+            goes: components["schemas"]["OwnedCounts"];
+            /** @description What is public stays, because it is cited, and belongs to a former account without a name. A plugin stays once it was public. */
+            stays: components["schemas"]["OwnedCounts"];
+        };
+        /**
          * @description What an algorithm delivered, as its answers show.
          * @enum {string}
          */
         Delivered: "first_contact" | "all_contacts" | "distance" | "distance_with_witness";
+        /** @description Why somebody wants to be a developer. */
+        DeveloperRequest: {
+            /** @description A sentence or two for the curators. */
+            reason: string;
+        };
         /** @description The worst errors of distances. */
         DistanceError: {
             /**
@@ -2663,16 +2710,6 @@ export interface components {
             thresholds: components["schemas"]["ThresholdInfo"][];
         };
         /**
-         * @description Deleting one's account.
-         * @example {
-         *       "password": "correct horse battery staple"
-         *     }
-         */
-        DeleteAccount: {
-            /** @description The password, once more. */
-            password: string;
-        };
-        /**
          * @description How a series is drawn.
          * @enum {string}
          */
@@ -2811,61 +2848,6 @@ export interface components {
          * @enum {string}
          */
         InvitationState: "open" | "accepted" | "revoked" | "expired";
-        /**
-         * @description What becomes of an account's things when it is deleted.
-         * @example {
-         *       "bytes": 7340032,
-         *       "goes": {
-         *         "advice": 1,
-         *         "objects": 3,
-         *         "plugins": 1,
-         *         "runs": 12
-         *       },
-         *       "blocked_by": null,
-         *       "stays": {
-         *         "advice": 0,
-         *         "objects": 1,
-         *         "plugins": 1,
-         *         "runs": 2
-         *       }
-         *     }
-         */
-        DeletionPreview: {
-            /**
-             * Format: int64
-             * @description Bytes of the stored files that go: those that nobody else uses.
-             */
-            bytes: number;
-            /** @description What is not public is deleted, with everything that the account was told and has chosen. */
-            goes: components["schemas"]["OwnedCounts"];
-            /** @description Why the account cannot be deleted now, and how to mend that. */
-            blocked_by?: string | null;
-            /** @description What is public stays, because it is cited, and belongs to a former account without a name. A plugin stays once it was public. */
-            stays: components["schemas"]["OwnedCounts"];
-        };
-        /** @description How many of each. */
-        OwnedCounts: {
-            /**
-             * Format: int32
-             * @description Pieces of advice.
-             */
-            advice: number;
-            /**
-             * Format: int32
-             * @description Objects.
-             */
-            objects: number;
-            /**
-             * Format: int32
-             * @description Plugins, each version by itself.
-             */
-            plugins: number;
-            /**
-             * Format: int32
-             * @description Runs with their results.
-             */
-            runs: number;
-        };
         /** @description One level of one object. */
         LevelFacts: {
             /**
@@ -3162,6 +3144,58 @@ export interface components {
          * @enum {string}
          */
         Outliers: "keep" | "per_vertex" | "global";
+        /** @description How many of each. */
+        OwnedCounts: {
+            /**
+             * Format: int32
+             * @description Pieces of advice.
+             */
+            advice: number;
+            /**
+             * Format: int32
+             * @description Objects.
+             */
+            objects: number;
+            /**
+             * Format: int32
+             * @description Plugins, each version by itself.
+             */
+            plugins: number;
+            /**
+             * Format: int32
+             * @description Runs with their results.
+             */
+            runs: number;
+        };
+        /** @description A run or an object, as lists call it. */
+        OwnedItem: {
+            /** @description Its id. */
+            id: string;
+            /** @description Its name; of a run, those of its objects. */
+            name: string;
+        };
+        /** @description Runs, objects and advice of one owner: all of them, or those that go with one of them. */
+        OwnedItems: {
+            /**
+             * Format: int32
+             * @description How many pieces of advice.
+             */
+            advice: number;
+            /**
+             * Format: int64
+             * @description Bytes of the stored files that go with them: those that nobody else uses.
+             */
+            bytes: number;
+            /**
+             * Format: int64
+             * @description When a guest's things go by themselves; absent for accounts, whose things stay.
+             */
+            kept_until_us?: number | null;
+            /** @description Objects, newest first. */
+            objects: components["schemas"]["OwnedItem"][];
+            /** @description Runs with their results, newest first. */
+            runs: components["schemas"]["OwnedItem"][];
+        };
         /** @description A knob of an algorithm. */
         ParameterInfo: {
             /**
@@ -4180,35 +4214,6 @@ export interface components {
              */
             wrong: number;
         };
-        /** @description A run or an object, as lists call it. */
-        OwnedItem: {
-            /** @description Its id. */
-            id: string;
-            /** @description Its name; of a run, those of its objects. */
-            name: string;
-        };
-        /** @description Runs, objects and advice of one owner: all of them, or those that go with one of them. */
-        OwnedItems: {
-            /**
-             * Format: int32
-             * @description How many pieces of advice.
-             */
-            advice: number;
-            /**
-             * Format: int64
-             * @description Bytes of the stored files that go with them: those that nobody else uses.
-             */
-            bytes: number;
-            /**
-             * Format: int64
-             * @description When a guest's things go by themselves; absent for accounts, whose things stay.
-             */
-            kept_until_us?: number | null;
-            /** @description Objects, newest first. */
-            objects: components["schemas"]["OwnedItem"][];
-            /** @description Runs with their results, newest first. */
-            runs: components["schemas"]["OwnedItem"][];
-        };
         /** @description One side of eps*. */
         Threshold: {
             /**
@@ -4453,11 +4458,6 @@ export interface components {
          * @enum {string}
          */
         Visibility: "private" | "unlisted" | "public";
-        /** @description Why somebody wants to be a developer. */
-        DeveloperRequest: {
-            /** @description A sentence or two for the curators. */
-            reason: string;
-        };
         /** @description One of the worst configurations of an algorithm. */
         WorstCase: {
             claim?: components["schemas"]["Claim"] | null;
@@ -5127,6 +5127,43 @@ export interface operations {
             };
         };
     };
+    show_deletion_preview: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DeletionPreview"];
+                };
+            };
+            /** @description Not authenticated */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     ask_to_develop: {
         parameters: {
             query?: never;
@@ -5326,43 +5363,6 @@ export interface operations {
             };
             /** @description Too many attempts */
             429: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    show_deletion_preview: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["DeletionPreview"];
-                };
-            };
-            /** @description Not authenticated */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
-            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -7008,6 +7008,156 @@ export interface operations {
             };
         };
     };
+    show_data: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OwnedItems"];
+                };
+            };
+            /** @description The token in `Authorization` is not valid */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    delete_all: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description What was deleted */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OwnedItems"];
+                };
+            };
+            /** @description The token in `Authorization` is not valid */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A run is just ending */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    export_data: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description A folder per item, with JSON, OBJ and Parquet files */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/x-tar": number[];
+                };
+            };
+            /** @description The token in `Authorization` is not valid */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many archives are being downloaded */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    keep_longer: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OwnedItems"];
+                };
+            };
+            /** @description The token in `Authorization` is not valid */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     estimate_run: {
         parameters: {
             query?: never;
@@ -7905,63 +8055,6 @@ export interface operations {
             };
         };
     };
-    object_mesh: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                /** @description Object id */
-                id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description The mesh */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "model/gltf-binary": number[];
-                };
-            };
-            /** @description Unchanged (If-None-Match) */
-            304: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content?: never;
-            };
-            /** @description The address cannot be read */
-            400: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The token in `Authorization` is not valid */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description No such object */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
     deletion_preview_of_object: {
         parameters: {
             query?: never;
@@ -8003,6 +8096,63 @@ export interface operations {
             };
             /** @description The object belongs to someone else */
             403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such object */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    object_mesh: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Object id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The mesh */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "model/gltf-binary": number[];
+                };
+            };
+            /** @description Unchanged (If-None-Match) */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not valid */
+            401: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -9415,6 +9565,65 @@ export interface operations {
             };
         };
     };
+    deletion_preview_of_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Run id */
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description What DELETE of the run deletes */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OwnedItems"];
+                };
+            };
+            /** @description The address cannot be read */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The token in `Authorization` is not valid */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The run belongs to someone else */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     show_ecdf: {
         parameters: {
             query: {
@@ -10109,65 +10318,6 @@ export interface operations {
             };
         };
     };
-    deletion_preview_of_run: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                /** @description Run id */
-                id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description What DELETE of the run deletes */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["OwnedItems"];
-                };
-            };
-            /** @description The address cannot be read */
-            400: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The token in `Authorization` is not valid */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The run belongs to someone else */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description No such run */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
     show_vertex: {
         parameters: {
             query: {
@@ -10545,156 +10695,6 @@ export interface operations {
             };
             /** @description The token in `Authorization` is not valid */
             401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    show_data: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["OwnedItems"];
-                };
-            };
-            /** @description The token in `Authorization` is not valid */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    delete_all: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description What was deleted */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["OwnedItems"];
-                };
-            };
-            /** @description The token in `Authorization` is not valid */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description A run is just ending */
-            409: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    take_along: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description A folder per item, with JSON, OBJ and Parquet files */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/x-tar": number[];
-                };
-            };
-            /** @description The token in `Authorization` is not valid */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Too many archives are being downloaded */
-            429: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    keep_longer: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["OwnedItems"];
-                };
-            };
-            /** @description The token in `Authorization` is not valid */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The token in `Authorization` does not have the required scope, or the request was sent by a page of another site */
-            403: {
                 headers: {
                     [name: string]: unknown;
                 };
