@@ -14,7 +14,6 @@ fn is_code(path: &Path) -> bool {
 fn is_generated(path: &Path) -> bool {
     let path = path.to_string_lossy();
     path.contains("snapshots/")
-        || path.ends_with("schema.d.ts")
         || path.ends_with(".lock")
         || path.ends_with("package-lock.json")
 }
