@@ -16,6 +16,15 @@ pub(crate) fn completed(mut document: OpenApi) -> OpenApi {
                 let known = &mut operation.responses.responses;
                 known.entry(status.to_owned()).or_insert_with(|| problem(description));
             }
+            // Whatever is refused is refused with a problem.
+            let refused = operation.responses.responses.iter_mut().filter(|(status, _)| status.starts_with(['4', '5']));
+            for (_, response) in refused {
+                if let RefOr::T(Response { content, description, .. }) = response
+                    && content.is_empty()
+                {
+                    *response = problem(&description.clone());
+                }
+            }
         }
     }
     let schemes = &mut document.components.get_or_insert_default().security_schemes;

@@ -35,8 +35,8 @@ const RETRY: Duration = Duration::from_secs(2);
     responses(
         (status = 200, description = "The events", body = RunEvent, content_type = "text/event-stream"),
         (status = 204, description = "The run has ended and every event was seen"),
-        (status = 400, description = "Last-Event-ID is not a number", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
+        (status = 400, description = "Last-Event-ID is not a number"),
+        (status = 404, description = "No such run"),
     ))]
 pub(crate) async fn follow_run(
     State(app): State<App>,

@@ -46,7 +46,7 @@ use crate::{App, events, layers, pages, upload};
             publish.",
         license(name = "MIT OR Apache-2.0")
     ),
-    components(schemas(ocb_service::model::Accuracy, ocb_service::model::ChartKind)),
+    components(schemas(crate::Problem, ocb_service::model::Accuracy, ocb_service::model::ChartKind)),
     tags(
         (name = "objects", description = "Meshes to measure"),
         (name = "algorithms", description = "Algorithms and their parameters"),

@@ -15,7 +15,7 @@ use crate::address::Address;
 use crate::extract::{Json, Path};
 use crate::guest::{Browser, Member, SESSION, cookie, is_secure};
 use crate::limits::{CHANGE_PASSWORD, LOG_IN, LOG_IN_ANYWHERE, LOG_IN_AS, MAKE_ACCOUNT};
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 use crate::request_key::{IdempotencyKey, RequestKey};
 
 /// Who is logged in; a guest has no account.
@@ -28,9 +28,9 @@ pub(crate) async fn show_account(member: Option<axum::Extension<Member>>) -> Ans
 #[utoipa::path(post, path = "/account", tag = "account", request_body = Credentials,
     responses(
         (status = 201, description = "Created and logged in", body = Identity),
-        (status = 409, description = "The name is taken", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No name or no password", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many accounts", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "The name is taken"),
+        (status = 422, description = "No name or no password"),
+        (status = 429, description = "Too many accounts"),
     ))]
 pub(crate) async fn make_account(
     State(app): State<App>,
@@ -49,9 +49,9 @@ pub(crate) async fn make_account(
 #[utoipa::path(post, path = "/account/login", tag = "account", request_body = Credentials,
     responses(
         (status = 200, description = "Logged in", body = Identity),
-        (status = 403, description = "Wrong user name or password", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "A field is missing", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many attempts", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "Wrong user name or password"),
+        (status = 422, description = "A field is missing"),
+        (status = 429, description = "Too many attempts"),
     ))]
 pub(crate) async fn log_in(
     State(app): State<App>,
@@ -94,7 +94,7 @@ pub(crate) async fn log_out(State(app): State<App>, headers: HeaderMap) -> Resul
 #[utoipa::path(post, path = "/account/logout-everywhere", tag = "account",
     responses(
         (status = 204, description = "Logged out everywhere"),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
     ))]
 pub(crate) async fn log_out_everywhere(
     State(app): State<App>,
@@ -114,9 +114,9 @@ fn left(headers: &HeaderMap) -> Response {
 #[utoipa::path(post, path = "/account/password", tag = "account", request_body = NewPassword,
     responses(
         (status = 204, description = "Changed; log in again"),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "The old password is wrong", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The new password is too short", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 403, description = "The old password is wrong"),
+        (status = 422, description = "The new password is too short"),
     ))]
 pub(crate) async fn change_password(
     State(app): State<App>,
@@ -133,7 +133,7 @@ pub(crate) async fn change_password(
 #[utoipa::path(get, path = "/account/deletion-preview", tag = "account",
     responses(
         (status = 200, body = DeletionPreview),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
     ))]
 pub(crate) async fn show_deletion_preview(
     State(app): State<App>,
@@ -148,11 +148,11 @@ pub(crate) async fn show_deletion_preview(
 #[utoipa::path(delete, path = "/account", tag = "account", request_body = DeleteAccount,
     responses(
         (status = 200, description = "What was deleted and what stays; all sessions are closed", body = DeletionPreview),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "Wrong password", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "The account is the last curator or administrator, or a run is just ending", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No password", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many attempts", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 403, description = "Wrong password"),
+        (status = 409, description = "The account is the last curator or administrator, or a run is just ending"),
+        (status = 422, description = "No password"),
+        (status = 429, description = "Too many attempts"),
     ))]
 pub(crate) async fn delete_account(
     State(app): State<App>,
@@ -170,9 +170,9 @@ pub(crate) async fn delete_account(
 #[utoipa::path(post, path = "/account/developer", tag = "account", request_body = DeveloperRequest,
     responses(
         (status = 204, description = "Requested"),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Already a developer", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No reason given", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 409, description = "Already a developer"),
+        (status = 422, description = "No reason given"),
     ))]
 pub(crate) async fn ask_to_develop(
     State(app): State<App>,
@@ -187,8 +187,8 @@ pub(crate) async fn ask_to_develop(
 #[utoipa::path(post, path = "/account/signing-key", tag = "account", request_body = SigningKey,
     responses(
         (status = 200, description = "The updated account", body = AccountInfo),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "Not a minisign public key", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 422, description = "Not a minisign public key"),
     ))]
 pub(crate) async fn register_key(
     State(app): State<App>,
@@ -202,7 +202,7 @@ pub(crate) async fn register_key(
 #[utoipa::path(delete, path = "/account/signing-key", tag = "account",
     responses(
         (status = 204, description = "The key was removed"),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
     ))]
 pub(crate) async fn forget_key(State(app): State<App>, Member(account): Member) -> Result<StatusCode> {
     app.engine.set_signing_key(&account, None).await?;
@@ -213,7 +213,7 @@ pub(crate) async fn forget_key(State(app): State<App>, Member(account): Member) 
 #[utoipa::path(get, path = "/account/tokens", tag = "account",
     responses(
         (status = 200, body = Vec<TokenInfo>),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
     ))]
 pub(crate) async fn list_tokens(State(app): State<App>, Member(account): Member) -> Result<Answer<Vec<TokenInfo>>> {
     Ok(Answer(app.engine.tokens(&account).await?))
@@ -224,9 +224,9 @@ pub(crate) async fn list_tokens(State(app): State<App>, Member(account): Member)
 #[utoipa::path(post, path = "/account/tokens", tag = "account", request_body = TokenRequest, params(IdempotencyKey),
     responses(
         (status = 201, body = NewToken),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Too many tokens", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No name or no scope", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 409, description = "Too many tokens"),
+        (status = 422, description = "No name or no scope"),
     ))]
 pub(crate) async fn make_token(
     State(app): State<App>,
@@ -242,8 +242,8 @@ pub(crate) async fn make_token(
     params(("id" = String, Path, description = "Token id")),
     responses(
         (status = 204, description = "The token was revoked"),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such token", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 404, description = "No such token"),
     ))]
 pub(crate) async fn end_token(
     State(app): State<App>,

@@ -15,7 +15,7 @@ use crate::download::download;
 use crate::extract::{Json, Path, Query};
 use crate::guest::Guest;
 use crate::limits::ASK_ADVICE;
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 use crate::request_key::{IdempotencyKey, RequestKey};
 
 /// Asks for advice; it is worked on when its turn comes.
@@ -23,10 +23,10 @@ use crate::request_key::{IdempotencyKey, RequestKey};
     responses(
         (status = 200, description = "Already requested with this key", body = AdviceInfo),
         (status = 201, description = "Queued; its address is in `Location`", body = AdviceInfo),
-        (status = 400, description = "Not JSON", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The question is not valid", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many requests are queued; `Retry-After` says when to try again", body = Problem, content_type = "application/problem+json"),
+        (status = 400, description = "Not JSON"),
+        (status = 404, description = "No such object"),
+        (status = 422, description = "The question is not valid"),
+        (status = 429, description = "Too many requests are queued; `Retry-After` says when to try again"),
     ))]
 pub(crate) async fn ask_advice(
     State(app): State<App>,
@@ -48,7 +48,7 @@ pub(crate) async fn ask_advice(
     params(("id" = String, Path, description = "Advice id")),
     responses(
         (status = 200, body = AdviceInfo),
-        (status = 404, description = "No such advice", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such advice"),
     ))]
 pub(crate) async fn show_advice(State(app): State<App>, Path(id): Path<String>) -> Result<Answer<AdviceInfo>> {
     Ok(Answer(app.engine.advice(&id).await?))
@@ -59,8 +59,8 @@ pub(crate) async fn show_advice(State(app): State<App>, Path(id): Path<String>) 
     params(("id" = String, Path, description = "Advice id")),
     responses(
         (status = 200, description = "The updated advice", body = AdviceInfo),
-        (status = 403, description = "It belongs to someone else", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such advice", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "It belongs to someone else"),
+        (status = 404, description = "No such advice"),
     ))]
 pub(crate) async fn cancel_advice(
     State(app): State<App>,
@@ -86,7 +86,7 @@ pub(crate) struct OfObject {
     params(("id" = String, Path, description = "Advice id"), OfObject),
     responses(
         (status = 200, description = "The mesh", body = String, content_type = "model/obj"),
-        (status = 404, description = "No such advice, or it reduces nothing there", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such advice, or it reduces nothing there"),
     ))]
 pub(crate) async fn reduced_obj(
     State(app): State<App>,
@@ -102,7 +102,7 @@ pub(crate) async fn reduced_obj(
     params(("id" = String, Path, description = "Advice id"), OfObject),
     responses(
         (status = 200, description = "Content hashes, thickness and deviation of every triangle", body = String, content_type = "application/json"),
-        (status = 404, description = "No such advice, or it reduces nothing there", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such advice, or it reduces nothing there"),
     ))]
 pub(crate) async fn reduced_certificate(
     State(app): State<App>,

@@ -12,7 +12,7 @@ use crate::App;
 use crate::extract::{Json, Path, Query};
 use crate::guest::{Curator, Guest};
 use crate::list;
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 use crate::request_key::{IdempotencyKey, RequestKey};
 
 /// What a campaign is to measure.
@@ -37,8 +37,8 @@ fn yes() -> bool {
 #[utoipa::path(get, path = "/campaigns/preview", tag = "curation", params(What),
     responses(
         (status = 200, body = CampaignPreview, example = json!({ "suite_runs": 150, "suite_repeats": 144, "peoples_runs": 12, "expected_seconds": 5400.0, "hardware_class": "0d52c1f3b7a96e48", "oracle": 5, "suite_version": 1 })),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 403, description = "Not a curator"),
     ))]
 pub(crate) async fn preview_campaign(
     State(app): State<App>,
@@ -54,10 +54,10 @@ pub(crate) async fn preview_campaign(
     responses(
         (status = 200, description = "Already requested with this key", body = CampaignInfo),
         (status = 201, description = "Queued; its address is in `Location`", body = CampaignInfo),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "There is nothing to measure again", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No reason, or neither suite nor people", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 403, description = "Not a curator"),
+        (status = 409, description = "There is nothing to measure again"),
+        (status = 422, description = "No reason, or neither suite nor people"),
     ))]
 pub(crate) async fn create_campaign(
     State(app): State<App>,
@@ -75,7 +75,7 @@ pub(crate) async fn create_campaign(
 #[utoipa::path(get, path = "/campaigns", tag = "results", params(Page),
     responses(
         (status = 200, description = "A page of the list", body = Vec<CampaignInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
-        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "Invalid page parameters"),
     ))]
 pub(crate) async fn list_campaigns(State(app): State<App>, Query(page): Query<Page>) -> Result<Response> {
     Ok(list::answer("/api/v1/campaigns", &page, app.engine.campaigns(&page).await?))
@@ -86,7 +86,7 @@ pub(crate) async fn list_campaigns(State(app): State<App>, Query(page): Query<Pa
     params(("id" = String, Path, description = "Campaign id")),
     responses(
         (status = 200, body = CampaignInfo),
-        (status = 404, description = "No such campaign", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such campaign"),
     ))]
 pub(crate) async fn show_campaign(
     State(app): State<App>,
@@ -101,9 +101,9 @@ pub(crate) async fn show_campaign(
     params(("id" = String, Path, description = "Campaign id")),
     responses(
         (status = 200, description = "The updated campaign", body = CampaignInfo),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such campaign", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 403, description = "Not a curator"),
+        (status = 404, description = "No such campaign"),
     ))]
 pub(crate) async fn cancel_campaign(
     State(app): State<App>,

@@ -11,7 +11,7 @@ use crate::App;
 use crate::download::download;
 use crate::extract::{Path, Query};
 use crate::guest::Guest;
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 use crate::routes::records::PARQUET;
 
 const CSV: &str = "text/csv; charset=utf-8";
@@ -21,8 +21,8 @@ const CSV: &str = "text/csv; charset=utf-8";
     params(BoardRequest),
     responses(
         (status = 200, body = Board),
-        (status = 400, description = "Unknown measure of accuracy", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The precision is not valid", body = Problem, content_type = "application/problem+json"),
+        (status = 400, description = "Unknown measure of accuracy"),
+        (status = 422, description = "The precision is not valid"),
     ))]
 pub(crate) async fn show_board(
     State(app): State<App>,
@@ -37,7 +37,7 @@ pub(crate) async fn show_board(
     params(BoardRequest),
     responses(
         (status = 200, description = "One line per algorithm with its settings", body = String, content_type = "text/csv"),
-        (status = 422, description = "The precision is not valid", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "The precision is not valid"),
     ))]
 pub(crate) async fn show_board_csv(
     State(app): State<App>,
@@ -53,9 +53,9 @@ pub(crate) async fn show_board_csv(
     params(("id" = String, Path, description = "Run id"), ChartRequest),
     responses(
         (status = 200, body = Chart),
-        (status = 400, description = "Unknown kind", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such run, or nothing to chart", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The selection is not valid or cannot be applied", body = Problem, content_type = "application/problem+json"),
+        (status = 400, description = "Unknown kind"),
+        (status = 404, description = "No such run, or nothing to chart"),
+        (status = 422, description = "The selection is not valid or cannot be applied"),
     ))]
 pub(crate) async fn show_chart(
     State(app): State<App>,
@@ -71,8 +71,8 @@ pub(crate) async fn show_chart(
     params(("id" = String, Path, description = "Run id"), ChartRequest),
     responses(
         (status = 200, description = "One line per point", body = String, content_type = "text/csv"),
-        (status = 404, description = "No such run, or nothing to chart", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The selection is not valid or cannot be applied", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or nothing to chart"),
+        (status = 422, description = "The selection is not valid or cannot be applied"),
     ))]
 pub(crate) async fn chart_as_csv(
     State(app): State<App>,
@@ -89,8 +89,8 @@ pub(crate) async fn chart_as_csv(
     params(("id" = String, Path, description = "Run id"), ChartRequest),
     responses(
         (status = 200, description = "One row per point", body = [u8], content_type = "application/vnd.apache.parquet"),
-        (status = 404, description = "No such run, or nothing to chart", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The selection is not valid or cannot be applied", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or nothing to chart"),
+        (status = 422, description = "The selection is not valid or cannot be applied"),
     ))]
 pub(crate) async fn chart_as_parquet(
     State(app): State<App>,

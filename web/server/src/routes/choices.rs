@@ -9,13 +9,13 @@ use crate::address::Address;
 use crate::extract::Json;
 use crate::guest::Member;
 use crate::limits::{CONFIRM, GIVE_ADDRESS, MAIL_TO};
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 
 /// What the account has chosen, and where its mails go.
 #[utoipa::path(get, path = "/account/choices", tag = "account",
     responses(
         (status = 200, body = Choices),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
     ))]
 pub(crate) async fn show_choices(State(app): State<App>, Member(account): Member) -> Result<Answer<Choices>> {
     Ok(Answer(app.engine.choices(&account).await?))
@@ -25,7 +25,7 @@ pub(crate) async fn show_choices(State(app): State<App>, Member(account): Member
 #[utoipa::path(put, path = "/account/choices", tag = "account", request_body = NewChoices,
     responses(
         (status = 200, description = "All current choices", body = Choices),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
     ))]
 pub(crate) async fn choose(
     State(app): State<App>,
@@ -40,9 +40,9 @@ pub(crate) async fn choose(
 #[utoipa::path(put, path = "/account/address", tag = "account", request_body = NewAddress,
     responses(
         (status = 200, description = "All current choices", body = Choices),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "Not an address", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many attempts", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 422, description = "Not an address"),
+        (status = 429, description = "Too many attempts"),
     ))]
 pub(crate) async fn give_address(
     State(app): State<App>,
@@ -61,7 +61,7 @@ pub(crate) async fn give_address(
 #[utoipa::path(delete, path = "/account/address", tag = "account",
     responses(
         (status = 200, description = "All current choices", body = Choices),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
     ))]
 pub(crate) async fn forget_address(State(app): State<App>, Member(account): Member) -> Result<Answer<Choices>> {
     Ok(Answer(app.engine.forget_address(&account).await?))
@@ -71,9 +71,9 @@ pub(crate) async fn forget_address(State(app): State<App>, Member(account): Memb
 #[utoipa::path(post, path = "/account/address/confirmation", tag = "account", request_body = OpenedLink,
     responses(
         (status = 200, description = "All current choices", body = Choices),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "The link is not valid for this account or has expired; the answer does not say which", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many attempts", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 404, description = "The link is not valid for this account or has expired; the answer does not say which"),
+        (status = 429, description = "Too many attempts"),
     ))]
 pub(crate) async fn confirm_address(
     State(app): State<App>,

@@ -9,15 +9,15 @@ use crate::App;
 use crate::extract::Path;
 use crate::guest::Member;
 use crate::origin::own_origin;
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 
 /// The stable link of a run that has ended, and how it is cited: BibTeX and CFF.
 #[utoipa::path(get, path = "/runs/{id}/citation", tag = "results",
     params(("id" = String, Path, description = "Run id")),
     responses(
         (status = 200, body = Citation),
-        (status = 404, description = "No such run, or nothing measured", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "The run has not ended", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or nothing measured"),
+        (status = 409, description = "The run has not ended"),
     ))]
 pub(crate) async fn cite_run(
     State(app): State<App>,
@@ -32,7 +32,7 @@ pub(crate) async fn cite_run(
     params(("id" = String, Path, description = "Plugin id")),
     responses(
         (status = 200, body = Citation),
-        (status = 404, description = "No such plugin", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such plugin"),
     ))]
 pub(crate) async fn cite_plugin(
     State(app): State<App>,

@@ -32,9 +32,9 @@ pub(crate) struct Colouring {
     params(("id" = String, Path, description = "Run id"), HeatmapRequest),
     responses(
         (status = 200, body = Heatmap),
-        (status = 404, description = "No such run, or no such values in it", body = Problem, content_type = "application/problem+json"),
-        (status = 400, description = "Unknown measure, statistic, ...", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No such values: errors of a run without distance queries, another object, ...", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or no such values in it"),
+        (status = 400, description = "Unknown measure, statistic, ..."),
+        (status = 422, description = "No such values: errors of a run without distance queries, another object, ..."),
     ))]
 pub(crate) async fn show_heatmap(
     State(app): State<App>,
@@ -53,9 +53,9 @@ pub(crate) async fn show_heatmap(
     ),
     responses(
         (status = 200, body = VertexValue),
-        (status = 404, description = "No such run, values or vertex", body = Problem, content_type = "application/problem+json"),
-        (status = 400, description = "Unknown measure, statistic, ...", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No such values: errors of a run without distance queries, another object, ...", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, values or vertex"),
+        (status = 400, description = "Unknown measure, statistic, ..."),
+        (status = 422, description = "No such values: errors of a run without distance queries, another object, ..."),
     ))]
 pub(crate) async fn show_vertex(
     State(app): State<App>,
@@ -75,9 +75,9 @@ pub(crate) async fn show_vertex(
     params(("id" = String, Path, description = "Run id"), HeatmapRequest, Colouring),
     responses(
         (status = 200, description = "The coloured mesh", body = [u8], content_type = "model/gltf-binary"),
-        (status = 404, description = "No such run, or no such values in it", body = Problem, content_type = "application/problem+json"),
-        (status = 400, description = "Unknown measure, colormap, ...", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No such values: errors of a run without distance queries, another object, ...", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or no such values in it"),
+        (status = 400, description = "Unknown measure, colormap, ..."),
+        (status = 422, description = "No such values: errors of a run without distance queries, another object, ..."),
     ))]
 pub(crate) async fn heatmap_glb(
     State(app): State<App>,
@@ -94,9 +94,9 @@ pub(crate) async fn heatmap_glb(
     params(("id" = String, Path, description = "Run id"), HeatmapRequest, Colouring),
     responses(
         (status = 200, description = "The coloured mesh", body = [u8], content_type = "application/octet-stream"),
-        (status = 404, description = "No such run, or no such values in it", body = Problem, content_type = "application/problem+json"),
-        (status = 400, description = "Unknown measure, colormap, ...", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No such values: errors of a run without distance queries, another object, ...", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or no such values in it"),
+        (status = 400, description = "Unknown measure, colormap, ..."),
+        (status = 422, description = "No such values: errors of a run without distance queries, another object, ..."),
     ))]
 pub(crate) async fn heatmap_ply(
     State(app): State<App>,

@@ -13,7 +13,7 @@ use crate::guest::{Curator, Member};
 use crate::limits::ACCEPT;
 use crate::list;
 use crate::origin::own_origin;
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 use crate::request_key::{IdempotencyKey, RequestKey};
 
 /// Invites somebody to be a developer. The link is in this answer and nowhere else; whoever has it may accept, once. Asked again
@@ -22,10 +22,10 @@ use crate::request_key::{IdempotencyKey, RequestKey};
     params(IdempotencyKey), request_body(content = InvitationRequest, example = json!({ "recipient": "Ada, of the GJK paper", "days": 14 })),
     responses(
         (status = 201, body = NewInvitation),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Too many invitations are open", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No recipient, or valid for too long", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 403, description = "Not a curator"),
+        (status = 409, description = "Too many invitations are open"),
+        (status = 422, description = "No recipient, or valid for too long"),
     ))]
 pub(crate) async fn invite(
     State(app): State<App>,
@@ -42,9 +42,9 @@ pub(crate) async fn invite(
 #[utoipa::path(get, path = "/invitations", tag = "curation", params(Page),
     responses(
         (status = 200, description = "A page of the list", body = Vec<InvitationInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 403, description = "Not a curator"),
+        (status = 422, description = "Invalid page parameters"),
     ))]
 pub(crate) async fn list_invitations(
     State(app): State<App>,
@@ -59,10 +59,10 @@ pub(crate) async fn list_invitations(
     params(("id" = String, Path, description = "Invitation id")),
     responses(
         (status = 200, description = "The updated invitation", body = InvitationInfo),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such invitation", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Already accepted or withdrawn", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 403, description = "Not a curator"),
+        (status = 404, description = "No such invitation"),
+        (status = 409, description = "Already accepted or withdrawn"),
     ))]
 pub(crate) async fn revoke_invitation(
     State(app): State<App>,
@@ -76,10 +76,10 @@ pub(crate) async fn revoke_invitation(
 #[utoipa::path(post, path = "/account/invitation", tag = "account", request_body = Acceptance,
     responses(
         (status = 200, description = "The updated account", body = AccountInfo),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "The invitation does not exist or has expired; the answer does not say which", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Already a developer", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many attempts", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 404, description = "The invitation does not exist or has expired; the answer does not say which"),
+        (status = 409, description = "Already a developer"),
+        (status = 429, description = "Too many attempts"),
     ))]
 pub(crate) async fn accept_invitation(
     State(app): State<App>,

@@ -8,7 +8,7 @@ use crate::App;
 use crate::address::Address;
 use crate::extract::Path;
 use crate::limits::TURN_OFF;
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 
 /// Turns off the mails of the account that a mail with this link went to, without logging in, and nothing else; doing it again changes
 /// nothing. Mail programs send the same to the link itself, which `List-Unsubscribe` names (RFC 8058); what they send along is not
@@ -18,8 +18,8 @@ use crate::problem::{Problem, Result};
         example = "5d0c4b7e9f1a4c6e8b3d2f1a0c9e8d7b6a5f4e3d2c1b40a98f7e6d5c4b3a2918")),
     responses(
         (status = 204, description = "Mail is turned off"),
-        (status = 404, description = "The link is not valid or has expired; the answer does not say which", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many wrong links", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "The link is not valid or has expired; the answer does not say which"),
+        (status = 429, description = "Too many wrong links"),
     ))]
 pub(crate) async fn turn_mails_off(
     State(app): State<App>,

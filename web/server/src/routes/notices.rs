@@ -10,14 +10,14 @@ use crate::App;
 use crate::extract::{Path, Query};
 use crate::guest::Member;
 use crate::list;
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 
 /// What the account was told, newest first; the 500 newest are kept.
 #[utoipa::path(get, path = "/notices", tag = "account", params(Page),
     responses(
         (status = 200, description = "A page of the list", body = Vec<NoticeInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 422, description = "Invalid page parameters"),
     ))]
 pub(crate) async fn list_notices(
     State(app): State<App>,
@@ -32,8 +32,8 @@ pub(crate) async fn list_notices(
     params(("id" = String, Path, description = "Notice id")),
     responses(
         (status = 200, description = "The updated notice", body = NoticeInfo),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such notice of this account", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 404, description = "No such notice of this account"),
     ))]
 pub(crate) async fn read_notice(
     State(app): State<App>,
@@ -48,8 +48,8 @@ pub(crate) async fn read_notice(
     params(("id" = String, Path, description = "Notice id")),
     responses(
         (status = 204, description = "Deleted"),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such notice of this account", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 404, description = "No such notice of this account"),
     ))]
 pub(crate) async fn remove_notice(
     State(app): State<App>,

@@ -24,7 +24,7 @@ use crate::upload::Upload;
 #[utoipa::path(get, path = "/objects", tag = "objects", params(Page),
     responses(
         (status = 200, description = "A page of the list", body = Vec<ObjectInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
-        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "Invalid page parameters"),
     ))]
 pub(crate) async fn list_objects(
     State(app): State<App>,
@@ -49,10 +49,10 @@ struct UploadForm {
     request_body(content = inline(UploadForm), content_type = "multipart/form-data"), params(IdempotencyKey),
     responses(
         (status = 201, description = "The object", body = ObjectInfo),
-        (status = 400, description = "The upload is not well-formed", body = Problem, content_type = "application/problem+json"),
-        (status = 413, description = "Larger than 256 MiB", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "Not a usable OBJ file; the message has line and reason", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many uploads; `Retry-After` says when to try again", body = Problem, content_type = "application/problem+json"),
+        (status = 400, description = "The upload is not well-formed"),
+        (status = 413, description = "Larger than 256 MiB"),
+        (status = 422, description = "Not a usable OBJ file; the message has line and reason"),
+        (status = 429, description = "Too many uploads; `Retry-After` says when to try again"),
     ))]
 pub(crate) async fn add_object(
     State(app): State<App>,
@@ -78,7 +78,7 @@ pub(crate) async fn add_object(
     params(("id" = String, Path, description = "Object id")),
     responses(
         (status = 200, body = ObjectInfo),
-        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such object"),
     ))]
 pub(crate) async fn show_object(
     State(app): State<App>,
@@ -93,8 +93,8 @@ pub(crate) async fn show_object(
     params(("id" = String, Path, description = "Object id")),
     responses(
         (status = 200, description = "The updated object", body = ObjectInfo),
-        (status = 403, description = "The object belongs to someone else, or a guest tries to publish", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "The object belongs to someone else, or a guest tries to publish"),
+        (status = 404, description = "No such object"),
     ))]
 pub(crate) async fn change_object_visibility(
     State(app): State<App>,
@@ -112,7 +112,7 @@ pub(crate) async fn change_object_visibility(
     responses(
         (status = 200, description = "The mesh", body = [u8], content_type = "model/gltf-binary"),
         (status = 304, description = "Unchanged (If-None-Match)"),
-        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such object"),
     ))]
 pub(crate) async fn object_mesh(
     State(app): State<App>,

@@ -9,7 +9,7 @@ use ocb_service::model::{OwnedItems, Scope};
 use crate::App;
 use crate::extract::Path;
 use crate::guest::{Guest, Token};
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 
 /// Everything that the visitor has made, which is what `DELETE` takes away, and until when it stays.
 #[utoipa::path(get, path = "/data", tag = "data", responses((status = 200, body = OwnedItems)))]
@@ -22,7 +22,7 @@ pub(crate) async fn show_data(State(app): State<App>, Guest(guest): Guest) -> Re
 #[utoipa::path(delete, path = "/data", tag = "data",
     responses(
         (status = 200, description = "What was deleted", body = OwnedItems),
-        (status = 409, description = "A run is just ending", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "A run is just ending"),
     ))]
 pub(crate) async fn delete_all(State(app): State<App>, Guest(guest): Guest) -> Result<Json<OwnedItems>> {
     Ok(Json(app.engine.delete_all(&guest).await?))
@@ -40,7 +40,7 @@ pub(crate) async fn keep_longer(State(app): State<App>, Guest(guest): Guest) -> 
 #[utoipa::path(get, path = "/data.tar", tag = "data",
     responses(
         (status = 200, description = "A folder per item, with JSON, OBJ and Parquet files", body = [u8], content_type = "application/x-tar"),
-        (status = 429, description = "Too many archives are being downloaded", body = Problem, content_type = "application/problem+json"),
+        (status = 429, description = "Too many archives are being downloaded"),
     ))]
 pub(crate) async fn export_data(
     State(app): State<App>,
@@ -59,8 +59,8 @@ pub(crate) async fn export_data(
     params(("id" = String, Path, description = "Run id")),
     responses(
         (status = 200, description = "What DELETE of the run deletes", body = OwnedItems),
-        (status = 403, description = "The run belongs to someone else", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "The run belongs to someone else"),
+        (status = 404, description = "No such run"),
     ))]
 pub(crate) async fn deletion_preview_of_run(
     State(app): State<App>,
@@ -75,9 +75,9 @@ pub(crate) async fn deletion_preview_of_run(
     params(("id" = String, Path, description = "Run id")),
     responses(
         (status = 200, description = "What was deleted", body = OwnedItems),
-        (status = 403, description = "The run belongs to someone else", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "The run is just ending", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "The run belongs to someone else"),
+        (status = 404, description = "No such run"),
+        (status = 409, description = "The run is just ending"),
     ))]
 pub(crate) async fn remove_run(
     State(app): State<App>,
@@ -92,8 +92,8 @@ pub(crate) async fn remove_run(
     params(("id" = String, Path, description = "Object id")),
     responses(
         (status = 200, description = "What DELETE of the object deletes", body = OwnedItems),
-        (status = 403, description = "The object belongs to someone else", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "The object belongs to someone else"),
+        (status = 404, description = "No such object"),
     ))]
 pub(crate) async fn deletion_preview_of_object(
     State(app): State<App>,
@@ -108,9 +108,9 @@ pub(crate) async fn deletion_preview_of_object(
     params(("id" = String, Path, description = "Object id")),
     responses(
         (status = 200, description = "What was deleted", body = OwnedItems),
-        (status = 403, description = "The object belongs to someone else", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "A run with this object is just ending", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "The object belongs to someone else"),
+        (status = 404, description = "No such object"),
+        (status = 409, description = "A run with this object is just ending"),
     ))]
 pub(crate) async fn remove_object(
     State(app): State<App>,

@@ -9,15 +9,15 @@ use crate::App;
 use crate::extract::{Json, Path, Query};
 use crate::guest::Curator;
 use crate::list;
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 
 /// Accounts, newest first; those that want to be developers say why.
 #[utoipa::path(get, path = "/accounts", tag = "curation", params(Page),
     responses(
         (status = 200, description = "A page of the list", body = Vec<AccountInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
-        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "Invalid page parameters"),
+        (status = 401, description = "Not authenticated"),
+        (status = 403, description = "Not a curator"),
     ))]
 pub(crate) async fn list_accounts(
     State(app): State<App>,
@@ -32,10 +32,10 @@ pub(crate) async fn list_accounts(
     params(("id" = String, Path, description = "Account id")),
     responses(
         (status = 200, description = "The updated account", body = AccountInfo),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "Not permitted for this curator", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such account", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "Not a role", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 403, description = "Not permitted for this curator"),
+        (status = 404, description = "No such account"),
+        (status = 422, description = "Not a role"),
     ))]
 pub(crate) async fn change_role(
     State(app): State<App>,

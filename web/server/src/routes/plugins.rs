@@ -22,7 +22,7 @@ use crate::extract::{Json, Path, Query};
 use crate::guest::{Curator, Member};
 use crate::limits::SUBMIT;
 use crate::list;
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 use crate::request_key::{IdempotencyKey, RequestKey};
 use crate::upload::Submission;
 
@@ -40,7 +40,7 @@ fn account(viewer: &Viewer) -> Option<&AccountInfo> {
 #[utoipa::path(get, path = "/plugins", tag = "plugins", params(Page),
     responses(
         (status = 200, description = "A page of the list", body = Vec<PluginInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
-        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "Invalid page parameters"),
     ))]
 pub(crate) async fn list_plugins(State(app): State<App>, viewer: Viewer, Query(page): Query<Page>) -> Result<Response> {
     Ok(list::answer("/api/v1/plugins", &page, app.engine.plugins(account(&viewer), &page).await?))
@@ -65,13 +65,13 @@ struct SubmissionForm {
     responses(
         (status = 201, description = "Stored; its check is queued", body = PluginInfo),
         (status = 200, description = "Already submitted", body = PluginInfo),
-        (status = 400, description = "The form is not valid", body = Problem, content_type = "application/problem+json"),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "Not a developer", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Too many plugins are waiting, or the quota is used up", body = Problem, content_type = "application/problem+json"),
-        (status = 413, description = "Too large", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No plugin, no manifest, or a signature that does not match", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many uploads", body = Problem, content_type = "application/problem+json"),
+        (status = 400, description = "The form is not valid"),
+        (status = 401, description = "Not authenticated"),
+        (status = 403, description = "Not a developer"),
+        (status = 409, description = "Too many plugins are waiting, or the quota is used up"),
+        (status = 413, description = "Too large"),
+        (status = 422, description = "No plugin, no manifest, or a signature that does not match"),
+        (status = 429, description = "Too many uploads"),
     ))]
 pub(crate) async fn submit_plugin(
     State(app): State<App>,
@@ -104,7 +104,7 @@ pub(crate) async fn submit_plugin(
     params(("id" = String, Path, description = "Plugin id")),
     responses(
         (status = 200, body = PluginInfo),
-        (status = 404, description = "No such plugin", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such plugin"),
     ))]
 pub(crate) async fn show_plugin(
     State(app): State<App>,
@@ -120,7 +120,7 @@ pub(crate) async fn show_plugin(
     responses(
         (status = 200, description = "The events", body = PluginInfo, content_type = "text/event-stream"),
         (status = 204, description = "The check has ended"),
-        (status = 404, description = "No such plugin", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such plugin"),
     ))]
 pub(crate) async fn follow_plugin(State(app): State<App>, viewer: Viewer, Path(id): Path<String>) -> Result<Response> {
     let viewer = account(&viewer).cloned();
@@ -169,11 +169,11 @@ impl Follower {
     params(("id" = String, Path, description = "Plugin id")),
     responses(
         (status = 200, description = "The updated plugin", body = PluginInfo),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "Not permitted for this account", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such plugin", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Not possible in the plugin's current state", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "Unknown action, or no reason", body = Problem, content_type = "application/problem+json"),
+        (status = 401, description = "Not authenticated"),
+        (status = 403, description = "Not permitted for this account"),
+        (status = 404, description = "No such plugin"),
+        (status = 409, description = "Not possible in the plugin's current state"),
+        (status = 422, description = "Unknown action, or no reason"),
     ))]
 pub(crate) async fn decide(
     State(app): State<App>,
@@ -188,9 +188,9 @@ pub(crate) async fn decide(
 #[utoipa::path(get, path = "/curation", tag = "curation", params(Page),
     responses(
         (status = 200, description = "A page of the list", body = Vec<PluginInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
-        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
-        (status = 401, description = "Not authenticated", body = Problem, content_type = "application/problem+json"),
-        (status = 403, description = "Not a curator", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "Invalid page parameters"),
+        (status = 401, description = "Not authenticated"),
+        (status = 403, description = "Not a curator"),
     ))]
 pub(crate) async fn list_curation(
     State(app): State<App>,

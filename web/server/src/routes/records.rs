@@ -10,7 +10,7 @@ use utoipa::IntoParams;
 use crate::App;
 use crate::download::download;
 use crate::extract::{Path, Query};
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 
 /// Which algorithm of the run.
 #[derive(Deserialize, IntoParams)]
@@ -37,8 +37,8 @@ pub(crate) struct OfSelection {
     params(("id" = String, Path, description = "Run id"), OfSelection),
     responses(
         (status = 200, body = Ecdf),
-        (status = 404, description = "No such run, or no records of this algorithm", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The selection is not valid or cannot be applied", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or no records of this algorithm"),
+        (status = 422, description = "The selection is not valid or cannot be applied"),
     ))]
 pub(crate) async fn show_ecdf(
     State(app): State<App>,
@@ -53,8 +53,8 @@ pub(crate) async fn show_ecdf(
     params(("id" = String, Path, description = "Run id"), OfSelection),
     responses(
         (status = 200, description = "One row per configuration", body = [u8], content_type = "application/vnd.apache.parquet"),
-        (status = 404, description = "No such run, or no records of this algorithm", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The selection is not valid or cannot be applied", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or no records of this algorithm"),
+        (status = 422, description = "The selection is not valid or cannot be applied"),
     ))]
 pub(crate) async fn records_parquet(
     State(app): State<App>,
@@ -73,8 +73,8 @@ pub(crate) async fn records_parquet(
     params(("id" = String, Path, description = "Run id"), OfSelection),
     responses(
         (status = 200, description = "One line per configuration", body = String, content_type = "text/csv"),
-        (status = 404, description = "No such run, or no records of this algorithm", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The selection is not valid or cannot be applied", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or no records of this algorithm"),
+        (status = 422, description = "The selection is not valid or cannot be applied"),
     ))]
 pub(crate) async fn records_csv(
     State(app): State<App>,
@@ -93,7 +93,7 @@ pub(crate) async fn records_csv(
     params(("id" = String, Path, description = "Run id")),
     responses(
         (status = 200, description = "One row per configuration", body = [u8], content_type = "application/vnd.apache.parquet"),
-        (status = 404, description = "No such run, or no configurations yet", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or no configurations yet"),
     ))]
 pub(crate) async fn configurations_parquet(State(app): State<App>, Path(id): Path<String>) -> Result<Response> {
     let bytes = app.engine.configurations_parquet(&id).await?;
@@ -106,9 +106,9 @@ pub(crate) async fn configurations_parquet(State(app): State<App>, Path(id): Pat
     params(("id" = String, Path, description = "Run id")),
     responses(
         (status = 200, description = "recipe.json lists the files: configurations, answers, objects, and plugins under free licences", body = [u8], content_type = "application/zip"),
-        (status = 404, description = "No such run, or no configurations", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "The run has not ended, or was measured by a version that is too old", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many archives are being downloaded", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or no configurations"),
+        (status = 409, description = "The run has not ended, or was measured by a version that is too old"),
+        (status = 429, description = "Too many archives are being downloaded"),
     ))]
 pub(crate) async fn repro_zip(State(app): State<App>, Path(id): Path<String>) -> Result<Response> {
     app.archives.send("application/zip", &format!("{id}-repro.zip"), app.engine.repro(&id)).await

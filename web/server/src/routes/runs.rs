@@ -13,7 +13,7 @@ use crate::extract::{Json, Path, Query};
 use crate::guest::{Guest, Person};
 use crate::limits::ASK_RUN;
 use crate::list;
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 use crate::request_key::{IdempotencyKey, RequestKey};
 
 /// A spec for the document: a knot against itself, a tenth of its size apart.
@@ -31,9 +31,9 @@ fn example() -> serde_json::Value {
 #[utoipa::path(post, path = "/estimates", tag = "runs", request_body(content = RunSpec, example = json!(example())),
     responses(
         (status = 200, body = Estimate),
-        (status = 400, description = "Not JSON", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The spec cannot be run", body = Problem, content_type = "application/problem+json"),
+        (status = 400, description = "Not JSON"),
+        (status = 404, description = "No such object"),
+        (status = 422, description = "The spec cannot be run"),
     ))]
 pub(crate) async fn estimate_run(
     State(app): State<App>,
@@ -49,10 +49,10 @@ pub(crate) async fn estimate_run(
     responses(
         (status = 200, description = "Already requested with this key", body = RunInfo),
         (status = 201, description = "Queued; its address is in `Location`", body = RunInfo),
-        (status = 400, description = "Not JSON", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such object", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The spec cannot be run, or exceeds the owner's time limit", body = Problem, content_type = "application/problem+json"),
-        (status = 429, description = "Too many runs are queued or running; `Retry-After` says when to try again", body = Problem, content_type = "application/problem+json"),
+        (status = 400, description = "Not JSON"),
+        (status = 404, description = "No such object"),
+        (status = 422, description = "The spec cannot be run, or exceeds the owner's time limit"),
+        (status = 429, description = "Too many runs are queued or running; `Retry-After` says when to try again"),
     ))]
 pub(crate) async fn start_run(
     State(app): State<App>,
@@ -73,7 +73,7 @@ pub(crate) async fn start_run(
 #[utoipa::path(get, path = "/runs", tag = "runs", params(Page),
     responses(
         (status = 200, description = "A page of the list", body = Vec<RunInfo>, headers(("Link" = String, description = "The next page: `<...>; rel=\"next\"`; absent on the last page"))),
-        (status = 422, description = "Invalid page parameters", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "Invalid page parameters"),
     ))]
 pub(crate) async fn list_runs(
     State(app): State<App>,
@@ -88,7 +88,7 @@ pub(crate) async fn list_runs(
     params(("id" = String, Path, description = "Run id")),
     responses(
         (status = 200, body = RunInfo),
-        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run"),
     ))]
 pub(crate) async fn show_run(
     State(app): State<App>,
@@ -103,8 +103,8 @@ pub(crate) async fn show_run(
     params(("id" = String, Path, description = "Run id")),
     responses(
         (status = 200, description = "The updated run", body = RunInfo),
-        (status = 403, description = "The run belongs to someone else", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "The run belongs to someone else"),
+        (status = 404, description = "No such run"),
     ))]
 pub(crate) async fn cancel_run(
     State(app): State<App>,
@@ -127,10 +127,10 @@ pub(crate) async fn cancel_run(
     params(("id" = String, Path, description = "Run id")),
     responses(
         (status = 200, description = "The updated run", body = RunInfo),
-        (status = 403, description = "The run belongs to someone else", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "Not a preview, or not ended", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "It can no longer be run", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "The run belongs to someone else"),
+        (status = 404, description = "No such run"),
+        (status = 409, description = "Not a preview, or not ended"),
+        (status = 422, description = "It can no longer be run"),
     ))]
 pub(crate) async fn refine_run(
     State(app): State<App>,
@@ -145,9 +145,9 @@ pub(crate) async fn refine_run(
     params(("id" = String, Path, description = "Run id")),
     responses(
         (status = 200, description = "The updated run", body = RunInfo),
-        (status = 403, description = "The run belongs to someone else, or a guest tries to publish", body = Problem, content_type = "application/problem+json"),
-        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "An object or plugin of the run is less visible", body = Problem, content_type = "application/problem+json"),
+        (status = 403, description = "The run belongs to someone else, or a guest tries to publish"),
+        (status = 404, description = "No such run"),
+        (status = 409, description = "An object or plugin of the run is less visible"),
     ))]
 pub(crate) async fn change_run_visibility(
     State(app): State<App>,

@@ -10,7 +10,7 @@ use utoipa::IntoParams;
 use crate::App;
 use crate::download::download;
 use crate::extract::{Path, Query};
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 use crate::routes::records::OfAlgorithm;
 
 /// Which configurations.
@@ -30,8 +30,8 @@ pub(crate) struct Where {
     params(("id" = String, Path, description = "Run id"), Where),
     responses(
         (status = 200, body = Selected),
-        (status = 404, description = "No such run, or no records of an algorithm", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "The selection is not valid or cannot be applied", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or no records of an algorithm"),
+        (status = 422, description = "The selection is not valid or cannot be applied"),
     ))]
 pub(crate) async fn show_selection(
     State(app): State<App>,
@@ -46,8 +46,8 @@ pub(crate) async fn show_selection(
     params(("id" = String, Path, description = "Run id"), WorstRequest),
     responses(
         (status = 200, body = Vec<WorstCase>),
-        (status = 404, description = "No such run, or no records of this algorithm", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "No such list: errors of a run without distance queries, an invalid selection", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or no records of this algorithm"),
+        (status = 422, description = "No such list: errors of a run without distance queries, an invalid selection"),
     ))]
 pub(crate) async fn list_worst(
     State(app): State<App>,
@@ -65,7 +65,7 @@ pub(crate) async fn list_worst(
     ),
     responses(
         (status = 200, body = Meeting),
-        (status = 404, description = "No such run or configuration", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run or configuration"),
     ))]
 pub(crate) async fn show_meeting(
     State(app): State<App>,
@@ -80,7 +80,7 @@ pub(crate) async fn show_meeting(
     params(("id" = String, Path, description = "Run id"), OfAlgorithm),
     responses(
         (status = 200, description = "The columns by their names in selections", body = [u8], content_type = "application/vnd.apache.arrow.stream"),
-        (status = 404, description = "No such run, or no records of this algorithm", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or no records of this algorithm"),
     ))]
 pub(crate) async fn columns_arrow(
     State(app): State<App>,
@@ -97,7 +97,7 @@ pub(crate) async fn columns_arrow(
     params(("id" = String, Path, description = "Run id")),
     responses(
         (status = 200, description = "distance, triangle_a, triangle_b, a_x .. b_z", body = [u8], content_type = "application/vnd.apache.arrow.stream"),
-        (status = 404, description = "No such run, or no configurations yet", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or no configurations yet"),
     ))]
 pub(crate) async fn witnesses_arrow(State(app): State<App>, Path(id): Path<String>) -> Result<Response> {
     let bytes = app.engine.witnesses_arrow(&id).await?;
