@@ -58,7 +58,7 @@ test('the last curator is told why they cannot leave', async (t) => {
   const curator = await visitor(t, { scheme: 'dark' })
   await enter(curator, 'curator', password, false)
   await curator.at('leave').click()
-  await curator.at('deletion-blocked').getByText('This is the last curator here').waitFor()
+  await curator.at('deletion-blocked').getByText('This is the last curator,').waitFor()
   assert.equal(await curator.at('leave-now').count(), 0)
   await curator.accessible('an account that cannot be deleted')
   await curator.picture('deletion-blocked')
