@@ -5,6 +5,7 @@ use std::path::Path;
 use ocb_core::mesh::obj;
 use ocb_core::stock;
 use ocb_service::Engine;
+use ocb_service::model::{ObjectId, stock_id};
 
 use crate::failure::{Failure, Result};
 use crate::open::{OWNER, read_bounded};
@@ -51,11 +52,11 @@ impl Object {
 /// The id of an object that is always there and quickly made.
 pub fn stand_in() -> String {
     let simplest = stock::list().iter().min_by_key(|object| object.lowest_triangles);
-    simplest.map_or_else(String::new, |object| format!("stock:{}@{}", object.name, object.lowest_triangles))
+    simplest.map_or_else(String::new, |object| stock_id(object.name, object.lowest_triangles))
 }
 
 fn object(named: &str) -> Result<Object> {
-    if named.starts_with("stock:") {
+    if ObjectId::of(named).is_stock() {
         return Ok(Object::Known(named.to_owned()));
     }
     let path = Path::new(named);

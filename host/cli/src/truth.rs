@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use ocb_core::mesh::{Mesh, obj};
 use ocb_core::oracle::Shape;
-use ocb_service::model::TruthRow;
+use ocb_service::model::{ObjectId, TruthRow};
 use ocb_service::truth::{self, Depth};
 use serde_json::json;
 
@@ -88,7 +88,7 @@ async fn configurations(store: &Store, args: &TruthArgs, json: bool) -> Result<E
 
 /// The mesh as an algorithm would get it.
 pub async fn object(store: &Store, named: &str) -> Result<Arc<Mesh>> {
-    if named.starts_with("stock:") {
+    if ObjectId::of(named).is_stock() {
         let (engine, _folder) = open::open_aside(store).await?;
         let mesh = engine.mesh(named).await;
         engine.shutdown().await;

@@ -15,7 +15,7 @@ use tokio::sync::Semaphore;
 use crate::blobs::Blobs;
 use crate::blocking::blocking;
 use crate::cache::Cache;
-use crate::model::{Cursor, ObjectInfo, Page, Part, Visibility};
+use crate::model::{Cursor, ObjectId, ObjectInfo, Page, Part, Visibility, stock_id};
 use crate::store::{Store, now_us};
 use crate::{EngineError, Result};
 
@@ -67,8 +67,8 @@ impl Objects {
     pub async fn stock(&self) -> Result<Vec<ObjectInfo>> {
         let shipped = SHIPPED.iter().filter(|name| self.shipped_file(name).is_some());
         let ids = shipped
-            .map(|name| format!("stock:{name}"))
-            .chain(stock::list().iter().map(|o| format!("stock:{}@{}", o.name, o.default_triangles)));
+            .map(|name| ObjectId::Stock { name, triangles: None }.to_string())
+            .chain(stock::list().iter().map(|o| stock_id(o.name, o.default_triangles)));
         let mut all = Vec::new();
         for id in ids {
             all.push(self.info(&id).await?);
@@ -79,7 +79,7 @@ impl Objects {
     /// One object as this viewer is shown it. The id in the answer is the canonical one: `stock:castle` has become
     /// `stock:castle@<default>`.
     pub async fn info_for(&self, id: &str, viewer: Option<&str>) -> Result<ObjectInfo> {
-        if id.starts_with("stock:") {
+        if ObjectId::of(id).is_stock() {
             return self.info(id).await;
         }
         let row = self.store.object(id).await?.filter(|row| row.is_for(viewer));
@@ -88,12 +88,12 @@ impl Objects {
 
     /// Is the object there for this viewer, if it is there at all?
     pub async fn is_for(&self, id: &str, viewer: Option<&str>) -> Result<bool> {
-        Ok(id.starts_with("stock:") || self.store.object(id).await?.is_none_or(|row| row.is_for(viewer)))
+        Ok(ObjectId::of(id).is_stock() || self.store.object(id).await?.is_none_or(|row| row.is_for(viewer)))
     }
 
     /// Who sees the object; what is not there any more hides nothing: its runs have taken over what it hid.
     pub async fn visibility(&self, id: &str) -> Result<Visibility> {
-        if id.starts_with("stock:") {
+        if ObjectId::of(id).is_stock() {
             return Ok(Visibility::Public);
         }
         Ok(self.store.object(id).await?.map_or(Visibility::Public, |row| row.info.visibility))
@@ -102,7 +102,7 @@ impl Objects {
     /// One object, whoever asks.
     pub async fn info(&self, id: &str) -> Result<ObjectInfo> {
         let id = canonical(id);
-        if !id.starts_with("stock:") {
+        if !ObjectId::of(&id).is_stock() {
             return Ok(self.store.object(&id).await?.ok_or_else(|| unknown(&id))?.info);
         }
         if let Some(info) = self.stock_infos.get(&id) {
@@ -126,7 +126,7 @@ impl Objects {
         if let Some(mesh) = self.meshes.get(&id) {
             return Ok(mesh);
         }
-        if id.starts_with("stock:") {
+        if ObjectId::of(&id).is_stock() {
             return Ok(self.make_stock(&id).await?.0);
         }
         let row = self.store.object(&id).await?.ok_or_else(|| unknown(&id))?;
@@ -137,12 +137,14 @@ impl Objects {
 
     /// Makes or reads a stock object and remembers what there is to say of it.
     async fn make_stock(&self, id: &str) -> Result<(Arc<Mesh>, ObjectInfo)> {
-        let name = id.trim_start_matches("stock:").to_owned();
-        let file = self.shipped_file(&name);
+        let file = match ObjectId::of(id) {
+            ObjectId::Stock { name, triangles: None } => self.shipped_file(name).map(|file| (name.to_owned(), file)),
+            ObjectId::Stock { .. } | ObjectId::Added(_) => None,
+        };
         let for_id = id.to_owned();
         let (mesh, info) = blocking(move || match file {
-            Some(file) => read_shipped(&for_id, &name, &file),
-            None => make_stock(&for_id, &name),
+            Some((name, file)) => read_shipped(&for_id, &name, &file),
+            None => make_stock(&for_id),
         })
         .await?;
         self.stock_infos.put(id, info.clone());
@@ -199,12 +201,13 @@ pub fn unknown(id: &str) -> EngineError {
 
 /// `stock:castle` means castle with its default number of triangles.
 fn canonical(id: &str) -> String {
-    let default = id.strip_prefix("stock:").and_then(|name| stock::list().iter().find(|o| o.name == name));
-    default.map_or_else(|| id.to_owned(), |o| format!("stock:{}@{}", o.name, o.default_triangles))
+    let ObjectId::Stock { name, triangles: None } = ObjectId::of(id) else { return id.to_owned() };
+    let default = stock::list().iter().find(|o| o.name == name);
+    default.map_or_else(|| id.to_owned(), |o| stock_id(o.name, o.default_triangles))
 }
 
-fn make_stock(id: &str, name: &str) -> Result<(Mesh, ObjectInfo)> {
-    let (name, triangles) = name.split_once('@').ok_or_else(|| unknown(id))?;
+fn make_stock(id: &str) -> Result<(Mesh, ObjectInfo)> {
+    let ObjectId::Stock { name, triangles: Some(triangles) } = ObjectId::of(id) else { return Err(unknown(id)) };
     let object = stock::list().iter().find(|o| o.name == name).ok_or_else(|| unknown(id))?;
     let mesh = triangles.parse().ok().and_then(|n| stock::generate(name, n)).ok_or_else(|| {
         EngineError::Invalid(format!(

@@ -9,7 +9,7 @@ use ocb_core::configuration::{Method, Sampling, Separation};
 use ocb_core::query::{Query, Semantics};
 use serde::Deserialize;
 
-use crate::model::RunSpec;
+use crate::model::{ObjectId, RunSpec};
 use crate::sha256_hex;
 use crate::{EngineError, Result};
 
@@ -76,7 +76,9 @@ impl Suite {
                 "A suite has 1 to {MAX_SCENARIOS} scenarios (scenes times separations times queries), not {scenarios}."
             )));
         }
-        if let Some(other) = scenes.iter().flatten().find(|id| !(id.starts_with("stock:") && id.contains('@'))) {
+        if let Some(other) =
+            scenes.iter().flatten().find(|id| !matches!(ObjectId::of(id), ObjectId::Stock { triangles: Some(_), .. }))
+        {
             return Err(EngineError::Invalid(format!(
                 "The objects of a suite are stock objects with their triangles, such as stock:castle@5000, not {other:?}."
             )));

@@ -12,7 +12,7 @@ use crate::blocking::blocking;
 use crate::board::{Measured, Named};
 use crate::columns::RecordColumns;
 use crate::engine::Inner;
-use crate::model::AlgorithmResult;
+use crate::model::{AlgorithmResult, ObjectId};
 use crate::runs::sql::RunRow;
 
 /// Other runs beside this one, at most.
@@ -112,9 +112,9 @@ impl Inner {
 /// The shapes of a run's objects: a stock object is the same in every resolution, those that were brought are alike.
 fn shapes(row: &RunRow) -> [&str; 2] {
     let a = &row.spec.object_a;
-    [a, row.spec.object_b.as_ref().unwrap_or(a)].map(|id| match id.strip_prefix("stock:") {
-        Some(name) => name.split('@').next().unwrap_or(name),
-        None => "",
+    [a, row.spec.object_b.as_ref().unwrap_or(a)].map(|id| match ObjectId::of(id) {
+        ObjectId::Stock { name, .. } => name,
+        ObjectId::Added(_) => "",
     })
 }
 

@@ -13,7 +13,7 @@ use crate::blocking::blocking;
 use crate::boxed;
 use crate::columns::{AnswerRow, read_answers, set_versions};
 use crate::engine::Engine;
-use crate::model::{Recipe, RecipeAlgorithm, RecipeObject, RecipeVersions, Replay, Replayed, State};
+use crate::model::{ObjectId, Recipe, RecipeAlgorithm, RecipeObject, RecipeVersions, Replay, Replayed, State};
 use crate::plugins::registry::brought;
 use crate::replay::{Packing, Questions, Unpacked};
 use crate::results::not_yet;
@@ -164,7 +164,7 @@ impl Engine {
         let bad = |why: String| EngineError::Invalid(format!("The archive's object {:?} {why}.", of.name));
         let mesh = match archive.object(of) {
             Some(bytes) => Arc::new(obj::read(bytes).map_err(|e| bad(format!("cannot be read: {e}")))?.mesh),
-            None if of.id.starts_with("stock:") => self.inner.objects.mesh(&of.id).await?,
+            None if ObjectId::of(&of.id).is_stock() => self.inner.objects.mesh(&of.id).await?,
             None => return Err(bad("is missing".into())),
         };
         if mesh.sha256() != of.sha256 {
