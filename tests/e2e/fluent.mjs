@@ -12,7 +12,7 @@ const WHERE = [
   () => '!(wrong of simdop | flipped of ocb-fast)',
 ]
 const SPEC = {
-  object_a: 'stock:torus-knot@2000', query: 'collision_first', step: 2e-3, passes: 1, budget_seconds: 600,
+  object_a: 'stock:torus-knot@2000', query: 'collision_first', separation: { kind: 'step', of_size: 2e-3 }, passes: 1, budget_seconds: 600,
   algorithms: ['ocb-fast', 'simdop'],
   method: { kind: 'sphere', seed: 1, sampling: { kind: 'count', count: configurations } },
 }

@@ -24,7 +24,7 @@ fn bad_files() -> Vec<(&'static str, Vec<u8>, &'static str)> {
 
 fn spec(changes: Value) -> Value {
     let mut spec = json!({
-        "object_a": "stock:sphere@500", "query": "collision_first", "relative_distance": 0.0,
+        "object_a": "stock:sphere@500", "query": "collision_first", "separation": { "kind": "relative", "distance": 0.0 },
         "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 10 } },
     });
     spec.as_object_mut().expect("an object").extend(changes.as_object().expect("an object").clone());
@@ -38,7 +38,7 @@ fn count(n: u64) -> Value {
 /// Runs that cannot be: what the API gets, what the command line gets, and a word that the sentence must hold.
 fn bad_runs() -> Vec<(Value, Vec<&'static str>, &'static str)> {
     vec![
-        (json!({ "relative_distance": -0.1 }), vec!["--distance=-0.1"], "distance"),
+        (json!({ "separation": { "kind": "relative", "distance": -0.1 } }), vec!["--distance=-0.1"], "distance"),
         (count(0), vec!["--count", "0"], "configuration"),
         (count(1_000_000_000), vec!["--count", "1000000000"], "configuration"),
         (json!({ "algorithms": ["no-such-thing"] }), vec!["--algorithm", "no-such-thing"], "no-such-thing"),

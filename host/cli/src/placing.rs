@@ -86,14 +86,19 @@ impl PlacingArgs {
                 seed,
             },
         };
-        let separation = match self.step {
-            Some(of_size) => Separation::Step { of_size },
-            None => Separation::Relative { distance: self.distance.unwrap_or_default() },
-        };
         let wrong = |e: sampling::SamplingError| Failure::Input(format!("These configurations are not possible: {e}."));
-        sampling::check_separation(separation).map_err(wrong)?;
+        sampling::check_separation(self.separation()).map_err(wrong)?;
         sampling::count(&method).map_err(wrong)?;
         Ok(method)
+    }
+
+    /// How far apart or how deep in each other.
+    pub fn separation(&self) -> Separation {
+        match self.step {
+            _ if self.ladder => Separation::Ladder,
+            Some(of_size) => Separation::Step { of_size },
+            None => Separation::Relative { distance: self.distance.unwrap_or_default() },
+        }
     }
 
     /// Names of the arguments that were given.

@@ -149,7 +149,7 @@ mod tests {
     fn the_key_changes_with_everything_that_changes_the_set() {
         let spec = |distance: f64, count: u32| -> RunSpec {
             serde_json::from_value(serde_json::json!({
-                "object_a": "x", "query": "proximity", "relative_distance": distance,
+                "object_a": "x", "query": "proximity", "separation": { "kind": "relative", "distance": distance },
                 "method": {"kind": "sphere", "sampling": {"kind": "count", "count": count}},
             }))
             .unwrap()

@@ -14,6 +14,6 @@ pub use pack::Packing;
 pub use unpack::Unpacked;
 
 /// Version of the archive's format.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 /// The file that lists all others.
 const RECIPE: &str = "recipe.json";

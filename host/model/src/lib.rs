@@ -102,15 +102,10 @@ pub struct RunSpec {
     pub semantics: Semantics,
     /// How the configurations are found.
     pub method: Method,
-    /// Surface distance divided by L, the longest side of A's bounding box; at least 0.
-    #[serde(default)]
-    pub relative_distance: f64,
-    /// Instead of a relative distance: a step of the scene's size S, 7e-15 to 0.1, apart (above 0) or crossing (below 0).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub step: Option<f64>,
-    /// Instead of a relative distance: the ten steps of the ladder in turn, on which eps* is measured.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub ladder: bool,
+    /// How far apart the objects are placed, or how deep in each other; only the sphere and the grid method use it.
+    #[serde(default = "no_distance")]
+    #[schema(default = no_distance)]
+    pub separation: Separation,
     /// Algorithm ids, each with its settings behind it (`box-tree:leaf_size=4`); the usual ones that answer the question when
     /// empty, every one that does for `["all"]`.
     #[serde(default)]
@@ -161,13 +156,13 @@ impl RunSpec {
     pub fn separation(&self) -> Option<Separation> {
         match self.method {
             Method::Trajectory { .. } | Method::Random { .. } | Method::File { .. } => None,
-            Method::Sphere { .. } | Method::Grid { .. } => Some(match self.step {
-                _ if self.ladder => Separation::Ladder,
-                Some(of_size) => Separation::Step { of_size },
-                None => Separation::Relative { distance: self.relative_distance },
-            }),
+            Method::Sphere { .. } | Method::Grid { .. } => Some(self.separation),
         }
     }
+}
+
+fn no_distance() -> Separation {
+    Separation::Relative { distance: 0.0 }
 }
 
 fn default_passes() -> u32 {

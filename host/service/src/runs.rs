@@ -12,6 +12,7 @@ pub mod queue;
 pub mod repro;
 pub mod spec;
 pub mod sql;
+pub mod stored_spec;
 pub mod turn;
 
 use std::time::{Duration, Instant};

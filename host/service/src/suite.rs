@@ -100,20 +100,13 @@ impl Suite {
 
     fn scenario(&self, query: Query, [a, b]: &[String; 2], separation: Separation) -> RunSpec {
         let Document { configurations: count, seed, passes, budget_seconds, .. } = self.document;
-        let (relative_distance, step, ladder) = match separation {
-            Separation::Relative { distance } => (distance, None, false),
-            Separation::Step { of_size } => (0.0, Some(of_size), false),
-            Separation::Ladder => (0.0, None, true),
-        };
         RunSpec {
             object_a: a.clone(),
             object_b: Some(b.clone()).filter(|b| b != a),
             query,
             semantics: Semantics::Surface,
             method: Method::Sphere { sampling: Sampling::Count { count }, seed: seed.unwrap_or_default() },
-            relative_distance,
-            step,
-            ladder,
+            separation,
             algorithms: Vec::new(),
             passes,
             budget_seconds,
@@ -161,7 +154,9 @@ mod tests {
         assert_eq!(scenarios.len(), 4 * 3 * 2);
         assert!(scenarios.iter().enumerate().all(|(i, one)| scenarios[..i].iter().all(|other| other != one)));
         // Some of it collides: a method that never answers "hit" must not get through.
-        assert!(scenarios.iter().any(|spec| spec.ladder && spec.query == Query::CollisionFirst));
+        assert!(
+            scenarios.iter().any(|spec| spec.separation == Separation::Ladder && spec.query == Query::CollisionFirst)
+        );
         let measured = RunSpec { algorithms: vec!["box-tree".into()], ..scenarios[3].clone() };
         assert_eq!(scenario_of(&measured), scenarios[3]);
         let drawn = drawn_anew(&measured, 99);

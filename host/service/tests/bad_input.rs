@@ -2,7 +2,7 @@
 
 mod common;
 
-use ocb_core::configuration::{Method, Sampling};
+use ocb_core::configuration::{Method, Sampling, Separation};
 use ocb_service::model::{Page, RunSpec};
 use ocb_service::{Engine, EngineError};
 
@@ -76,8 +76,8 @@ async fn no_bad_request_is_queued() {
     let steps = |by| Method::Sphere { sampling: Sampling::Steps { rotate: by, move_by: by }, seed: 0 };
     let trajectory = Method::Trajectory { center_distance: 1.0, count: 10 };
     let cases: Vec<(RunSpec, &str)> = vec![
-        (RunSpec { relative_distance: -0.1, ..good.clone() }, "relative distance"),
-        (RunSpec { relative_distance: f64::NAN, ..good.clone() }, "relative distance"),
+        (RunSpec { separation: Separation::Relative { distance: -0.1 }, ..good.clone() }, "relative distance"),
+        (RunSpec { separation: Separation::Relative { distance: f64::NAN }, ..good.clone() }, "relative distance"),
         (RunSpec { method: count(0), ..good.clone() }, "at least 1"),
         (RunSpec { method: count(1_000_000_000), ..good.clone() }, "1000000000 configurations are too many"),
         (RunSpec { method: steps(0.0), ..good.clone() }, "degrees"),

@@ -5,6 +5,7 @@
 
 mod common;
 
+use ocb_core::configuration::Separation;
 use ocb_core::statistics::{Outliers, Statistic};
 use ocb_service::model::{Heatmap, HeatmapRequest, Measure, RunInfo, State, WorstBy, WorstRequest};
 use ocb_service::{Engine, EngineError};
@@ -13,7 +14,7 @@ use tempfile::TempDir;
 /// Asked so near to contact that parry in f32 fails.
 async fn measured(engine: &Engine, query: &str, algorithms: [&str; 2]) -> RunInfo {
     let mut spec = common::spec(query, 60, 3);
-    spec.step = Some(1e-5);
+    spec.separation = Separation::Step { of_size: 1e-5 };
     spec.algorithms = algorithms.map(str::to_owned).to_vec();
     let run = engine.submit(spec, Some("guest")).await.unwrap();
     let (run, _) = common::finish(engine, &run.id).await;

@@ -6,7 +6,7 @@ use std::fs::File;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use ocb_core::configuration::{Class, Method};
+use ocb_core::configuration::{Class, Method, Separation};
 use ocb_core::statistics::{Outliers, Statistic};
 use ocb_service::model::{
     ChartKind, ChartRequest, Ecdf, HeatmapRequest, Measure, OutcomeName, Page, RunSpec, StageKind, State,
@@ -101,7 +101,7 @@ async fn a_small_budget_measures_the_same_prefix_and_says_so() {
     let engine = Engine::open(common::config(data.path())).await.unwrap();
     let mut spec = common::spec("collision_first", 4000, 2);
     spec.algorithms = vec!["brute-force".into()];
-    spec.relative_distance = 0.05;
+    spec.separation = Separation::Relative { distance: 0.05 };
     // Nothing is measured in a microsecond. How much more a first answer takes depends on what else the machine does, so the
     // budget is doubled until there is one; all questions take many times as long.
     spec.budget_seconds = 1e-6;
@@ -134,7 +134,7 @@ async fn what_is_expected_of_a_run_hardly_changes_and_the_reference_is_no_gap() 
     let engine = Engine::open(common::config(data.path())).await.unwrap();
     let spec = RunSpec {
         algorithms: vec!["brute-force".into()],
-        relative_distance: 0.05,
+        separation: Separation::Relative { distance: 0.05 },
         budget_seconds: 4.0,
         ..common::spec("proximity", 4000, 2)
     };
@@ -339,6 +339,6 @@ fn a_spec_needs_little() {
         r#"{"object_a": "x", "query": "proximity", "method": {"kind": "sphere", "sampling": {"kind": "count", "count": 3}}}"#,
     )
     .unwrap();
-    assert_eq!((spec.passes, spec.relative_distance), (5, 0.0));
+    assert_eq!((spec.passes, spec.separation), (5, Separation::Relative { distance: 0.0 }));
     assert!(matches!(spec.method, Method::Sphere { seed: 0, .. }));
 }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use ocb_core::configuration::Method;
+use ocb_core::configuration::{Method, Separation};
 use ocb_service::model::{RunSpec, SetInfo};
 use ocb_service::truth::{Gauge, read_matrices};
 use ocb_service::{Engine, EngineError};
@@ -51,12 +51,12 @@ fn golden() -> Vec<(RunSpec, &'static str)> {
             spec(
                 "stock:sponge@600",
                 json!({ "kind": "sphere", "sampling": steps }),
-                json!({ "relative_distance": 0.2 }),
+                json!({ "separation": { "kind": "relative", "distance": 0.2 } }),
             ),
             "4c3aa956dac82a60dda81812e3144c433f6c6fda54fa5d722e59d430700c44b5",
         ),
         (
-            spec("stock:sponge@600", counted("grid"), json!({ "ladder": true })),
+            spec("stock:sponge@600", counted("grid"), json!({ "separation": { "kind": "ladder" } })),
             "2a66549c8f927a05f8bee530736ad0ca6e9a0f6540b6f39d4edf7ecde0624f72",
         ),
         (
@@ -93,7 +93,8 @@ async fn a_set_is_the_same_bytes_everywhere_and_found_once() {
         assert_eq!(poses.len() as u32, info.configurations);
         let method = engine.add_configurations(bytes.clone()).await.expect("our own file");
         let (again, _) =
-            make(&engine, &RunSpec { method, relative_distance: 0.0, ladder: false, ..spec.clone() }).await;
+            make(&engine, &RunSpec { method, separation: Separation::Relative { distance: 0.0 }, ..spec.clone() })
+                .await;
         assert_eq!((again.configurations, &again.classes), (info.configurations, &info.classes));
         assert_eq!(again.missed_rays, 0);
     }
@@ -129,10 +130,12 @@ async fn what_cannot_be_is_refused_in_one_sentence() {
     let engine = Engine::open(common::idle_config(data.path())).await.expect("an engine");
     let random = |share: f64| json!({ "kind": "random", "count": 9, "hit_share": share });
     let cases = [
-        (counted("sphere"), json!({ "step": 0.5 }), "a step must be from 7e-15 to 0.1"),
-        (counted("sphere"), json!({ "step": 0.01, "ladder": true }), "only one of"),
-        (counted("grid"), json!({ "step": 0.01, "relative_distance": 0.1 }), "only one of"),
-        (random(0.5), json!({ "ladder": true }), "require the sphere or the grid method"),
+        (
+            counted("sphere"),
+            json!({ "separation": { "kind": "step", "of_size": 0.5 } }),
+            "a step must be from 7e-15 to 0.1",
+        ),
+        (random(0.5), json!({ "separation": { "kind": "ladder" } }), "require the sphere or the grid method"),
         (random(1.0), json!({}), "the share of colliding poses must be more than 0 and less than 1"),
         (json!({ "kind": "trajectory", "center_distance": -1.0 }), json!({}), "the distance of the centres"),
         (json!({ "kind": "trajectory", "center_distance": 1.0, "count": 0 }), json!({}), "at least 1"),

@@ -14,7 +14,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use futures::StreamExt;
-use ocb_core::configuration::{Method, Sampling};
+use ocb_core::configuration::{Method, Sampling, Separation};
 use ocb_core::query::{Query, Semantics};
 use ocb_service::model::{RunInfo, RunSpec};
 use ocb_service::{Engine, EngineConfig};
@@ -29,12 +29,12 @@ struct Options {
 }
 
 /// What is asked of every object: the workload's name, relative distance, step, question.
-const WORKLOADS: [(&str, f64, Option<f64>, Query); 5] = [
-    ("W1", 1e-4, None, Query::CollisionFirst),
-    ("W2", 0.1, None, Query::CollisionFirst),
-    ("W3", 0.0, Some(-5e-4), Query::CollisionFirst),
-    ("W1", 1e-4, None, Query::Proximity),
-    ("W2", 0.1, None, Query::Proximity),
+const WORKLOADS: [(&str, Separation, Query); 5] = [
+    ("W1", Separation::Relative { distance: 1e-4 }, Query::CollisionFirst),
+    ("W2", Separation::Relative { distance: 0.1 }, Query::CollisionFirst),
+    ("W3", Separation::Step { of_size: -5e-4 }, Query::CollisionFirst),
+    ("W1", Separation::Relative { distance: 1e-4 }, Query::Proximity),
+    ("W2", Separation::Relative { distance: 0.1 }, Query::Proximity),
 ];
 
 #[tokio::main]
@@ -107,7 +107,7 @@ async fn measure(
     engine: &Engine,
     options: &Options,
     object: &str,
-    (name, relative_distance, step, query): (&str, f64, Option<f64>, Query),
+    (name, separation, query): (&str, Separation, Query),
 ) -> Result<RunInfo, Box<dyn Error>> {
     let (id, given) = if object.starts_with("stock:") {
         (object.to_owned(), None)
@@ -117,11 +117,9 @@ async fn measure(
         let poses = file.with_file_name(format!("{stem}.{name}.f64"));
         (engine.add_object(stem, fs::read(file)?, None).await?.id, poses.is_file().then_some(poses))
     };
-    let (method, relative_distance, step) = match given {
-        Some(poses) => (engine.add_configurations(fs::read(poses)?).await?, 0.0, None),
-        None => {
-            (Method::Sphere { sampling: Sampling::Count { count: options.count }, seed: 0 }, relative_distance, step)
-        }
+    let method = match given {
+        Some(poses) => engine.add_configurations(fs::read(poses)?).await?,
+        None => Method::Sphere { sampling: Sampling::Count { count: options.count }, seed: 0 },
     };
     // Who does not answer this question is not asked it.
     let known = engine.algorithms(None);
@@ -135,9 +133,7 @@ async fn measure(
         query,
         semantics: Semantics::Surface,
         method,
-        relative_distance,
-        step,
-        ladder: false,
+        separation,
         algorithms: options.algorithms.iter().filter(|wanted| answers(wanted)).cloned().collect(),
         passes: 5,
         budget_seconds: options.seconds,

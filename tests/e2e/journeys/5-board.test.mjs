@@ -33,7 +33,7 @@ async function taken(v, id) {
 
 test('the board compares what was measured, filters it, and can be linked and taken away', async (t) => {
   const v = await visitor(t, { width: 1440 })
-  const id = await measure(v, knot({ ladder: true }))
+  const id = await measure(v, knot({ separation: { kind: 'ladder' } }))
   await v.go('/board?suite=none&question=collision_first&scene=torus-knot@600~torus-knot@600')
   await v.at('board-table').waitFor()
   const query = 'suite=none&question=collision_first&scene=torus-knot@600~torus-knot@600'
@@ -107,8 +107,8 @@ test('the board compares what was measured, filters it, and can be linked and ta
 test('every chart of a run shows the numbers of the API and is a file in four formats', async (t) => {
   const v = await visitor(t, { width: 1440 })
   const algorithms = ['box-tree', 'dop-tree', 'parry']
-  await measure(v, knot({ query: 'proximity', relative_distance: 0.1, algorithms }))
-  const id = await measure(v, knot({ query: 'proximity', ladder: true, algorithms }))
+  await measure(v, knot({ query: 'proximity', separation: { kind: 'relative', distance: 0.1 }, algorithms }))
+  const id = await measure(v, knot({ query: 'proximity', separation: { kind: 'ladder' }, algorithms }))
   await v.go(`/r/${id}`)
   await v.at('run-charts').waitFor()
   for (const kind of ['accuracy', 'resolution', 'ecdf', 'distance', 'triangles', 'bv_tests', 'primitive_tests']) {

@@ -6,7 +6,7 @@ import { until, visitor } from '../visitor.mjs'
 // So near that parry in single precision gets some answers wrong, though its arithmetic could tell: some 220 of 400 or
 // some 390, as the equivalent instances fall.
 const SPEC = {
-  object_a: 'stock:torus-knot@2000', query: 'collision_first', step: 2e-3, passes: 1, budget_seconds: 10,
+  object_a: 'stock:torus-knot@2000', query: 'collision_first', separation: { kind: 'step', of_size: 2e-3 }, passes: 1, budget_seconds: 10,
   algorithms: ['box-tree', 'parry-f32'],
   method: { kind: 'sphere', seed: 6, sampling: { kind: 'count', count: 400 } },
 }

@@ -11,7 +11,7 @@ test('an account is deleted, and what was public stays without a name', async (t
   await enter(owner, 'deleted-soon', PASSWORD, true)
   const spec = {
     object_a: 'stock:torus-knot@600', query: 'proximity', passes: 2, algorithms: ['box-tree', 'brute-force'],
-    method: { kind: 'sphere', sampling: { kind: 'count', count: 60 } }, relative_distance: 0.1,
+    method: { kind: 'sphere', sampling: { kind: 'count', count: 60 } }, separation: { kind: 'relative', distance: 0.1 },
   }
   const [shown, hidden] = [0, 0].map(() => owner.api('/runs', { method: 'POST', data: spec }))
   const runs = [(await shown).id, (await hidden).id]

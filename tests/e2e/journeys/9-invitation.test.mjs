@@ -42,7 +42,7 @@ test('somebody who is invited becomes a developer, once', async (t) => {
 test('a run is cited and taken along', async (t) => {
   const guest = await visitor(t)
   const spec = {
-    object_a: 'stock:torus-knot@600', query: 'proximity', passes: 1, algorithms: ['box-tree'], relative_distance: 0.1,
+    object_a: 'stock:torus-knot@600', query: 'proximity', passes: 1, algorithms: ['box-tree'], separation: { kind: 'relative', distance: 0.1 },
     method: { kind: 'sphere', sampling: { kind: 'count', count: 60 } },
   }
   await guest.go('/runs')

@@ -8,7 +8,7 @@ test('what one has made is kept, taken along and taken away', async (t) => {
   const guest = await visitor(t)
   const spec = {
     object_a: 'stock:torus-knot@600', query: 'proximity', passes: 2, algorithms: ['box-tree', 'brute-force'],
-    method: { kind: 'sphere', sampling: { kind: 'count', count: 60 } }, relative_distance: 0.1,
+    method: { kind: 'sphere', sampling: { kind: 'count', count: 60 } }, separation: { kind: 'relative', distance: 0.1 },
   }
   await guest.go('/runs')
   const runs = []

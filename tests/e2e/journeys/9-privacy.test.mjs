@@ -17,7 +17,7 @@ test('what one keeps to oneself is not there for others', async (t) => {
   const object = await owner.api('/objects', { method: 'POST', multipart })
   const spec = {
     object_a: object.id, query: 'proximity', passes: 2, algorithms: ['box-tree', 'brute-force'],
-    method: { kind: 'sphere', sampling: { kind: 'count', count: 60 } }, relative_distance: 0.1,
+    method: { kind: 'sphere', sampling: { kind: 'count', count: 60 } }, separation: { kind: 'relative', distance: 0.1 },
   }
   const run = await owner.api('/runs', { method: 'POST', data: spec })
   await until('the run is done', async () => (await owner.api(`/runs/${run.id}`)).state === 'done')

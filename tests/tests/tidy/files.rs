@@ -13,9 +13,7 @@ fn is_code(path: &Path) -> bool {
 /// Written by a program and checked against its source by a test of its own.
 fn is_generated(path: &Path) -> bool {
     let path = path.to_string_lossy();
-    path.contains("snapshots/")
-        || path.ends_with(".lock")
-        || path.ends_with("package-lock.json")
+    path.contains("snapshots/") || path.ends_with(".lock") || path.ends_with("package-lock.json")
 }
 
 /// The lines of tracked files that contain one of `needles`, as `path:line: text`.

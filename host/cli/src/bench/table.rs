@@ -125,10 +125,10 @@ pub fn placing(spec: &RunSpec) -> String {
         Method::Random { hit_share, .. } => return format!("random, {hit_share} colliding"),
         Method::File { .. } => return "given poses".to_owned(),
     };
-    match spec.separation() {
-        Some(Separation::Ladder) => format!("{method}, ladder of steps"),
-        Some(Separation::Step { of_size }) => format!("{method}, step {of_size:e}"),
-        _ => format!("{method}, relative distance {}", spec.relative_distance),
+    match spec.separation {
+        Separation::Ladder => format!("{method}, ladder of steps"),
+        Separation::Step { of_size } => format!("{method}, step {of_size:e}"),
+        Separation::Relative { distance } => format!("{method}, relative distance {distance}"),
     }
 }
 

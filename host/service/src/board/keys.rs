@@ -43,13 +43,12 @@ pub fn distance(spec: &RunSpec) -> Named {
             return named(format!("given:{short}"), format!("given poses {short}"));
         }
     };
-    match spec.separation() {
-        Some(Separation::Ladder) => named(format!("{prefix}ladder"), format!("ladder of steps ({method})")),
-        Some(Separation::Step { of_size }) => {
+    match spec.separation {
+        Separation::Ladder => named(format!("{prefix}ladder"), format!("ladder of steps ({method})")),
+        Separation::Step { of_size } => {
             named(format!("{prefix}step:{of_size:e}"), format!("step {of_size:e} of S ({method})"))
         }
-        _ => {
-            let distance = spec.relative_distance;
+        Separation::Relative { distance } => {
             named(format!("{prefix}{distance}"), format!("relative distance {distance} ({method})"))
         }
     }

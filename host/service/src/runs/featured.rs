@@ -1,6 +1,6 @@
 //! The run that a visitor sees before asking for anything: measured here, never a canned picture.
 
-use ocb_core::configuration::{Method, Sampling};
+use ocb_core::configuration::{Method, Sampling, Separation};
 use ocb_core::query::{Query, Semantics};
 
 use crate::Result;
@@ -35,9 +35,7 @@ impl Engine {
             query,
             semantics: Semantics::Surface,
             method: Method::Sphere { sampling: Sampling::Count { count: CONFIGURATIONS }, seed: 0 },
-            relative_distance: 0.0,
-            step: None,
-            ladder: false,
+            separation: Separation::Relative { distance: 0.0 },
             algorithms: Vec::new(),
             passes: 3,
             budget_seconds: BUDGET_SECONDS,

@@ -120,15 +120,10 @@ fn check_solid(objects: &[&ObjectInfo]) -> Result<()> {
 /// Checks what a request says about its configurations; the number of those to be found, before any is missed.
 pub async fn set_size(spec: &RunSpec, store: &Store, blobs: &Blobs) -> Result<u64> {
     let invalid = |sentence: &str| Err(EngineError::Invalid(sentence.into()));
-    let RunSpec { relative_distance, step, ladder, .. } = *spec;
-    if [relative_distance != 0.0, step.is_some(), ladder].iter().filter(|given| **given).count() > 1 {
-        return invalid("Choose only one of relative distance, step and ladder of steps.");
-    }
-    let separation = spec.separation().unwrap_or(Separation::Relative { distance: relative_distance });
-    if spec.separation().is_none() && (step.is_some() || ladder) {
+    if spec.separation().is_none() && !matches!(spec.separation, Separation::Relative { .. }) {
         return invalid("Steps and the ladder require the sphere or the grid method.");
     }
-    sampling::check_separation(separation)
+    sampling::check_separation(spec.separation)
         .map_err(|e| EngineError::Invalid(format!("These configurations are not possible: {e}.")))?;
     if let Method::File { sha256 } = &spec.method {
         // A stored file of another kind sounds like none: nobody learns which files others have stored.

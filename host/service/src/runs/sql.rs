@@ -4,6 +4,7 @@ use sqlx::Row;
 use sqlx::any::AnyRow;
 
 use crate::model::{Cursor, Environment, Preview, RunEvent, RunSpec, SetInfo, Stage, State, Visibility};
+use crate::runs::stored_spec::read_spec;
 use crate::store::{Store, from_json, now_us, to_json};
 use crate::visibility::sql::visibility;
 use crate::{EngineError, Result};
@@ -359,7 +360,7 @@ pub(crate) fn read_run(row: &AnyRow) -> Result<RunRow> {
         state: named_state(row.try_get("state")?)?,
         attempts: row.try_get::<i64, _>("attempts")? as u32,
         message: row.try_get("message")?,
-        spec: from_json(row.try_get("spec")?)?,
+        spec: read_spec(row.try_get("spec")?)?,
         object_a_name: row.try_get("object_a_name")?,
         object_b_name: row.try_get("object_b_name")?,
         set: set.map(|text| from_json(&text)).transpose()?,

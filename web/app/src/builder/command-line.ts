@@ -17,7 +17,7 @@ export function commandLine(spec: RunSpec, file: (id: string) => string): string
   return lines.join(' \\\n  ')
 }
 
-function placement({ method, relative_distance: distance = 0, step, ladder }: RunSpec): string {
+function placement({ method, separation }: RunSpec): string {
   if (method.kind === 'file') return '--configurations configurations.parquet'
   if (method.kind === 'trajectory') return `--method trajectory --center-distance ${method.center_distance} --count ${method.count ?? PUBLISHED_FRAMES}`
   const seed = method.seed ? ` --seed ${method.seed}` : ''
@@ -27,8 +27,12 @@ function placement({ method, relative_distance: distance = 0, step, ladder }: Ru
     sampling.kind === 'count'
       ? `--count ${sampling.count}`
       : `--rotate ${sampling.rotate} --move ${sampling.move}${sampling.kind === 'paper_compat' ? ' --paper-compat' : ''}`
-  const apart = step == null ? `--distance ${distance}` : `--step=${step}`
-  return `--method ${method.kind} ${how}${seed} ${ladder ? '--ladder' : apart}`
+  return `--method ${method.kind} ${how}${seed} ${apart(separation)}`
+}
+
+function apart(separation: RunSpec['separation']): string {
+  if (separation?.kind === 'ladder') return '--ladder'
+  return separation?.kind === 'step' ? `--step=${separation.of_size}` : `--distance ${separation?.distance ?? 0}`
 }
 
 /** A word that a POSIX shell takes as it is. */

@@ -16,13 +16,13 @@ describe('toSpec', () => {
     expect(toSpec(form(), ALL)).toEqual({
       spec: {
         object_a: 'stock:bunny', query: 'collision_first', method: { kind: 'sphere', sampling: { kind: 'steps', rotate: 20, move: 20 }, seed: 0 },
-        relative_distance: 0, algorithms: ['both', 'collider'], passes: 5, budget_seconds: 60,
+        separation: { kind: 'relative', distance: 0 }, algorithms: ['both', 'collider'], passes: 5, budget_seconds: 60,
       },
     })
   })
 
   it('leaves judging the numbers to the service, but not empty fields', () => {
-    expect(toSpec({ ...form(), distance: -1 }, ALL)).toHaveProperty('spec.relative_distance', -1)
+    expect(toSpec({ ...form(), distance: -1 }, ALL)).toHaveProperty('spec.separation', { kind: 'relative', distance: -1 })
     expect(toSpec({ ...form(), thoroughness: 'count', count: 0 }, ALL)).toHaveProperty('spec.method.sampling.count', 0)
     expect(toSpec({ ...form(), distance: '' }, ALL)).toHaveProperty('missing')
     expect(toSpec({ ...form(), thoroughness: 'count', count: 1.5 }, ALL)).toHaveProperty('missing')
@@ -49,8 +49,8 @@ describe('the methods', () => {
   const made = (change: Partial<BuilderForm>) => {
     const wish = toSpec({ ...form(), ...change }, ALL)
     if ('missing' in wish) return { missing: wish.missing }
-    const { method, relative_distance, step, ladder } = wish.spec
-    return { asked: { method, relative_distance, step, ladder }, line: commandLine(wish.spec, (id) => id).split('\n')[2]?.trim().replace(/ \\$/, '') }
+    const { method, separation } = wish.spec
+    return { asked: { method, separation }, line: commandLine(wish.spec, (id) => id).split('\n')[2]?.trim().replace(/ \\$/, '') }
   }
   const sampling = { kind: 'count', count: 500 }
   const counted = { thoroughness: 'count', count: 500 } as const
@@ -58,11 +58,11 @@ describe('the methods', () => {
   it('say one separation, and that only where the method looks for one', () => {
     const left = { separation: 'step', step: 0.1, distance: 0.2 } as const
     expect(made({ ...counted, ...left, method: 'grid' })).toEqual({
-      asked: { method: { kind: 'grid', sampling, seed: 0 }, step: 0.1 }, line: '--method grid --count 500 --step=0.1',
+      asked: { method: { kind: 'grid', sampling, seed: 0 }, separation: { kind: 'step', of_size: 0.1 } }, line: '--method grid --count 500 --step=0.1',
     })
     expect(made({ ...counted, ...left, step: -1e-7 }).line).toBe('--method sphere --count 500 --step=-1e-7')
     expect(made({ ...counted, ...left, separation: 'ladder' })).toEqual({
-      asked: { method: { kind: 'sphere', sampling, seed: 0 }, ladder: true }, line: '--method sphere --count 500 --ladder',
+      asked: { method: { kind: 'sphere', sampling, seed: 0 }, separation: { kind: 'ladder' } }, line: '--method sphere --count 500 --ladder',
     })
     expect(made({ ...counted, ...left, method: 'trajectory', centerDistance: 0.9 })).toEqual({
       asked: { method: { kind: 'trajectory', center_distance: 0.9, count: 500 } }, line: '--method trajectory --center-distance 0.9 --count 500',
@@ -76,7 +76,7 @@ describe('the methods', () => {
     const poses = '5eed'.repeat(16)
     const again = (method: Method) => made(fromSpec({ object_a: 'stock:bunny', query: 'proximity', method }, ALL))
     expect(again({ kind: 'sphere', sampling: { kind: 'count', count: 500 }, seed: 17 })).toEqual({
-      asked: { method: { kind: 'sphere', sampling, seed: 17 }, relative_distance: 0 }, line: '--method sphere --count 500 --seed 17 --distance 0',
+      asked: { method: { kind: 'sphere', sampling, seed: 17 }, separation: { kind: 'relative', distance: 0 } }, line: '--method sphere --count 500 --seed 17 --distance 0',
     })
     expect(again({ kind: 'random', count: 500, hit_share: 0.3, seed: 18 })).toEqual({
       asked: { method: { kind: 'random', count: 500, hit_share: 0.3, seed: 18 } }, line: '--method random --count 500 --hit-share 0.3 --seed 18',

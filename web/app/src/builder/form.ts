@@ -142,11 +142,11 @@ function toMethod(form: BuilderForm): Method | Missing {
   return hitShare === '' ? { missing: 'Give the share of colliding poses, for example 0.5.' } : { kind, count, hit_share: hitShare, seed }
 }
 
-function toSeparation({ method, separation, distance, step }: BuilderForm): Pick<RunSpec, 'relative_distance' | 'step' | 'ladder'> | Missing {
+function toSeparation({ method, separation, distance, step }: BuilderForm): Pick<RunSpec, 'separation'> | Missing {
   if (!asksSeparation(method)) return {}
-  if (separation === 'ladder') return { ladder: true }
-  if (separation === 'step') return step === '' ? { missing: 'Give a step, for example 0.01, or -0.01 for crossing objects.' } : { step }
-  return distance === '' ? { missing: 'Give a relative distance; 0 is the usual one.' } : { relative_distance: distance }
+  if (separation === 'ladder') return { separation: { kind: 'ladder' } }
+  if (separation === 'step') return step === '' ? { missing: 'Give a step, for example 0.01, or -0.01 for crossing objects.' } : { separation: { kind: 'step', of_size: step } }
+  return distance === '' ? { missing: 'Give a relative distance; 0 is the usual one.' } : { separation: { kind: 'relative', distance } }
 }
 
 /** The form as the API wants it, or what is still missing, in words. Whether numbers are in range the service says. */
@@ -194,9 +194,10 @@ export function fromSpec(spec: RunSpec, algorithms: readonly AlgorithmInfo[]): B
   else if (method.kind === 'random') Object.assign(form, { count: method.count, hitShare: method.hit_share })
   else form.poses = method.sha256
   if ('seed' in method) form.seed = method.seed ?? 0
-  if (spec.ladder) form.separation = 'ladder'
-  else if (spec.step != null) Object.assign(form, { separation: 'step', step: spec.step })
-  form.distance = spec.relative_distance ?? 0
+  const { separation } = spec
+  if (separation) form.separation = separation.kind
+  if (separation?.kind === 'step') form.step = separation.of_size
+  if (separation?.kind === 'relative') form.distance = separation.distance
   form.passes = spec.passes ?? form.passes
   form.budget = spec.budget_seconds ?? form.budget
   // What is not installed any more cannot be asked for again.

@@ -26,11 +26,11 @@ export function describeMethod(method: Method): string {
 }
 
 /** How far apart or how deep; nothing where the method does not ask for it. */
-export function describeSeparation({ method, relative_distance: distance = 0, step, ladder }: RunSpec): string {
+export function describeSeparation({ method, separation }: RunSpec): string {
   if (!asksSeparation(method.kind)) return ''
-  if (ladder) return 'ladder of steps'
-  if (step != null) return `step ${step.toExponential()} of S`
-  return `distance ${distance === 0 ? '0' : significant(distance)}`
+  if (separation?.kind === 'ladder') return 'ladder of steps'
+  if (separation?.kind === 'step') return `step ${separation.of_size.toExponential()} of S`
+  return `distance ${separation?.distance ? significant(separation.distance) : '0'}`
 }
 
 /** Until the lanes at work are through: they take turns, so that their times add up. Null while none of them can tell. */

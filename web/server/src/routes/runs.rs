@@ -22,7 +22,7 @@ fn example() -> serde_json::Value {
         "object_a": "stock:torus-knot@8000",
         "query": "proximity",
         "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 1000 } },
-        "relative_distance": 0.1,
+        "separation": { "kind": "relative", "distance": 0.1 },
         "algorithms": ["ocb-fast", "box-tree"],
     })
 }

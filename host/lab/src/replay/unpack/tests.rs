@@ -22,7 +22,7 @@ fn zipped(files: &[(&str, &[u8])]) -> tempfile::NamedTempFile {
 fn recipe(files: &[(&str, &[u8])]) -> Value {
     let interval = json!({ "value": 1.0, "lo": 1.0, "hi": 1.0 });
     json!({
-        "format": 1, "version": "0.1.0", "run": "r", "seed": 1,
+        "format": 2, "version": "0.1.0", "run": "r", "seed": 1,
         "spec": { "object_a": "stock:torus-knot@600", "query": "proximity", "method": { "kind": "random", "count": 8, "hit_share": 0.5 } },
         "versions": { "sampling": 1, "oracle": 1, "instances": instance::VERSION },
         "objects": [{ "id": "stock:torus-knot@600", "name": "knot", "sha256": "", "file": null }],
@@ -63,7 +63,7 @@ fn what_is_no_archive_of_ours_is_refused() {
     assert!(refused(&[("poses", b"x")]).contains("recipe.json"));
     assert!(refused(&[(RECIPE, b"{")]).contains("is not valid JSON"));
     assert!(refused(&[(RECIPE, b"{}")]).contains("its format is none"));
-    assert!(changed(|recipe| recipe["format"] = json!(2)).contains("its format is 2"));
+    assert!(changed(|recipe| recipe["format"] = json!(3)).contains("its format is 3"));
     assert!(changed(|recipe| recipe["surprise"] = json!(1)).contains("surprise"));
     assert!(changed(|recipe| recipe["versions"]["instances"] = json!(99)).contains("version 99"));
     assert!(changed(|recipe| recipe["objects"] = json!([])).contains("one object or two"));

@@ -30,7 +30,7 @@ pub(crate) fn object(id: &str) -> ObjectInfo {
 
 pub(crate) fn spec() -> RunSpec {
     serde_json::from_value(serde_json::json!({
-        "object_a": "stock:box@500", "query": "proximity", "algorithms": ["a", "b"], "relative_distance": 0.1,
+        "object_a": "stock:box@500", "query": "proximity", "algorithms": ["a", "b"], "separation": { "kind": "relative", "distance": 0.1 },
         "method": {"kind": "sphere", "sampling": {"kind": "count", "count": 5}},
     }))
     .unwrap()
