@@ -257,8 +257,13 @@ impl Engine {
     async fn info(&self, row: RunRow, viewer: Option<&str>) -> Result<RunInfo> {
         let store = &self.inner.store;
         let runs_ahead = if row.state == State::Queued { store.runs_before(&row.id).await?.unwrap_or(0) } else { 0 };
+        let mut stages = store.stages(&row.id).await?;
+        // A run that was cancelled before its turn has begun none of them.
+        if row.state == State::Cancelled {
+            stages.iter_mut().filter(|s| s.state == State::Queued).for_each(|s| s.state = State::Cancelled);
+        }
         Ok(RunInfo {
-            stages: store.stages(&row.id).await?,
+            stages,
             results: store.results(&row.id).await?.into_iter().map(|stored| stored.result).collect(),
             mine: viewer.is_some() && row.owner.as_deref() == viewer,
             visibility: self.inner.visibility_of(&row).await?,

@@ -165,7 +165,9 @@ async fn only_the_owner_cancels_and_the_next_run_goes_on() {
     for stranger in [None, Some("other")] {
         assert!(matches!(engine.cancel(&long.id, stranger).await, Err(EngineError::Forbidden(_))));
     }
-    assert_eq!(engine.cancel(&waiting.id, Some("other")).await.unwrap().state, State::Cancelled);
+    let waiting = engine.cancel(&waiting.id, Some("other")).await.unwrap();
+    assert_eq!(waiting.state, State::Cancelled);
+    assert!(waiting.stages.iter().all(|s| s.state == State::Cancelled), "{:?}", waiting.stages);
     assert_eq!(engine.cancel(&long.id, Some("guest")).await.unwrap().state, State::Cancelled);
     let (next, _) = common::finish(&engine, &next.id).await;
     assert_eq!(next.state, State::Done, "{:?}", next.message);
