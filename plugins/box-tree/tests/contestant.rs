@@ -1,6 +1,6 @@
 //! box-tree answers as every contestant must, and counts.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
 mod support;
 

@@ -1,6 +1,6 @@
 //! brute-force answers as every contestant must: its boxes leave nothing out.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
 mod support;
 

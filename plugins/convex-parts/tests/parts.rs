@@ -1,6 +1,6 @@
 //! The parts hold the surface, and how far they stick out says how wrong the answers are.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 mod support;
 
 use ocb_convex_parts::ConvexParts;

@@ -1,6 +1,6 @@
 //! GJK against all pairs of triangles, and which objects it is not for.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 mod support;
 
 use ocb_convex::Convex;

@@ -1,6 +1,6 @@
 //! How far the answers are from the truth, and how that shrinks with the cells.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 mod support;
 
 use ocb_distance_field::DistanceField;

@@ -1,6 +1,6 @@
 //! dop-tree answers as every contestant must, with every k.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
 mod support;
 

@@ -1,6 +1,6 @@
 //! What the spheres are, and how far from the truth their answers are.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 mod support;
 
 use ocb_inner_spheres::InnerSpheres;

@@ -1,6 +1,6 @@
 //! obb-tree answers as every contestant must.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
 mod support;
 

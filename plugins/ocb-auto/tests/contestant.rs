@@ -1,6 +1,6 @@
 //! ocb-auto answers as every contestant must, by its rules and by each method, and its README says why it chooses what.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
 mod support;
 

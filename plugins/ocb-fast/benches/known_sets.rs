@@ -1,6 +1,6 @@
 //! Times on the known sets, on each set of instructions: `OCB_SHARED=… taskset -c 1 cargo bench -p ocb-fast`.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 mod support;
 
 use ocb_fast::Fast;

@@ -1,6 +1,6 @@
 //! ocb-fast answers as every contestant must, on each set of instructions, and counts.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
 mod support;
 

@@ -1,6 +1,6 @@
 //! parry in single precision answers as a contestant must, up to what single precision can.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 mod support;
 
 use ocb_parry_f32::Parry;

@@ -1,7 +1,7 @@
 //! parry answers as a contestant must that is not exact, timed and counted; on a mesh made here and on a few known
 //! configurations, since it needs a second per distance.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
 mod support;
 

@@ -1,6 +1,6 @@
 //! Times on the known sets, depth first and nearest first: `OCB_SHARED=… taskset -c 1 cargo bench -p ocb-rss-tree`.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 mod support;
 
 use ocb_rss_tree::RssTree;

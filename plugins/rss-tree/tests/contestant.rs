@@ -1,6 +1,6 @@
 //! rss-tree answers as every contestant must, with every queue, and keeps to the errors that it is allowed.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
 mod support;
 

@@ -1,6 +1,6 @@
 //! SIMDop answers as every contestant must, with each set of directions and of instructions, and counts.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
 mod support;
 

@@ -1,6 +1,6 @@
 //! Times on the known sets: `OCB_SHARED=… taskset -c 1 cargo bench -p ocb-sphere-tree`.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 mod support;
 
 use ocb_sphere_tree::SphereTree;

@@ -1,6 +1,6 @@
 //! On which side the answers err, and how far.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../lib/triangles/tests/support/mod.rs"]
 mod support;
 
 use ocb_voxmap_pointshell::VoxmapPointshell;

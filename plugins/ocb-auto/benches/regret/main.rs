@@ -4,7 +4,7 @@
 //! set or for each pair of objects or for each configuration, is read off the first run and paid for in the second one. Means
 //! are over configurations, in microseconds.
 
-#[path = "../../../common/tests/support/mod.rs"]
+#[path = "../../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
 mod support;
 

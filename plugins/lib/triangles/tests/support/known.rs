@@ -17,8 +17,12 @@ pub struct KnownSet {
 
 /// A file of the project's shared data.
 fn shared(folder: &str, name: &str) -> PathBuf {
-    let root = std::env::var_os("OCB_SHARED")
-        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from);
+    // Plugins and their libraries lie at different depths.
+    let beside = || {
+        let mut above = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
+        above.find(|folder| folder.join("Cargo.lock").is_file()).expect("the repository").join("../shared")
+    };
+    let root = std::env::var_os("OCB_SHARED").map_or_else(beside, PathBuf::from);
     assert!(root.join("meshes").is_dir(), "not run: objects missing, set OCB_SHARED");
     root.join(folder).join(name)
 }

@@ -1,6 +1,6 @@
 //! Each part against the definition, over all triangles.
 
-#[path = "../../common/tests/support/mod.rs"]
+#[path = "../../triangles/tests/support/mod.rs"]
 mod support;
 
 use ocb_fields::{Ball, BallTree, Bounds, Lattice, Nearest, cover, inside, odd_edges};
