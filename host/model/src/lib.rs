@@ -104,7 +104,7 @@ pub struct RunSpec {
     pub method: Method,
     /// How far apart the objects are placed, or how deep in each other; only the sphere and the grid method use it.
     #[serde(default = "no_distance")]
-    #[schema(default = no_distance)]
+    #[schema(required = false)]
     pub separation: Separation,
     /// Algorithm ids, each with its settings behind it (`box-tree:leaf_size=4`); the usual ones that answer the question when
     /// empty, every one that does for `["all"]`.
