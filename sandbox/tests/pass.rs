@@ -165,16 +165,25 @@ fn work_during_the_wake_up_is_not_lost_time() {
 fn times_that_the_clock_cannot_tell_accuse_nobody() {
     let _alone = alone();
     let policy = Policy { runner_cpu: Some(0), supervisor_cpu: Some(0), ..common::policy() };
-    let mut session = start(&launcher_with(policy), &fixture(&["WORK=300"])).unwrap();
+    let launcher = launcher_with(policy);
     let order: Vec<u32> = (0..2 * QUESTIONS).collect();
     let present = |configuration: u32, _: Instance| Presented {
         configuration: apart(0.004 * f64::from(configuration)),
         swapped: false,
     };
-    let (facts, ended) = session.pass(&plan(&order), &present, &mut |_| ControlFlow::Continue(()));
-    ended.unwrap();
+    let others = Others::look();
+    // A batch that meets something is left out, and a process has but three.
+    let passes = (0..20).map(|_| {
+        let mut session = start(&launcher, &fixture(&["WORK=300"])).unwrap();
+        let (facts, ended) = session.pass(&plan(&order), &present, &mut |_| ControlFlow::Continue(()));
+        ended.unwrap();
+        facts
+    });
+    let facts = passes.into_iter().find(|facts| !facts.batches.is_empty());
+    others.hold(facts.is_some(), || "every batch of twenty processes met something".into());
+    let facts = facts.unwrap();
     // The sleeping clock cannot tell so short a time.
-    assert!(!facts.batches.is_empty() && facts.batches.iter().all(|batch| batch.alone_ns == 0.0), "{facts:?}");
+    assert!(facts.batches.iter().all(|batch| batch.alone_ns == 0.0), "{facts:?}");
     assert_eq!(integrity::violated(std::slice::from_ref(&facts)), None, "{facts:?}");
 }
 
