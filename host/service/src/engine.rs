@@ -27,7 +27,7 @@ use crate::{EngineConfig, EngineError, Result};
 ///
 /// `viewer`, `owner` and `caller` are the guest's id (or the name that the command line uses); `None` owns nothing. What a
 /// viewer may look at is asked for with `run_is_for`, `object_is_for` and `advice_is_for`, once, at the service's door;
-/// functions without a viewer answer whoever got so far. Only its owner may change a run.
+/// functions without a viewer answer every caller. Only its owner may change a run.
 #[derive(Clone)]
 pub struct Engine {
     pub(crate) inner: Arc<Inner>,

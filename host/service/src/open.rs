@@ -78,7 +78,7 @@ impl Engine {
     }
 
     /// Stops working: a run under way goes back into the queue; when this returns, everything known is on disk and another
-    /// engine may open the folder, whoever still holds a handle of this one.
+    /// engine may open the folder, even while handles of this one exist.
     #[boxed]
     pub async fn shutdown(&self) {
         self.inner.closing.store(true, Ordering::SeqCst);

@@ -53,7 +53,7 @@ fn flattened(tree: &str, before: &[String], found: &mut Vec<Module>) {
     }
 }
 
-/// What is named behind each `crate::` or `super::`, in imports and elsewhere.
+/// The paths behind each `crate::` or `super::`, in imports and elsewhere.
 fn named(source: &str) -> Vec<Module> {
     let mut found = Vec::new();
     for statement in source.split(';') {

@@ -38,8 +38,7 @@ fn dependencies(metadata: &Value) -> BTreeMap<String, BTreeSet<String>> {
 /// above it, and `plugins/*` stands for every plugin that has no line of its own.
 fn floors(metadata: &Value) -> BTreeMap<String, usize> {
     let page = text(Path::new("ARCHITECTURE.md")).expect("a text");
-    let mut blocks = page.split("```").skip(1).step_by(2);
-    let drawing = blocks.find(|block| block.contains("floor 0")).expect("a drawing of the floors");
+    let drawing = page.split("```").find(|part| part.contains("\nfloor 0 ")).expect("a drawing of the floors");
     let (mut drawn, mut floor): (BTreeMap<&str, usize>, usize) = (BTreeMap::new(), 0);
     for line in drawing.lines().filter(|line| !line.trim().is_empty()) {
         let mut words = line.split_whitespace();

@@ -1,5 +1,5 @@
 //! Mails on their way: each waits in the database until the mail server says that it has it, or a day is over. One task brings
-//! them, one after the other, and nobody waits for it. A restart loses no mail. The text is written when the mail is sent, so
+//! them, one after the other, in the background. A restart loses no mail. The text is written when the mail is sent, so
 //! that an account that has turned mails off receives none that were waiting.
 
 use std::sync::Arc;

@@ -17,7 +17,7 @@ impl Engine {
 
     /// Checks a plugin file: format, loading in the jail, ABI, descriptor, answers on smoke configurations.
     ///
-    /// What is wrong with the plugin is in the report; an error means that the check itself could not be made.
+    /// Faults of the plugin are in the report; an error means that the check itself could not be made.
     #[boxed]
     pub async fn check_plugin(&self, file: &Path, extent: Extent) -> Result<PluginReport> {
         let (runner, file) = (self.inner.registry.runner().clone(), file.to_owned());

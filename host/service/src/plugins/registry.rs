@@ -17,7 +17,7 @@ use crate::{EngineConfig, Result};
 
 use brought::AllBrought;
 
-/// Ours that are measured when nobody names any: each kind of method once. A foreign plugin was brought to be measured. `all`
+/// Our algorithms that a run measures by default: each kind once. Third-party plugins are measured as well. `all`
 /// takes every algorithm; with thirty installed, that can take an hour.
 const USUAL: [&str; 4] = ["box-tree", "brute-force", "ocb-fast", "parry"];
 

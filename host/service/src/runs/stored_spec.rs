@@ -6,7 +6,7 @@ use crate::model::RunSpec;
 use crate::store::from_json;
 use crate::{EngineError, Result};
 
-/// Reads a stored request. Older versions had three fields for what is one separation now.
+/// Reads a stored request. Older versions had three fields instead of one separation.
 pub fn read_spec(text: &str) -> Result<RunSpec> {
     let mut fields: Map<String, Value> = from_json(text)?;
     let [distance, step, ladder] = ["relative_distance", "step", "ladder"].map(|name| fields.remove(name));

@@ -2,7 +2,7 @@
 //!
 //! The runs of the suite are ordinary runs, so everything that shows, repeats and deletes runs works for them as well. Our own
 //! algorithms are measured when the operator runs `ocb suite run`, a developer's plugin when it becomes public. Otherwise a
-//! service that has just been installed would be busy for minutes with runs that nobody requested.
+//! service that has just been installed would be busy for minutes with runs that no visitor requested.
 
 use std::collections::{HashMap, HashSet};
 
