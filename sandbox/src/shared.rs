@@ -38,6 +38,13 @@ impl Segment {
         }
     }
 
+    /// Maps all of `file`.
+    pub fn whole(file: BorrowedFd<'_>, writable: bool) -> io::Result<Self> {
+        // SAFETY: asks where a borrowed file ends.
+        let len = unsafe { libc::lseek(file.as_raw_fd(), 0, libc::SEEK_END) };
+        Self::map(file, usize::try_from(len).map_err(|_| io::Error::last_os_error())?, writable)
+    }
+
     /// Its size in bytes.
     #[expect(clippy::len_without_is_empty, reason = "an empty mapping does not exist")]
     pub fn len(&self) -> usize {

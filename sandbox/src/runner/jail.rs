@@ -161,7 +161,6 @@ fn inside(
     let own_ids = own_ids[0] == 1;
     confine::die_with_parent().map_err(fault)?;
     let program = File::open("/proc/self/exe").map_err(talk)?;
-    let trial_bytes = File::from(files.trial.try_clone().map_err(talk)?).metadata().map_err(talk)?.len();
     if own_ids {
         confine::drop_groups().map_err(fault)?;
     }
@@ -185,7 +184,7 @@ fn inside(
     // SAFETY: a plain fork of a single-threaded process.
     let runner = unsafe { libc::fork() };
     if runner == 0 {
-        become_runner(order, control, files, libraries, &program, own_ids, trial_bytes);
+        become_runner(order, control, files, libraries, &program, own_ids);
     }
     if runner < 0 {
         return Err(talk(io::Error::last_os_error()));
@@ -212,7 +211,6 @@ fn become_runner(
     libraries: &[root::Library],
     program: &File,
     own_ids: bool,
-    trial_bytes: u64,
 ) -> ! {
     // First, because the limit on open files would be in its way.
     let kept: [BorrowedFd<'_>; 5] =
@@ -231,7 +229,7 @@ fn become_runner(
                 }
                 confine::no_new_privileges()?;
                 confine::die_with_parent()?;
-                exec(&arguments(order, libraries, own_ids, trial_bytes), &search_path(order))
+                exec(&arguments(order, libraries, own_ids), &search_path(order))
             };
             match steps() {
                 Err(error) => error,
@@ -243,7 +241,7 @@ fn become_runner(
     std::process::exit(FAULT);
 }
 
-fn arguments(order: &Order, libraries: &[root::Library], own_ids: bool, trial_bytes: u64) -> Vec<String> {
+fn arguments(order: &Order, libraries: &[root::Library], own_ids: bool) -> Vec<String> {
     let mode = [
         if order.namespaces { "jail" } else { "bare" },
         if own_ids { "own" } else { "same" },
@@ -255,12 +253,7 @@ fn arguments(order: &Order, libraries: &[root::Library], own_ids: bool, trial_by
         true => format!("{}/{}", root::LIBRARIES, l.name),
         false => l.path.to_string_lossy().into_owned(),
     });
-    ["ocb-runner", "run", &mode.join(","), plugin]
-        .map(str::to_string)
-        .into_iter()
-        .chain([trial_bytes.to_string()])
-        .chain(libraries)
-        .collect()
+    ["ocb-runner", "run", &mode.join(","), plugin].map(str::to_string).into_iter().chain(libraries).collect()
 }
 
 /// Where the loader looks: in the jail's own folder, or, where there is no own root, beside the libraries that are brought.

@@ -16,7 +16,7 @@ fn main() {
     match arguments.as_slice() {
         [_, "launch"] => jail::launch(),
         [_, "probe"] => probe::probe(),
-        [_, "run", mode, plugin, trial_bytes, libraries @ ..] => serve::run(mode, plugin, trial_bytes, libraries),
+        [_, "run", mode, plugin, libraries @ ..] => serve::run(mode, plugin, libraries),
         _ => {
             eprintln!("OpenCollBench starts ocb-runner to run one plugin in a jail; it cannot be used by hand.");
             std::process::exit(2);

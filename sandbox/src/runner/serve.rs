@@ -34,9 +34,9 @@ pub struct Shared {
 pub type Slot = [u64; SLOT_WORDS];
 
 /// Never returns: the process ends by being killed.
-pub fn run(mode: &str, plugin: &str, trial_bytes: &str, libraries: &[&str]) -> ! {
+pub fn run(mode: &str, plugin: &str, libraries: &[&str]) -> ! {
     let control = Control::from_fd(inherited(CONTROL));
-    let shared = match close_off(mode, plugin, trial_bytes, libraries) {
+    let shared = match close_off(mode, plugin, libraries) {
         Ok(shared) => shared,
         Err(error) => {
             let _ = control.send(&Report::Fault { step: error.step(), reason: error.to_string() }, &[]);
@@ -68,17 +68,14 @@ fn filters(threads: bool) -> Result<(i32, Vec<BpfProgram>), ConfineError> {
     Ok((seccomp::install(&program).map_err(|e| refused(&e))?, tighter))
 }
 
-fn close_off(mode: &str, plugin: &str, trial_bytes: &str, libraries: &[&str]) -> Result<Shared, ConfineError> {
+fn close_off(mode: &str, plugin: &str, libraries: &[&str]) -> Result<Shared, ConfineError> {
     let has = |flag| mode.split(',').any(|part| part == flag);
     let own_root = has("jail");
-    let trial_bytes: usize =
-        trial_bytes.parse().map_err(|_| ConfineError::SharedMemory(std::io::ErrorKind::InvalidInput.into()))?;
-    let map =
-        |fd: OwnedFd, bytes, writable| Segment::map(fd.as_fd(), bytes, writable).map_err(ConfineError::SharedMemory);
+    let map = |fd: OwnedFd, writable| Segment::whole(fd.as_fd(), writable).map_err(ConfineError::SharedMemory);
     let shared = Shared {
-        trial: map(inherited(TRIAL), trial_bytes, false)?,
-        request: map(inherited(REQUEST), request::BYTES, false)?,
-        answer: map(inherited(ANSWER), answer::BYTES, true)?,
+        trial: map(inherited(TRIAL), false)?,
+        request: map(inherited(REQUEST), false)?,
+        answer: map(inherited(ANSWER), true)?,
         watch: if has("futex") { Duration::ZERO } else { WATCH },
     };
     close_from(CONTROL as u32 + 1).map_err(ConfineError::Descriptors)?;
