@@ -248,8 +248,8 @@ pub fn parse_answer(query: Query, words: &[u64; SLOT_WORDS], contacts: &[u64]) -
 pub fn parse_counters(words: &[u64; SLOT_WORDS]) -> Option<Counters> {
     let [flags, bv_tests, primitive_tests] = [0, 1, 2].map(|i| words[slot::COUNTS + i]);
     (flags & 3 != 0).then_some(Counters {
-        bv_tests: if flags & 1 != 0 { bv_tests } else { 0 },
-        primitive_tests: if flags & 2 != 0 { primitive_tests } else { 0 },
+        bv_tests: (flags & 1 != 0).then_some(bv_tests),
+        primitive_tests: (flags & 2 != 0).then_some(primitive_tests),
     })
 }
 

@@ -62,8 +62,8 @@ pub enum Answer {
 /// Work done for one query, as the algorithm counts it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
 pub struct Counters {
-    /// Tests between bounding volumes.
-    pub bv_tests: u64,
-    /// Tests between primitives.
-    pub primitive_tests: u64,
+    /// Tests between bounding volumes, if it counts them.
+    pub bv_tests: Option<u64>,
+    /// Tests between primitives, if it counts them.
+    pub primitive_tests: Option<u64>,
 }

@@ -107,7 +107,8 @@ impl Checking<'_> {
             Answer::GaveUp | Answer::Unsupported => false,
         };
         let odd = heard.answers.iter().filter(|(answer, counters)| match counters {
-            Some(c) => c.primitive_tests > pairs || (hit(answer) && c.primitive_tests == 0),
+            Some(Counters { primitive_tests: Some(n), .. }) => *n > pairs || (hit(answer) && *n == 0),
+            Some(Counters { bv_tests, .. }) => bv_tests.is_none(),
             None => true,
         });
         let odd = odd.count();

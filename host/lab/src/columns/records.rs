@@ -26,6 +26,24 @@ pub struct RecordsOf<'a> {
     pub set_sha256: &'a str,
 }
 
+impl RecordsOf<'_> {
+    /// As the files say it.
+    pub fn metadata(&self) -> HashMap<String, String> {
+        HashMap::from(
+            [
+                ("opencollbench.schema", SCHEMA_VERSION),
+                ("opencollbench.version", env!("CARGO_PKG_VERSION")),
+                ("opencollbench.run", self.run),
+                ("opencollbench.algorithm", self.algorithm),
+                ("opencollbench.plugin_sha256", self.plugin_sha256),
+                ("opencollbench.hardware_class", self.hardware_class),
+                ("opencollbench.set_sha256", self.set_sha256),
+            ]
+            .map(|(key, value)| (key.to_owned(), value.to_owned())),
+        )
+    }
+}
+
 /// What the heatmap and the charts need of the records, in the file's order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RecordColumns {
@@ -66,29 +84,20 @@ pub fn records_parquet(of: &RecordsOf, records: &[Record]) -> Result<Vec<u8>> {
     let score = |of: fn(&ContactScore) -> Option<f64>| -> Arc<Float64Array> {
         Arc::new(records.iter().map(|r| r.contacts.as_ref().and_then(of)).collect())
     };
-    let metadata = HashMap::from(
-        [
-            ("opencollbench.schema", SCHEMA_VERSION),
-            ("opencollbench.version", env!("CARGO_PKG_VERSION")),
-            ("opencollbench.run", of.run),
-            ("opencollbench.algorithm", of.algorithm),
-            ("opencollbench.plugin_sha256", of.plugin_sha256),
-            ("opencollbench.hardware_class", of.hardware_class),
-            ("opencollbench.set_sha256", of.set_sha256),
-        ]
-        .map(|(key, value)| (key.to_owned(), value.to_owned())),
-    );
     to_parquet(&batch(
-        metadata,
+        of.metadata(),
         vec![
             ("configuration", Arc::new(records.iter().map(|r| r.configuration).collect::<UInt32Array>())),
             ("time_ns", Arc::new(records.iter().map(|r| r.time_ns).collect::<Float64Array>())),
             ("below_resolution", Arc::new(records.iter().map(|r| Some(r.below_resolution)).collect::<BooleanArray>())),
             ("passes", Arc::new(records.iter().map(|r| r.passes).collect::<UInt32Array>())),
-            ("bv_tests", Arc::new(records.iter().map(|r| r.counters.map(|c| c.bv_tests)).collect::<UInt64Array>())),
+            (
+                "bv_tests",
+                Arc::new(records.iter().map(|r| r.counters.and_then(|c| c.bv_tests)).collect::<UInt64Array>()),
+            ),
             (
                 "primitive_tests",
-                Arc::new(records.iter().map(|r| r.counters.map(|c| c.primitive_tests)).collect::<UInt64Array>()),
+                Arc::new(records.iter().map(|r| r.counters.and_then(|c| c.primitive_tests)).collect::<UInt64Array>()),
             ),
             ("verdict", Arc::new(records.iter().map(|r| Some(r.verdict.name())).collect::<StringArray>())),
             ("answer", Arc::new(answers.iter().map(|a| Some(a.kind)).collect::<StringArray>())),
@@ -216,7 +225,7 @@ mod tests {
             record(
                 7,
                 Answer::Collision { hit: true, pair: Some([3, 4]) },
-                Some(Counters { bv_tests: 9, primitive_tests: 2 }),
+                Some(Counters { bv_tests: Some(9), primitive_tests: Some(2) }),
             ),
             record(1, Answer::Distance { distance: 0.25, points: None, triangles: None }, None),
             record(2, Answer::GaveUp, None),

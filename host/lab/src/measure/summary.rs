@@ -3,7 +3,7 @@
 use ocb_core::comparison::{Comparison, Interval, ranks};
 use ocb_core::configuration::Placed;
 use ocb_core::oracle::Pair;
-use ocb_core::query::{Answer, Query, Semantics};
+use ocb_core::query::{Answer, Counters, Query, Semantics};
 use ocb_core::record::{ContactScore, Record, Verdict};
 use ocb_core::resolution::Resolution;
 use ocb_core::sampling::controls::Control;
@@ -53,9 +53,8 @@ pub fn summarise(
     let terms = Terms { query, semantics, precision: precision(&measured.contestant.info) };
     let without_failure = || OutcomeInfo::without_failure(records.len(), measured.budget_limited);
     let outcome = measured.outcome.clone().unwrap_or_else(without_failure);
-    let counters: Vec<_> = records.iter().filter_map(|r| r.counters).collect();
-    let mean = |of: fn(&ocb_core::query::Counters) -> u64| {
-        (!counters.is_empty()).then(|| counters.iter().map(|c| of(c) as f64).sum::<f64>() / counters.len() as f64)
+    let mean = |of: fn(Counters) -> Option<u64>| {
+        Statistic::Mean.of(&mut records.iter().filter_map(|r| Some(of(r.counters?)? as f64)).collect::<Vec<_>>())
     };
     let set_up = |of: fn(&SetUp) -> f64| {
         Statistic::Median.of(&mut measured.set_ups.iter().map(of).collect::<Vec<_>>()).map(|ns| ns / 1e6)
