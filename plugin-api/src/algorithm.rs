@@ -22,8 +22,31 @@ pub struct About {
     pub url: &'static CStr,
     /// The paper that the method comes from.
     pub paper: &'static CStr,
-    /// [`raw::CAPABILITY_SINGLE_PRECISION`], [`raw::CAPABILITY_COHERENT`] and [`raw::CAPABILITY_SOLID`] bits; 0 for most.
-    pub capabilities: u32,
+    /// What the host has to know before it asks; nothing for most.
+    pub capabilities: &'static [Capability],
+}
+
+/// What an algorithm declares beside its extensions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub enum Capability {
+    /// It computes in 32-bit floating point somewhere between pose and answer, and is judged so.
+    SinglePrecision = raw::CAPABILITY_SINGLE_PRECISION,
+    /// Earlier queries speed up later ones (temporal coherence): their order matters.
+    Coherent = raw::CAPABILITY_COHERENT,
+    /// It answers for solid bodies, too: [`Algorithm::inside`].
+    Solid = raw::CAPABILITY_SOLID,
+    /// It can use several threads, in the multi-threaded track.
+    Threads = raw::CAPABILITY_THREADS,
+}
+
+/// A kind of query, for [`Algorithm::answers`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Query {
+    /// [`Distance::distance`].
+    Distance,
+    /// [`Contacts::contacts`].
+    Contacts,
 }
 
 impl About {
@@ -37,7 +60,7 @@ impl About {
             license: c"",
             url: c"",
             paper: c"",
-            capabilities: 0,
+            capabilities: &[],
         }
     }
 }
@@ -63,13 +86,19 @@ pub trait Algorithm: Default + 'static {
     /// Do the surfaces of a and b meet? Stops at the first pair. Touching counts.
     ///
     /// `a` and `b` may be one and the same object in two poses. Work is reported to `work`, which costs nothing in
-    /// timed passes; an algorithm that does not count ignores it (and does not export the extension `counters`).
+    /// timed passes; an algorithm that does not count ignores it (and does not name `counts` in `export!`).
     fn collide(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<Collision>;
 
     /// For solid bodies, when the surfaces do not meet: is a part of one object inside the other? Both are closed. Asked
-    /// only of algorithms that declare [`raw::CAPABILITY_SOLID`], as the second half of a collision or distance query.
+    /// only of algorithms that declare [`Capability::Solid`], as the second half of a collision or distance query.
     fn inside(&mut self, _a: Placed<'_, Self>, _b: Placed<'_, Self>, _work: &mut impl Count) -> Answer<bool> {
         Err(Refusal::Unsupported)
+    }
+
+    /// Does it answer this kind of query with the parameters that are set? What it says no to is not asked. Only kinds that
+    /// are exported are asked for.
+    fn answers(&self, _query: Query) -> bool {
+        true
     }
 }
 

@@ -45,7 +45,7 @@ impl Count for Uncounted {
     }
 }
 
-/// Counts; for the untimed pass of `ocb.counters/1`.
+/// Counts; for queries that are not timed.
 #[derive(Debug, Default)]
 pub struct Counts<'a> {
     /// Tests between bounding volumes.

@@ -5,14 +5,14 @@ mod calls;
 use core::ffi::{CStr, c_char, c_void};
 use core::ptr;
 
-use crate::algorithm::{Algorithm, Contacts, Distance, Parameters};
+use crate::algorithm::{Algorithm, Contacts, Distance, Parameters, Query};
 use crate::raw;
 
 /// Exports algorithms as a plugin. Once per crate, and the crate type is `cdylib`:
 ///
 /// ```text
 /// opencollbench_plugin::export!(Mine);                                 // collision, first contact
-/// opencollbench_plugin::export!(Mine: distance contacts counters);     // with extensions
+/// opencollbench_plugin::export!(Mine: distance contacts counts);       // with extensions
 /// opencollbench_plugin::export!(Mine: parameters, Other: distance);    // two algorithms
 /// ```
 #[macro_export]
@@ -20,15 +20,18 @@ macro_rules! export {
     ($($algorithm:ty $(: $($extension:ident)+)?),+ $(,)?) => {
         #[doc = "The entry point of the plugin, see plugin.h."]
         #[unsafe(no_mangle)]
-        pub extern "C" fn ocb_plugin_v1(host_abi_major: u32) -> *const $crate::raw::Plugin {
+        pub extern "C" fn ocb_entry_v1(host_abi_major: u32) -> *const $crate::raw::Plugin {
             static ALGORITHMS: &[&$crate::raw::Algorithm] = &[$(&{
                 const EXTENSIONS: $crate::export::Extensions =
-                    $crate::export::Extensions::new::<$algorithm>()$($(.$extension::<$algorithm>())+)?;
-                extern "C" fn get_extension(id: *const ::core::ffi::c_char) -> *const ::core::ffi::c_void {
+                    $crate::export::Extensions::NONE$($(.$extension::<$algorithm>())+)?;
+                extern "C" fn get_extension(
+                    instance: *mut $crate::raw::Instance,
+                    id: *const ::core::ffi::c_char,
+                ) -> *const ::core::ffi::c_void {
                     static TABLES: $crate::export::Extensions = EXTENSIONS;
-                    TABLES.find(id)
+                    TABLES.find::<$algorithm>(instance, id)
                 }
-                $crate::export::algorithm::<$algorithm>(get_extension)
+                $crate::export::algorithm::<$algorithm>(&EXTENSIONS, get_extension)
             }),+];
             static PLUGIN: $crate::raw::Plugin = $crate::export::plugin(ALGORITHMS);
             if host_abi_major == $crate::raw::ABI_MAJOR { &PLUGIN } else { ::core::ptr::null() }
@@ -66,19 +69,25 @@ pub const fn plugin(algorithms: &'static [&'static raw::Algorithm]) -> raw::Plug
         struct_size: size_of::<raw::Plugin>() as u32,
         algorithm_count: algorithms.len() as u32,
         algorithms: algorithms.as_ptr().cast(),
-        reserved: [ptr::null(); 4],
     }
 }
 
 /// The descriptor of an algorithm.
 #[doc(hidden)]
 pub const fn algorithm<A: Algorithm>(
-    get_extension: unsafe extern "C" fn(*const c_char) -> *const c_void,
+    extensions: &Extensions,
+    get_extension: unsafe extern "C" fn(*mut raw::Instance, *const c_char) -> *const c_void,
 ) -> raw::Algorithm {
     let about = A::ABOUT;
+    let mut capabilities = if extensions.counts { raw::CAPABILITY_COUNTS } else { 0 };
+    let mut next = 0;
+    while next < about.capabilities.len() {
+        capabilities |= about.capabilities[next] as u32;
+        next += 1;
+    }
     raw::Algorithm {
         struct_size: size_of::<raw::Algorithm>() as u32,
-        capabilities: about.capabilities,
+        capabilities,
         id: about.id.as_ptr(),
         name: about.name.as_ptr(),
         version: about.version.as_ptr(),
@@ -93,54 +102,39 @@ pub const fn algorithm<A: Algorithm>(
         collide: Some(calls::collide::<A>),
         get_extension: Some(get_extension),
         error_message: Some(calls::error_message::<A>),
-        reserved: [ptr::null(); 4],
     }
 }
 
-/// The extension tables of one algorithm.
+/// What one algorithm exports beside the collision query.
 #[doc(hidden)]
 pub struct Extensions {
     distance: Option<raw::distance::Distance>,
     contacts: Option<raw::contacts::Contacts>,
-    counters: raw::counters::Counters,
-    counting: bool,
     parameters: Option<raw::parameters::Parameters>,
+    counts: bool,
 }
 
 impl Extensions {
-    /// None.
-    pub const fn new<A: Algorithm>() -> Self {
-        let counters = raw::counters::Counters {
-            struct_size: size_of::<raw::counters::Counters>() as u32,
-            reserved: 0,
-            count_collide: Some(calls::count_collide::<A>),
-            count_distance: None,
-            count_contacts: None,
-        };
-        Self { distance: None, contacts: None, counters, counting: false, parameters: None }
-    }
+    /// Nothing.
+    pub const NONE: Self = Self { distance: None, contacts: None, parameters: None, counts: false };
 
     /// With `ocb.distance/1`.
     pub const fn distance<A: Distance>(mut self) -> Self {
         let struct_size = size_of::<raw::distance::Distance>() as u32;
-        self.distance =
-            Some(raw::distance::Distance { struct_size, reserved: 0, distance: Some(calls::distance::<A>) });
-        self.counters.count_distance = Some(calls::count_distance::<A>);
+        self.distance = Some(raw::distance::Distance { struct_size, distance: Some(calls::distance::<A>) });
         self
     }
 
     /// With `ocb.contacts/1`.
     pub const fn contacts<A: Contacts>(mut self) -> Self {
         let struct_size = size_of::<raw::contacts::Contacts>() as u32;
-        self.contacts =
-            Some(raw::contacts::Contacts { struct_size, reserved: 0, contacts: Some(calls::contacts::<A>) });
-        self.counters.count_contacts = Some(calls::count_contacts::<A>);
+        self.contacts = Some(raw::contacts::Contacts { struct_size, contacts: Some(calls::contacts::<A>) });
         self
     }
 
-    /// With `ocb.counters/1`, for everything that the algorithm answers.
-    pub const fn counters<A: Algorithm>(mut self) -> Self {
-        self.counting = true;
+    /// Every query reports its work.
+    pub const fn counts<A: Algorithm>(mut self) -> Self {
+        self.counts = true;
         self
     }
 
@@ -161,23 +155,21 @@ impl Extensions {
         clippy::not_unsafe_ptr_arg_deref,
         reason = "called by the macro alone, whose expansion must hold no unsafe"
     )]
-    pub fn find(&'static self, id: *const c_char) -> *const c_void {
-        fn table<T>(table: Option<&'static T>) -> *const c_void {
-            table.map_or(ptr::null(), |table| ptr::from_ref(table).cast())
+    pub fn find<A: Algorithm>(&'static self, instance: *mut raw::Instance, id: *const c_char) -> *const c_void {
+        fn table<T>(table: Option<&'static T>, offered: bool) -> *const c_void {
+            table.filter(|_| offered).map_or(ptr::null(), |table| ptr::from_ref(table).cast())
         }
         if id.is_null() {
             return ptr::null();
         }
-        // SAFETY: the host passes a C string (plugin.h).
-        let id = unsafe { CStr::from_ptr(id) };
+        // SAFETY: the host passes a C string, and an instance of this algorithm or null (plugin.h).
+        let (id, answers) = unsafe { (CStr::from_ptr(id), |query| calls::answers::<A>(instance, query)) };
         if id == raw::distance::ID {
-            table(self.distance.as_ref())
+            table(self.distance.as_ref(), answers(Query::Distance))
         } else if id == raw::contacts::ID {
-            table(self.contacts.as_ref())
-        } else if id == raw::counters::ID {
-            table(self.counting.then_some(&self.counters))
+            table(self.contacts.as_ref(), answers(Query::Contacts))
         } else if id == raw::parameters::ID {
-            table(self.parameters.as_ref())
+            table(self.parameters.as_ref(), true)
         } else {
             ptr::null()
         }

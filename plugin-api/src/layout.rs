@@ -37,8 +37,8 @@ pub struct Abi {
     contacts_request: raw::contacts::ContactsRequest,
     contacts_result: raw::contacts::ContactsResult,
     contact: raw::contacts::Contact,
-    counters: raw::counters::Counters,
-    counts: raw::counters::Counts,
+    counts: raw::Counts,
+    host: raw::Host,
     parameters: raw::parameters::Parameters,
     parameter: raw::parameters::Parameter,
 }
@@ -58,8 +58,8 @@ impl Abi {
         raw::contacts::ContactsRequest::LAYOUT,
         raw::contacts::ContactsResult::LAYOUT,
         raw::contacts::Contact::LAYOUT,
-        raw::counters::Counters::LAYOUT,
-        raw::counters::Counts::LAYOUT,
+        raw::Counts::LAYOUT,
+        raw::Host::LAYOUT,
         raw::parameters::Parameters::LAYOUT,
         raw::parameters::Parameter::LAYOUT,
     ];

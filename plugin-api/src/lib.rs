@@ -31,8 +31,8 @@ pub mod layout;
 pub mod raw;
 
 pub use algorithm::{
-    About, Algorithm, Answer, Collision, ContactList, Contacts, Distance, Mesh, Parameter, Parameters, Placed, Pose,
-    Refusal, Separation,
+    About, Algorithm, Answer, Capability, Collision, ContactList, Contacts, Distance, Mesh, Parameter, Parameters,
+    Placed, Pose, Query, Refusal, Separation,
 };
 pub use count::{Count, Counts, Uncounted};
 

@@ -6,18 +6,17 @@
 use core::ffi::{c_char, c_void};
 
 pub mod contacts;
-pub mod counters;
 pub mod distance;
 pub mod parameters;
 
 /// `OCB_ABI_MAJOR`: two sides fit when theirs are equal.
 pub const ABI_MAJOR: u32 = 1;
 /// `OCB_ABI_MINOR`: grows when something is appended.
-pub const ABI_MINOR: u32 = 2;
+pub const ABI_MINOR: u32 = 0;
 /// `OCB_NO_TRIANGLE`.
 pub const NO_TRIANGLE: u32 = u32::MAX;
 /// Name of the one symbol that a plugin exports, with the final 0 that dlsym wants.
-pub const ENTRY_SYMBOL: &core::ffi::CStr = c"ocb_plugin_v1";
+pub const ENTRY_SYMBOL: &core::ffi::CStr = c"ocb_entry_v1";
 /// Name of the optional layout note of Rust plugins, see `layout`.
 pub const LAYOUT_SYMBOL: &core::ffi::CStr = c"OCB_LAYOUT_V1";
 
@@ -40,11 +39,20 @@ pub const CAPABILITY_COHERENT: u32 = 2;
 pub const CAPABILITY_SOLID: u32 = 4;
 /// `OCB_CAPABILITY_THREADS`.
 pub const CAPABILITY_THREADS: u32 = 8;
+/// `OCB_CAPABILITY_COUNTS`.
+pub const CAPABILITY_COUNTS: u32 = 16;
+
+/// `OCB_COUNTS_BV_TESTS`.
+pub const COUNTS_BV_TESTS: u32 = 1;
+/// `OCB_COUNTS_PRIMITIVE_TESTS`.
+pub const COUNTS_PRIMITIVE_TESTS: u32 = 2;
+/// `OCB_COUNTS_PER_TRIANGLE`.
+pub const COUNTS_PER_TRIANGLE: u32 = 4;
 
 /// `OCB_REQUEST_SOLID`.
 pub const REQUEST_SOLID: u32 = 1;
 
-/// `ocb_plugin_v1`.
+/// `ocb_entry_v1`.
 pub type Entry = unsafe extern "C" fn(host_abi_major: u32) -> *const Plugin;
 
 /// `ocb_instance`: the plugin's own; only ever behind a pointer.
@@ -59,6 +67,45 @@ pub struct Instance {
 #[cfg_attr(feature = "layout", derive(abi_stable::StableAbi))]
 pub struct Object {
     _private: [u8; 0],
+}
+
+/// `ocb_host`.
+#[repr(C)]
+#[derive(Clone, Copy)]
+#[cfg_attr(feature = "layout", derive(abi_stable::StableAbi))]
+pub struct Host {
+    /// Size as the host was compiled.
+    pub struct_size: u32,
+    /// Minor version of the host's ABI.
+    pub abi_minor: u32,
+    /// Table of functions that the host offers.
+    pub get_extension: Option<unsafe extern "C" fn(host: *const Host, id: *const c_char) -> *const c_void>,
+}
+
+/// `ocb_counts`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "layout", derive(abi_stable::StableAbi))]
+pub struct Counts {
+    /// Size as the host was compiled.
+    pub struct_size: u32,
+    /// `COUNTS_*` bits: what has been counted.
+    pub flags: u32,
+    /// Tests between two bounding volumes.
+    pub bv_tests: u64,
+    /// Tests between two primitives.
+    pub primitive_tests: u64,
+    /// Tests per triangle of A, or null.
+    pub tests_a: *mut u32,
+    /// Tests per triangle of B, or null.
+    pub tests_b: *mut u32,
+}
+
+impl Counts {
+    /// As the host passes it; the arrays are null, or as long as the objects have triangles.
+    pub const fn new(tests_a: *mut u32, tests_b: *mut u32) -> Self {
+        Self { struct_size: size_of::<Self>() as u32, flags: 0, bv_tests: 0, primitive_tests: 0, tests_a, tests_b }
+    }
 }
 
 /// `ocb_plugin`.
@@ -76,8 +123,6 @@ pub struct Plugin {
     pub algorithm_count: u32,
     /// The algorithms.
     pub algorithms: *const *const Algorithm,
-    /// Null.
-    pub reserved: [*const c_void; 4],
 }
 
 /// `ocb_algorithm`.
@@ -104,7 +149,7 @@ pub struct Algorithm {
     /// Paper, or null.
     pub paper: *const c_char,
     /// Makes what belongs to one run.
-    pub create: Option<unsafe extern "C" fn(instance: *mut *mut Instance) -> Status>,
+    pub create: Option<unsafe extern "C" fn(host: *const Host, instance: *mut *mut Instance) -> Status>,
     /// Frees it.
     pub destroy: Option<unsafe extern "C" fn(instance: *mut Instance)>,
     /// The build.
@@ -133,11 +178,9 @@ pub struct Algorithm {
         ) -> Status,
     >,
     /// Table of an extension.
-    pub get_extension: Option<unsafe extern "C" fn(id: *const c_char) -> *const c_void>,
+    pub get_extension: Option<unsafe extern "C" fn(instance: *mut Instance, id: *const c_char) -> *const c_void>,
     /// Sentence about the latest error.
     pub error_message: Option<unsafe extern "C" fn(instance: *mut Instance) -> *const c_char>,
-    /// Null.
-    pub reserved: [*const c_void; 4],
 }
 
 /// `ocb_collide_request`.
@@ -149,18 +192,14 @@ pub struct CollideRequest {
     pub struct_size: u32,
     /// [`REQUEST_SOLID`] or 0.
     pub flags: u32,
+    /// Where to count the work, or null.
+    pub counts: *mut Counts,
 }
 
 impl CollideRequest {
     /// As the host passes it.
-    pub const fn new() -> Self {
-        Self { struct_size: size_of::<Self>() as u32, flags: 0 }
-    }
-}
-
-impl Default for CollideRequest {
-    fn default() -> Self {
-        Self::new()
+    pub const fn new(flags: u32, counts: *mut Counts) -> Self {
+        Self { struct_size: size_of::<Self>() as u32, flags, counts }
     }
 }
 

@@ -1,11 +1,11 @@
 //! The C side of an exported Rust algorithm: refusals, panics, counters, contacts beyond the buffer, parameters.
 
-use std::ffi::{CStr, c_char};
+use std::ffi::{CStr, c_char, c_void};
 use std::ptr::null_mut;
 
 use opencollbench_plugin::{
-    About, Algorithm, Answer, Collision, ContactList, Contacts, Count, Distance, Mesh, Parameter, Parameters, Placed,
-    Refusal, Separation, raw,
+    About, Algorithm, Answer, Capability, Collision, ContactList, Contacts, Count, Distance, Mesh, Parameter,
+    Parameters, Placed, Query, Refusal, Separation, raw,
 };
 
 /// Answers by the x of the second pose: 0 yes, 1 no, 2 panic, 3 gave up, 4 unsupported, 5 error.
@@ -14,10 +14,11 @@ struct Whimsical {
     level: f64,
 }
 
-opencollbench_plugin::export!(Whimsical: distance contacts counters parameters);
+opencollbench_plugin::export!(Whimsical: distance contacts counts parameters);
 
 impl Algorithm for Whimsical {
-    const ABOUT: About = About { id: c"whimsical", name: c"Whimsical", capabilities: 2, ..About::new() };
+    const ABOUT: About =
+        About { id: c"whimsical", name: c"Whimsical", capabilities: &[Capability::Coherent], ..About::new() };
     type Object = usize;
 
     fn load_mesh(&mut self, mesh: Mesh<'_>) -> Answer<usize> {
@@ -41,6 +42,11 @@ impl Algorithm for Whimsical {
             4.0 => Err(Refusal::Unsupported),
             _ => Err(Refusal::Error("out of luck".into())),
         }
+    }
+
+    fn answers(&self, query: Query) -> bool {
+        assert!(self.level < 2.0, "at level 2 it does not even say that");
+        query == Query::Distance || self.level != 1.5
     }
 }
 
@@ -87,6 +93,7 @@ struct Run {
     object: *mut raw::Object,
 }
 
+static HOST: raw::Host = raw::Host { struct_size: size_of::<raw::Host>() as u32, abi_minor: 0, get_extension: None };
 const POSITIONS: [f64; 12] = [0.0; 12];
 const TRIANGLES: [u32; 9] = [0, 1, 2, 1, 2, 3, 0, 1, 3];
 
@@ -94,24 +101,35 @@ impl Run {
     fn new() -> Self {
         // SAFETY: our own descriptor, called in the order of plugin.h.
         unsafe {
-            let algorithm = &**(*ocb_plugin_v1(raw::ABI_MAJOR)).algorithms;
+            let algorithm = &**(*ocb_entry_v1(raw::ABI_MAJOR)).algorithms;
             let (mut instance, mut object) = (null_mut(), null_mut());
-            assert_eq!(algorithm.create.unwrap()(&mut instance), raw::OK);
+            assert_eq!(algorithm.create.unwrap()(&HOST, &mut instance), raw::OK);
             let load = algorithm.load_mesh.unwrap();
             assert_eq!(load(instance, POSITIONS.as_ptr(), 4, TRIANGLES.as_ptr(), 2, &mut object), raw::OK);
             Self { algorithm, instance, object }
         }
     }
 
+    fn extension(&self, id: &CStr) -> *const c_void {
+        // SAFETY: an instance of ours and a C string.
+        unsafe { self.algorithm.get_extension.unwrap()(self.instance, id.as_ptr()) }
+    }
+
+    fn set_level(&self, level: f64) {
+        let table: &raw::parameters::Parameters = self.table(raw::parameters::ID);
+        // SAFETY: an instance of ours and a C string.
+        assert_eq!(unsafe { table.set.unwrap()(self.instance, c"level".as_ptr(), level) }, raw::OK);
+    }
+
     fn table<T>(&self, id: &CStr) -> &'static T {
         // SAFETY: the id says what the table is.
-        unsafe { &*self.algorithm.get_extension.unwrap()(id.as_ptr()).cast::<T>() }
+        unsafe { &*self.extension(id).cast::<T>() }
     }
 
     fn collide(&self, x: f64) -> (raw::Status, raw::CollideResult) {
         let (mut pose, mut result) = (opencollbench_plugin::Pose::IDENTITY, raw::CollideResult::new());
         pose.0[3] = x;
-        let (request, pose) = (raw::CollideRequest::new(), pose.0.as_ptr());
+        let (request, pose) = (raw::CollideRequest::new(0, null_mut()), pose.0.as_ptr());
         let collide = self.algorithm.collide.unwrap();
         // SAFETY: instance and object are the algorithm's own.
         let status = unsafe { collide(self.instance, self.object, pose, self.object, pose, &request, &mut result) };
@@ -144,7 +162,7 @@ fn answers_cross_the_border() {
     assert_eq!((status, hit.hit, hit.triangle_a, hit.triangle_b), (raw::OK, 1, 1, 0));
     let (status, miss) = run.collide(1.0);
     assert_eq!((status, miss.hit, miss.triangle_a, miss.triangle_b), (raw::OK, 0, raw::NO_TRIANGLE, raw::NO_TRIANGLE));
-    assert_eq!(run.algorithm.capabilities, raw::CAPABILITY_COHERENT);
+    assert_eq!(run.algorithm.capabilities, raw::CAPABILITY_COHERENT | raw::CAPABILITY_COUNTS);
 }
 
 #[test]
@@ -170,19 +188,31 @@ fn a_mesh_that_is_refused_makes_no_object() {
 }
 
 #[test]
-fn counters_count() {
+fn work_is_counted_when_it_is_asked_for() {
     let run = Run::new();
-    let table: &raw::counters::Counters = run.table(raw::counters::ID);
-    let (mut tests_a, mut tests_b) = ([0u32; 2], [0u32; 2]);
-    let mut counts = raw::counters::Counts::new(tests_a.as_mut_ptr(), tests_b.as_mut_ptr());
-    let (request, mut result) = (raw::CollideRequest::new(), raw::CollideResult::new());
+    assert_eq!(run.algorithm.capabilities, raw::CAPABILITY_COHERENT | raw::CAPABILITY_COUNTS);
+    // The arrays sum over queries.
+    let (mut tests_a, mut tests_b) = ([0u32; 2], [10u32; 2]);
+    let mut counts = raw::Counts::new(tests_a.as_mut_ptr(), tests_b.as_mut_ptr());
+    let (request, mut result) = (raw::CollideRequest::new(0, &raw mut counts), raw::CollideResult::new());
     let pose = opencollbench_plugin::Pose::IDENTITY.0.as_ptr();
-    let count = table.count_collide.unwrap();
+    let collide = run.algorithm.collide.unwrap();
     // SAFETY: the arrays have one entry per triangle.
-    let status = unsafe { count(run.instance, run.object, pose, run.object, pose, &request, &mut result, &mut counts) };
+    let status = unsafe { collide(run.instance, run.object, pose, run.object, pose, &request, &mut result) };
     assert_eq!((status, result.hit), (raw::OK, 1));
     assert_eq!((counts.bv_tests, counts.primitive_tests, counts.flags), (7, 2, 7));
-    assert_eq!((tests_a, tests_b), ([1, 1], [0, 2]));
+    assert_eq!((tests_a, tests_b), ([1, 1], [10, 12]));
+}
+
+#[test]
+fn an_instance_offers_what_its_parameters_allow() {
+    let run = Run::new();
+    let offered = || [raw::distance::ID, raw::contacts::ID].map(|id| !run.extension(id).is_null());
+    assert_eq!(offered(), [true, true]);
+    run.set_level(1.5);
+    assert_eq!(offered(), [true, false]);
+    run.set_level(2.0);
+    assert_eq!(offered(), [false, false], "a panic there is a no");
 }
 
 #[test]
@@ -190,7 +220,7 @@ fn contacts_beyond_the_buffer_are_counted() {
     let run = Run::new();
     let table: &raw::contacts::Contacts = run.table(raw::contacts::ID);
     let mut room = [raw::contacts::Contact::default(); 4];
-    let request = raw::contacts::ContactsRequest::new(room.as_mut_ptr(), 3);
+    let request = raw::contacts::ContactsRequest::new(room.as_mut_ptr(), 3, null_mut());
     let mut result = raw::contacts::ContactsResult::new();
     let pose = opencollbench_plugin::Pose::IDENTITY.0.as_ptr();
     let contacts = table.contacts.unwrap();
@@ -204,7 +234,8 @@ fn contacts_beyond_the_buffer_are_counted() {
 fn distance_flags_what_it_has() {
     let run = Run::new();
     let table: &raw::distance::Distance = run.table(raw::distance::ID);
-    let (request, mut result) = (raw::distance::DistanceRequest::new(), raw::distance::DistanceResult::new());
+    let (request, mut result) =
+        (raw::distance::DistanceRequest::new(0, null_mut()), raw::distance::DistanceResult::new());
     let pose = opencollbench_plugin::Pose::IDENTITY.0.as_ptr();
     let distance = table.distance.unwrap();
     // SAFETY: as in the other tests.
@@ -237,12 +268,13 @@ fn unknown_extensions_are_null() {
     let get = Run::new().algorithm.get_extension.unwrap();
     // SAFETY: a C string, and null, which no host should pass.
     unsafe {
-        assert!(get(c"ocb.distance/2".as_ptr()).is_null());
-        assert!(get(std::ptr::null()).is_null());
+        assert!(get(null_mut(), c"ocb.distance/2".as_ptr()).is_null());
+        assert!(get(null_mut(), std::ptr::null()).is_null());
+        assert!(!get(null_mut(), raw::distance::ID.as_ptr()).is_null(), "asked before there is an instance");
     }
 }
 
 #[test]
 fn a_host_of_another_abi_is_refused() {
-    assert!(ocb_plugin_v1(raw::ABI_MAJOR + 1).is_null());
+    assert!(ocb_entry_v1(raw::ABI_MAJOR + 1).is_null());
 }

@@ -7,7 +7,7 @@ use std::mem::offset_of;
 
 use abi_stable::StableAbi;
 use opencollbench_plugin::layout::{self, Abi, LayoutError, LayoutNote, check};
-use opencollbench_plugin::raw::{self, contacts, counters, distance, parameters};
+use opencollbench_plugin::raw::{self, contacts, distance, parameters};
 
 /// C assertions for the size and alignment of each struct and the offset of each of its fields.
 macro_rules! assertions {
@@ -21,30 +21,30 @@ macro_rules! assertions {
 fn c_assertions() -> String {
     let mut out = String::from(
         "#include <stddef.h>\n\
-         #include <opencollbench/ext/contacts.h>\n#include <opencollbench/ext/counters.h>\n\
-         #include <opencollbench/ext/distance.h>\n#include <opencollbench/ext/parameters.h>\n\
+         #include <opencollbench/ext/contacts.h>\n#include <opencollbench/ext/distance.h>\n\
+         #include <opencollbench/ext/parameters.h>\n\
          #ifdef __cplusplus\n#define CHECK(x) static_assert(x, #x)\n#define ALIGN_OF(t) alignof(t)\n\
          #else\n#define CHECK(x) _Static_assert(x, #x)\n#define ALIGN_OF(t) _Alignof(t)\n#endif\n",
     );
     assertions!(out,
-        "ocb_plugin" = raw::Plugin { abi_major abi_minor struct_size algorithm_count algorithms reserved }
+        "ocb_plugin" = raw::Plugin { abi_major abi_minor struct_size algorithm_count algorithms }
         "ocb_algorithm" = raw::Algorithm {
             struct_size capabilities id name version authors license url paper create destroy load_mesh free_mesh
-            collide get_extension error_message reserved
+            collide get_extension error_message
         }
-        "ocb_collide_request" = raw::CollideRequest { struct_size flags }
+        "ocb_host" = raw::Host { struct_size abi_minor get_extension }
+        "ocb_counts" = raw::Counts { struct_size flags bv_tests primitive_tests tests_a tests_b }
+        "ocb_collide_request" = raw::CollideRequest { struct_size flags counts }
         "ocb_collide_result" = raw::CollideResult { struct_size hit triangle_a triangle_b }
-        "ocb_distance_request" = distance::DistanceRequest { struct_size flags }
+        "ocb_distance_request" = distance::DistanceRequest { struct_size flags counts }
         "ocb_distance_result" = distance::DistanceResult {
             struct_size flags distance point_a point_b triangle_a triangle_b
         }
-        "ocb_distance" = distance::Distance { struct_size reserved distance }
+        "ocb_distance" = distance::Distance { struct_size distance }
         "ocb_contact" = contacts::Contact { a b }
-        "ocb_contacts_request" = contacts::ContactsRequest { struct_size flags contacts capacity }
-        "ocb_contacts_result" = contacts::ContactsResult { struct_size reserved total }
-        "ocb_contacts" = contacts::Contacts { struct_size reserved contacts }
-        "ocb_counts" = counters::Counts { struct_size flags bv_tests primitive_tests tests_a tests_b }
-        "ocb_counters" = counters::Counters { struct_size reserved count_collide count_distance count_contacts }
+        "ocb_contacts_request" = contacts::ContactsRequest { struct_size flags contacts capacity counts }
+        "ocb_contacts_result" = contacts::ContactsResult { struct_size total }
+        "ocb_contacts" = contacts::Contacts { struct_size contacts }
         "ocb_parameter" = parameters::Parameter {
             struct_size kind name description minimum maximum default_value
         }
@@ -62,23 +62,21 @@ fn c_assertions() -> String {
         ("OCB_CAPABILITY_COHERENT", raw::CAPABILITY_COHERENT),
         ("OCB_CAPABILITY_SOLID", raw::CAPABILITY_SOLID),
         ("OCB_CAPABILITY_THREADS", raw::CAPABILITY_THREADS),
+        ("OCB_CAPABILITY_COUNTS", raw::CAPABILITY_COUNTS),
         ("OCB_REQUEST_SOLID", raw::REQUEST_SOLID),
         ("OCB_DISTANCE_HAS_POINTS", distance::HAS_POINTS),
         ("OCB_DISTANCE_HAS_TRIANGLES", distance::HAS_TRIANGLES),
-        ("OCB_COUNTS_BV_TESTS", counters::BV_TESTS),
-        ("OCB_COUNTS_PRIMITIVE_TESTS", counters::PRIMITIVE_TESTS),
-        ("OCB_COUNTS_PER_TRIANGLE", counters::PER_TRIANGLE),
+        ("OCB_COUNTS_BV_TESTS", raw::COUNTS_BV_TESTS),
+        ("OCB_COUNTS_PRIMITIVE_TESTS", raw::COUNTS_PRIMITIVE_TESTS),
+        ("OCB_COUNTS_PER_TRIANGLE", raw::COUNTS_PER_TRIANGLE),
         ("OCB_PARAMETER_REAL", parameters::REAL),
         ("OCB_PARAMETER_INTEGER", parameters::INTEGER),
     ] {
         writeln!(out, "CHECK((uint32_t){c} == {rust}u);").unwrap();
     }
-    for (c, rust) in [
-        ("OCB_EXT_DISTANCE", distance::ID),
-        ("OCB_EXT_CONTACTS", contacts::ID),
-        ("OCB_EXT_COUNTERS", counters::ID),
-        ("OCB_EXT_PARAMETERS", parameters::ID),
-    ] {
+    for (c, rust) in
+        [("OCB_EXT_DISTANCE", distance::ID), ("OCB_EXT_CONTACTS", contacts::ID), ("OCB_EXT_PARAMETERS", parameters::ID)]
+    {
         // An assertion cannot compare strings, only their lengths; the next test reads them.
         writeln!(out, "CHECK(sizeof({c}) == {});", rust.count_bytes() + 1).unwrap();
     }
@@ -98,7 +96,6 @@ fn extension_ids_are_equal_on_both_sides() {
     for (header, macro_name, id) in [
         ("distance", "OCB_EXT_DISTANCE", distance::ID),
         ("contacts", "OCB_EXT_CONTACTS", contacts::ID),
-        ("counters", "OCB_EXT_COUNTERS", counters::ID),
         ("parameters", "OCB_EXT_PARAMETERS", parameters::ID),
     ] {
         let path = support::package().join(format!("include/opencollbench/ext/{header}.h"));
@@ -125,16 +122,18 @@ fn the_own_note_fits() {
     assert_eq!(unsafe { check((&raw const NOTE).cast()) }, Ok(()));
 }
 
-/// `total` is half as wide, and yet no size and no other offset differs: only the note can tell.
+/// `primitive_tests` is half as wide, and yet no size and no other offset differs: only the note can tell.
 #[test]
 fn a_note_with_one_narrower_field_does_not_fit_and_names_it() {
     #[repr(C)]
     #[derive(StableAbi)]
-    struct ContactsResult {
+    struct Counts {
         struct_size: u32,
-        reserved: u32,
-        total: u32,
-        padding: u32,
+        flags: u32,
+        bv_tests: u64,
+        primitive_tests: u32,
+        tests_a: *mut u32,
+        tests_b: *mut u32,
     }
     #[repr(C)]
     #[derive(StableAbi)]
@@ -149,10 +148,10 @@ fn a_note_with_one_narrower_field_does_not_fit_and_names_it() {
         distance_result: distance::DistanceResult,
         contacts: contacts::Contacts,
         contacts_request: contacts::ContactsRequest,
-        contacts_result: ContactsResult,
+        contacts_result: contacts::ContactsResult,
         contact: contacts::Contact,
-        counters: counters::Counters,
-        counts: counters::Counts,
+        counts: Counts,
+        host: raw::Host,
         parameters: parameters::Parameters,
         parameter: parameters::Parameter,
     }
@@ -160,8 +159,8 @@ fn a_note_with_one_narrower_field_does_not_fit_and_names_it() {
     static NOTE: LayoutNote = LayoutNote::of::<Abi>();
     // SAFETY: an honest note, of another ABI.
     let error = unsafe { check((&raw const NOTE).cast()) }.expect_err("another ABI");
-    assert!(matches!(&error, LayoutError::Different(what) if what.contains("total")), "{error}");
-    let sentence = "the plugin was built with another version of opencollbench-plugin ('contacts_result.total' is u32 \
+    assert!(matches!(&error, LayoutError::Different(what) if what.contains("primitive_tests")), "{error}");
+    let sentence = "the plugin was built with another version of opencollbench-plugin ('counts.primitive_tests' is u32 \
                     there and u64 here); build it again with the host's version";
     assert_eq!(error.to_string(), sentence);
 }

@@ -45,7 +45,8 @@ impl Plugin {
         unsafe {
             let mut instance = null_mut();
             if let Some(create) = self.algorithm.create {
-                assert_eq!(create(&mut instance), raw::OK);
+                let host = raw::Host { struct_size: size_of::<raw::Host>() as u32, abi_minor: 0, get_extension: None };
+                assert_eq!(create(&host, &mut instance), raw::OK);
             }
             let [object_a, object_b] = [a, b].map(|triangles| {
                 let positions: Vec<[f64; 3]> = triangles.iter().flatten().copied().collect();
@@ -60,7 +61,7 @@ impl Plugin {
             let mut result = raw::CollideResult::new();
             let (pose_a, pose_b) = (pose_a.0.as_ptr(), pose_b.0.as_ptr());
             let collide = self.algorithm.collide.expect("collide");
-            let request = raw::CollideRequest::new();
+            let request = raw::CollideRequest::new(0, null_mut());
             assert_eq!(collide(instance, object_a, pose_a, object_b, pose_b, &request, &mut result), raw::OK);
             if let Some(free) = self.algorithm.free_mesh {
                 free(instance, object_a);

@@ -56,9 +56,12 @@ static ocb_status distance(ocb_instance *instance, ocb_object *a, const double *
     return OCB_OK;
 }
 
-static const ocb_distance table = {sizeof(ocb_distance), 0, distance};
+static const ocb_distance table = {sizeof(ocb_distance), distance};
 
-static const void *get_extension(const char *id) { return strcmp(id, OCB_EXT_DISTANCE) ? NULL : &table; }
+static const void *get_extension(ocb_instance *instance, const char *id) {
+    (void)instance;
+    return strcmp(id, OCB_EXT_DISTANCE) ? NULL : &table;
+}
 
 static const ocb_algorithm algorithm = {
     .struct_size = sizeof(ocb_algorithm),
@@ -80,7 +83,7 @@ static const ocb_plugin plugin = {
     .algorithms = algorithms,
 };
 
-OCB_EXPORT const ocb_plugin *ocb_plugin_v1(uint32_t host_abi_major) {
+OCB_EXPORT const ocb_plugin *ocb_entry_v1(uint32_t host_abi_major) {
     (void)host_abi_major;
     return &plugin;
 }

@@ -43,6 +43,8 @@ pub(crate) struct Jail {
     pub request: Segment,
     /// Written by the runner.
     pub answer: Segment,
+    /// How many triangles A and B have.
+    pub triangles: [u32; 2],
     /// Host's process id of the runner.
     pub pid: i32,
     /// In force.
@@ -107,9 +109,9 @@ impl Jail {
         (0..sheet.len / PAGE).for_each(|page| trial.u64(page * PAGE).store(0, Ordering::Relaxed));
         trial.store_bytes(0, &sheet.head);
         let (request_file, request) = ours(c"ocb-request", request::BYTES).map_err(fault("SharedMemory"))?;
-        let answer_file = memory_file(c"ocb-answer", answer::BYTES).map_err(fault("SharedMemory"))?;
+        let answer_file = memory_file(c"ocb-answer", answer::bytes(sheet.triangles)).map_err(fault("SharedMemory"))?;
         seal(answer_file.as_fd(), whole).map_err(fault("SharedMemory"))?;
-        let answer = Segment::map(answer_file.as_fd(), answer::BYTES, false).map_err(fault("SharedMemory"))?;
+        let answer = Segment::whole(answer_file.as_fd(), false).map_err(fault("SharedMemory"))?;
 
         let (pipe, pipe_end) = io::pipe().map_err(fault("Start"))?;
         let pipe = File::from(OwnedFd::from(pipe));
@@ -138,6 +140,7 @@ impl Jail {
             trial,
             request,
             answer,
+            triangles: sheet.triangles,
             pid,
             layers: Layers::default(),
             launcher: Launched { pid, handle, usage: None },
@@ -183,6 +186,15 @@ impl Jail {
             Ok(()) => Ok(jail),
             Err(outcome) => Err(jail.end(outcome)),
         }
+    }
+
+    /// What the plugin has added up for each triangle of A and of B.
+    pub fn triangle_tests(&self) -> [Vec<u32>; 2] {
+        let starts = [answer::TESTS, answer::tests_b(self.triangles)];
+        let read = |start: usize, n: u32| {
+            (0..n as usize).map(|i| self.answer.u32(start + 4 * i).load(Ordering::Relaxed)).collect()
+        };
+        [read(starts[0], self.triangles[0]), read(starts[1], self.triangles[1])]
     }
 
     pub(crate) fn cpu_limit(&self) -> u64 {

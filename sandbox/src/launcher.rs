@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use ocb_core::mesh::Mesh;
-use ocb_core::query::Semantics;
+use ocb_core::query::{Query, Semantics};
 
 use crate::brought;
 use crate::clock::{Clock, ClockFacts};
@@ -18,7 +18,7 @@ use crate::layers::Profile;
 use crate::null;
 use crate::outcome::{Ending, Outcome, Phase};
 use crate::policy::Policy;
-use crate::protocol::{Command, parse_descriptors, parse_inspection};
+use crate::protocol::{Command, parse_descriptors, parse_inspection, parse_queries};
 use crate::seccomp;
 use crate::session::{Pinned, Session, SetUp};
 use crate::trial::Sheet;
@@ -98,16 +98,37 @@ impl Launcher {
         self.aside(plugin, &Killer::default(), |exchange| Ok(exchange.jail.layers.phrases()))
     }
 
-    /// Does something in a jail of its own, without objects.
+    /// The kinds of query that an algorithm of the plugin answers with these parameters.
+    pub fn queries(&self, plugin: &Path, algorithm: &str, parameters: &[(String, f64)]) -> Result<Vec<Query>, Ending> {
+        let sheet = Sheet::new(algorithm, parameters, Semantics::Surface, &[]);
+        self.aside_for(&sheet, plugin, &Killer::default(), |exchange| {
+            self.load(exchange)?;
+            self.tighten(exchange)?;
+            exchange.obeyed(Command::Prepare, Phase::Load, self.policy.load_seconds)?;
+            parse_queries(&exchange.text(Phase::Load)?)
+                .map_err(|rule| Outcome::ProtocolViolation { phase: Phase::Load, rule })
+        })
+    }
+
+    /// Does something in a jail of its own, for no algorithm and without objects.
     fn aside<T>(
         &self,
         plugin: &Path,
         killer: &Killer,
         work: impl FnOnce(&mut Exchange) -> Result<T, Outcome>,
     ) -> Result<T, Ending> {
+        self.aside_for(&Sheet::new("", &[], Semantics::Surface, &[]), plugin, killer, work)
+    }
+
+    fn aside_for<T>(
+        &self,
+        sheet: &Sheet,
+        plugin: &Path,
+        killer: &Killer,
+        work: impl FnOnce(&mut Exchange) -> Result<T, Outcome>,
+    ) -> Result<T, Ending> {
         let places = Places::here(&self.policy)?;
-        let sheet = Sheet::new("", &[], Semantics::Surface, &[]);
-        let mut exchange = self.jail(plugin, &sheet, killer, &places)?;
+        let mut exchange = self.jail(plugin, sheet, killer, &places)?;
         match work(&mut exchange) {
             Ok(found) => {
                 exchange.jail.end(Outcome::Completed);

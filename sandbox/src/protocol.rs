@@ -58,8 +58,19 @@ pub mod answer {
     pub const CONTACTS: usize = TEXT + TEXT_BYTES;
     /// At most so many.
     pub const CONTACT_CAPACITY: usize = 1 << 16;
-    /// Size of the file.
-    pub const BYTES: usize = CONTACTS + 8 * CONTACT_CAPACITY;
+    /// u32 for each triangle of A, then for each of B from [`tests_b`] on: in how many primitive tests of all counted queries
+    /// it took part.
+    pub const TESTS: usize = CONTACTS + 8 * CONTACT_CAPACITY;
+
+    /// Where B's counts begin.
+    pub fn tests_b(triangles: [u32; 2]) -> usize {
+        TESTS + (4 * triangles[0] as usize).next_multiple_of(8)
+    }
+
+    /// Size of the file for objects of so many triangles.
+    pub fn bytes(triangles: [u32; 2]) -> usize {
+        tests_b(triangles) + (4 * triangles[1] as usize).next_multiple_of(8)
+    }
 }
 
 /// What the supervisor asks the runner to do.
@@ -278,6 +289,13 @@ pub fn parse_descriptors(text: &[u8]) -> Result<Vec<Descriptor>, String> {
         }
     }
     descriptors.into_iter().map(Descriptor::bounded).collect()
+}
+
+/// Reads what an algorithm answers with its parameters set.
+pub fn parse_queries(text: &[u8]) -> Result<Vec<Query>, String> {
+    let queries: Vec<Query> =
+        serde_json::from_slice(text).map_err(|e| format!("its queries are not readable ({e})"))?;
+    if queries.len() > 3 { Err(format!("{} kinds of query; there are 3", queries.len())) } else { Ok(queries) }
 }
 
 /// Text for people from bytes of the plugin, in lines.

@@ -30,6 +30,8 @@ pub struct Session {
     set_up: SetUp,
     clock: ClockFacts,
     waits: Waits,
+    /// Of all counted queries.
+    primitive_tests: u64,
     /// The runner is to sleep since then.
     resting: Option<Resting>,
     ended: Option<Outcome>,
@@ -107,6 +109,7 @@ impl Session {
             set_up,
             clock,
             waits,
+            primitive_tests: 0,
             resting: Some(resting),
             ended: None,
             pinned,
@@ -171,7 +174,18 @@ impl Session {
         configuration: &Configuration,
     ) -> Result<(Answer, Option<Counters>), Outcome> {
         let question = Presented { configuration: *configuration, swapped: false };
-        self.ask(query, &[Poses::from(&question)], true).map(|(_, mut answers)| answers.remove(0))
+        let (answer, counters) = self.ask(query, &[Poses::from(&question)], true)?.1.remove(0);
+        let tests = counters.and_then(|counters| counters.primitive_tests).unwrap_or(0);
+        self.primitive_tests = self.primitive_tests.saturating_add(tests);
+        Ok((answer, counters))
+    }
+
+    /// In how many primitive tests of the counted queries so far each triangle of A and of B took part, as the plugin says;
+    /// absent when that does not add up to the primitive tests that it counted.
+    pub fn triangle_tests(&self) -> Option<[Vec<u32>; 2]> {
+        let tests = self.exchange.jail.triangle_tests();
+        let sums = |of: &[u32]| of.iter().map(|tests| u64::from(*tests)).sum::<u64>();
+        tests.iter().all(|of| sums(of) == self.primitive_tests).then_some(tests)
     }
 
     /// From now on the runner is to sleep, until the next question.

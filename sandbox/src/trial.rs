@@ -38,6 +38,8 @@ pub struct Sheet {
     pub head: Vec<u8>,
     /// The meshes.
     pub meshes: Vec<Part>,
+    /// How many triangles A and B have; the same mesh may be both.
+    pub triangles: [u32; 2],
     /// Bytes of the whole file.
     pub len: usize,
 }
@@ -81,11 +83,12 @@ impl Sheet {
             }
             parts.push(Part { at: positions_at, bytes });
         }
+        let triangles = [places.first(), places.last()].map(|place| place.map_or(0, |place| place.triangles));
         let head =
             TrialHead { algorithm: algorithm.into(), parameters: parameters.to_vec(), semantics, meshes: places };
         let json = serde_json::to_vec(&head).expect("plain data is always JSON");
         let head = [&(json.len() as u64).to_le_bytes()[..], &json].concat();
-        Sheet { head, meshes: parts, len: at }
+        Sheet { head, meshes: parts, triangles, len: at }
     }
 }
 

@@ -139,7 +139,7 @@ fn the_parser_reads_anything() {
     for i in 0..inputs(300_000, 10.0) {
         // Mostly small words, so that every branch is reached, among them those that parsers stumble on.
         let words: [u64; SLOT_WORDS] = std::array::from_fn(|_| match numbers.below(4) {
-            0 => numbers.nasty(answer::BYTES as u64),
+            0 => numbers.nasty(answer::TESTS as u64),
             _ => numbers.next() % 5,
         });
         let announced = contacts_to_copy(&words);

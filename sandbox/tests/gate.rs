@@ -46,7 +46,7 @@ fn folder() -> Folder {
     Folder(tempfile::tempdir().unwrap())
 }
 
-const ENTRY: &str = "void *ocb_plugin_v1(unsigned v) { (void)v; return 0; }";
+const ENTRY: &str = "void *ocb_entry_v1(unsigned v) { (void)v; return 0; }";
 
 /// Changes bytes of a good file.
 fn patched(folder: &Folder, name: &str, patch: impl Fn(&mut Vec<u8>)) -> PathBuf {
@@ -136,7 +136,7 @@ fn dangerous_memory_is_refused() {
     let relocated = folder.build(&format!("{ENTRY}\nextern int x; int *p(void) {{ return &x; }} "), &["-Wl,-z,notext"]);
     // The compiler made position-independent code of it, so the flag alone has no effect: an honest file.
     assert_eq!(inspect(&relocated).rejections, []);
-    let assembly = format!("{ENTRY}\n__asm__(\".text\\n.quad ocb_plugin_v1\\n\");");
+    let assembly = format!("{ENTRY}\n__asm__(\".text\\n.quad ocb_entry_v1\\n\");");
     check_refused(&folder.build(&assembly, &["-Wl,-z,notext", "-w"]), "text relocations", "-fPIC");
     // Type PT_LOAD (1), flags R and X (5): now W as well.
     let open = patched(&folder, "writable", |bytes| {
@@ -155,11 +155,11 @@ fn program_headers(bytes: &[u8]) -> impl Iterator<Item = usize> + use<> {
 #[test]
 fn the_entry_must_be_a_function_of_the_file() {
     let folder = folder();
-    check_refused(&folder.build("int other;", &[]), "entry", "does not export the function ocb_plugin_v1");
-    check_refused(&folder.build("int ocb_plugin_v1;", &[]), "entry", "is not a global function");
-    let uses = "void *ocb_plugin_v1(unsigned); void *f(void) { return ocb_plugin_v1(1); }";
+    check_refused(&folder.build("int other;", &[]), "entry", "does not export the function ocb_entry_v1");
+    check_refused(&folder.build("int ocb_entry_v1;", &[]), "entry", "is not a global function");
+    let uses = "void *ocb_entry_v1(unsigned); void *f(void) { return ocb_entry_v1(1); }";
     check_refused(&folder.build(uses, &[]), "entry", "does not define it");
-    let hidden = "__attribute__((visibility(\"hidden\"))) void *ocb_plugin_v1(unsigned v) { return (void *)(long)v; }";
+    let hidden = "__attribute__((visibility(\"hidden\"))) void *ocb_entry_v1(unsigned v) { return (void *)(long)v; }";
     check_refused(&folder.build(hidden, &[]), "entry", "OCB_EXPORT");
 }
 

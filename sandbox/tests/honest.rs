@@ -54,8 +54,30 @@ fn counts_in_a_pass_of_its_own_and_takes_parameters() {
     let (answer, counters) = session.count(Query::CollisionFirst, &apart(0.5)).unwrap();
     assert_eq!(answer, Answer::Collision { hit: true, pair: Some([0, 1]) });
     assert_eq!(counters, Some(Counters { bv_tests: Some(11), primitive_tests: Some(42) }));
-    // Without a counting twin the plain function answers.
+    // A query that counts nothing is answered all the same.
     assert!(matches!(session.count(Query::Proximity, &apart(0.5)), Ok((Answer::Distance { .. }, None))));
+    session.count(Query::CollisionFirst, &apart(2.0)).unwrap();
+    // A timed query adds nothing.
+    session.query(Query::CollisionFirst, &apart(0.5)).unwrap();
+    assert_eq!(session.triangle_tests(), Some([vec![84, 0], vec![0, 84]]));
+}
+
+#[test]
+fn tests_per_triangle_that_do_not_add_up_are_not_taken() {
+    let mut session = start(&launcher(), &fixture(&["FAULT_MISCOUNT"])).unwrap();
+    let (_, counters) = session.count(Query::CollisionFirst, &apart(0.5)).unwrap();
+    assert_eq!(counters, Some(Counters { bv_tests: Some(11), primitive_tests: Some(1) }));
+    assert_eq!(session.triangle_tests(), None);
+}
+
+#[test]
+fn what_it_answers_depends_on_its_parameters() {
+    let (launcher, plugin) = (launcher(), fixture(&[]));
+    let queries = |knob: f64| launcher.queries(&plugin, "fixture", &[("knob".to_string(), knob)]).unwrap();
+    assert_eq!(queries(1.0), [Query::CollisionFirst, Query::CollisionAll, Query::Proximity]);
+    assert_eq!(queries(0.0), [Query::CollisionFirst, Query::CollisionAll]);
+    let refused = launcher.queries(&plugin, "fixture", &[("knob".to_string(), 101.0)]);
+    assert!(matches!(refused.unwrap_err().outcome, Outcome::Failed { .. } | Outcome::LoadError { .. }));
 }
 
 #[test]

@@ -91,7 +91,7 @@ fn answers_outside_the_rules_are_violations() {
 
 #[test]
 fn what_is_no_plugin_is_a_load_error() {
-    check_load_error(&["FAULT_NO_ENTRY"], "does not export the function ocb_plugin_v1");
+    check_load_error(&["FAULT_NO_ENTRY"], "does not export the function ocb_entry_v1");
     check_load_error(&["FAULT_VERSION"], "built for version 2.");
     check_load_error(&["FAULT_REFUSES_HOST"], "another major version");
     check_load_error(&["FAULT_SHORT_STRUCT"], "ocb_algorithm declares a size of");

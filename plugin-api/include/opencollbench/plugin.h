@@ -1,22 +1,24 @@
 /* SPDX-License-Identifier: MIT OR Apache-2.0 */
 /*
- * OpenCollBench plugin interface, ABI 1.
+ * OpenCollBench plugin interface, ABI 1.0.
  *
- * THIS FILE IS THE SPECIFICATION. A plugin is a shared library that exports one function, `ocb_plugin_v1`, and offers
- * one or more algorithms. An algorithm answers questions about pairs of triangle meshes: do they collide, and, with the
- * extensions of `ext/`, how far apart are they, where do they touch, how much work was it.
+ * THIS FILE IS THE SPECIFICATION. A plugin is a shared library that exports one function, `ocb_entry_v1`, and offers
+ * one or more algorithms. An algorithm answers queries about pairs of triangle meshes: do they collide, and, with the
+ * extensions of `ext/`, how far apart are they, and which triangles intersect?
  *
  * A minimal plugin is a descriptor and two functions: `load_mesh` and `collide`. Everything else may be NULL.
  *
- * THE LIFE OF A PLUGIN
+ * THE PHASES OF A PLUGIN
  *
- *   dlopen                                    in a fresh process with no files, no network, bounded memory
- *   ocb_plugin_v1(1)                          once
- *   create                                    once, if present
- *   ocb.parameters/1: set                     any number of times
- *   load_mesh                                 once or twice; this is the build, and it is timed
- *   collide, distance, contacts, count_*      any number of times, in any order; each of them is timed, except count_*
- *   free_mesh, destroy                        if present, and if the process is not simply ended
+ * Each function says in brackets in which phase it is called. There are no other phases, and the host names them in what it
+ * reports about a plugin.
+ *
+ *   [load]     dlopen; ocb_entry_v1 once; create once, if present; `set` of ocb.parameters/1 any number of times.
+ *              In a fresh process with no files, no network and bounded memory.
+ *   [build]    load_mesh, once or twice. Timed as the build.
+ *   [query]    collide, distance, contacts: any number of times, in any order. Timed, unless the request asks for counts.
+ *   [end]      free_mesh, destroy, if present. May never come: the process may simply be ended.
+ *   [any]      get_extension, error_message: in any phase.
  *
  * One process runs one algorithm on one pair of meshes. Another run is another process.
  *
@@ -38,9 +40,9 @@
  * - Triangles are closed sets: touching counts as colliding. "Collide" means that the two surfaces have a point in
  *   common; a closed object wholly inside another one does not collide with it, unless the host asks for solid bodies
  *   (OCB_REQUEST_SOLID), which it asks only of algorithms that say that they can tell (OCB_CAPABILITY_SOLID).
- * - Structs grow only by appending. Each begins (after the version, in `ocb_plugin`) with `struct_size`, which its
- *   owner sets to the sizeof it was compiled with. Do not read or write beyond the other side's `struct_size`.
- *   Reserved fields are 0.
+ * - Growth. What is new later is a new extension, or a field at the end of a struct. Each struct begins (after the version,
+ *   in `ocb_plugin`) with `struct_size`, which its owner sets to the sizeof it was compiled with. Do not read or write
+ *   beyond the other side's `struct_size`.
  */
 #ifndef OPENCOLLBENCH_PLUGIN_H
 #define OPENCOLLBENCH_PLUGIN_H
@@ -49,9 +51,9 @@
 
 /* Two sides fit when their major versions are equal. The minor version grows when something is appended. */
 #define OCB_ABI_MAJOR 1u
-#define OCB_ABI_MINOR 2u
+#define OCB_ABI_MINOR 0u
 
-/* Put before the definition of `ocb_plugin_v1`. Everything else should be static or hidden. */
+/* Put before the definition of `ocb_entry_v1`. Everything else should be static or hidden. */
 #if defined(__GNUC__)
 #define OCB_EXPORT __attribute__((visibility("default")))
 #else
@@ -85,13 +87,58 @@ enum {
 typedef struct ocb_instance ocb_instance;
 typedef struct ocb_object ocb_object;
 
+/*
+ * The host, as `create` receives it. Valid, and the same, until the process ends.
+ */
+typedef struct ocb_host ocb_host;
+struct ocb_host {
+    uint32_t struct_size;
+    /* OCB_ABI_MINOR of the host. */
+    uint32_t abi_minor;
+    /*
+     * A table of functions that the host offers, by id, or NULL for an id that it does not know. No id is defined yet.
+     * [any]
+     */
+    const void *(*get_extension)(const ocb_host *host, const char *id);
+};
+
+/* Bits of ocb_counts.flags: what the plugin has counted. What is not flagged is not read. */
+enum {
+    OCB_COUNTS_BV_TESTS = 1,
+    OCB_COUNTS_PRIMITIVE_TESTS = 2,
+    OCB_COUNTS_PER_TRIANGLE = 4
+};
+
+/*
+ * The work of one query. Every request has a pointer to one, which is NULL when nothing is to be counted. Counted queries
+ * are not timed, so counting may be a separate, slower copy of the query code. It must be the same algorithm: the answer is
+ * judged like any other. The host fills it before the call: struct_size, zeros, and the two arrays.
+ */
+typedef struct ocb_counts {
+    uint32_t struct_size;
+    /* OCB_COUNTS_* bits, set by the plugin. */
+    uint32_t flags;
+    /* Overlap or distance tests between two bounding volumes (16 in one SIMD step are 16). */
+    uint64_t bv_tests;
+    /* Overlap or distance tests between two primitives; for meshes, two triangles. */
+    uint64_t primitive_tests;
+    /*
+     * In how many primitive tests each triangle of A and of B took part: the plugin adds 1 to both for each test. The
+     * arrays sum over many queries, so they may not be zero before the call. The host's memory, writable during the call,
+     * one entry per triangle of the object; NULL when not wanted. Even when a and b are the same object, these are two
+     * arrays.
+     */
+    uint32_t *tests_a;
+    uint32_t *tests_b;
+} ocb_counts;
+
 /* Bits of the flags of a request for `collide` and for `distance` (ext/distance.h). */
 enum {
     /*
      * The objects are solid bodies: each is its surface and what this encloses (every mesh of such a run is closed: each
      * edge has an even number of triangles). They also collide, at distance 0, when one of them, or a part of one that
      * hangs together, is wholly inside the other; then there is no pair of triangles to name. Set in every request of a
-     * run or in none, and only for algorithms with OCB_CAPABILITY_SOLID. Since 1.1.
+     * run or in none, and only for algorithms with OCB_CAPABILITY_SOLID.
      */
     OCB_REQUEST_SOLID = 1
 };
@@ -101,6 +148,8 @@ typedef struct ocb_collide_request {
     uint32_t struct_size;
     /* OCB_REQUEST_* bits; ignore bits that you do not know. */
     uint32_t flags;
+    /* Where to count the work of this query, or NULL: then it is timed. */
+    ocb_counts *counts;
 } ocb_collide_request;
 
 /*
@@ -129,14 +178,16 @@ enum {
     OCB_CAPABILITY_SINGLE_PRECISION = 1,
     /* Answering is sped up by earlier queries (temporal coherence, front tracking): the order of queries matters. */
     OCB_CAPABILITY_COHERENT = 2,
-    /* `collide` and `distance` heed OCB_REQUEST_SOLID. Without this bit the host never asks for solid bodies. Since 1.1. */
+    /* `collide` and `distance` heed OCB_REQUEST_SOLID. Without this bit the host never asks for solid bodies. */
     OCB_CAPABILITY_SOLID = 4,
     /*
      * The algorithm can use several threads and may enter the multi-threaded track. There sched_getaffinity, which OpenMP
      * and the like ask, says how many CPUs it has, and it may start 16 threads or as many as these. Where one cannot be
-     * started it must answer all the same. Since 1.2.
+     * started it must answer all the same.
      */
-    OCB_CAPABILITY_THREADS = 8
+    OCB_CAPABILITY_THREADS = 8,
+    /* The algorithm fills `counts` of a request. Without this bit the host never asks for counts. */
+    OCB_CAPABILITY_COUNTS = 16
 };
 
 /* One algorithm: who made it, and its functions. Owned by the plugin, static. */
@@ -158,15 +209,15 @@ typedef struct ocb_algorithm {
     const char *paper;
 
     /*
-     * Makes what belongs to one run and stores it in *instance. NULL: there is nothing to make, and every other
-     * function gets NULL as `instance`. Not timed.
-     * [once, before anything else]
+     * Makes what belongs to one run and stores it in *instance. `host` may be kept. NULL as function: there is nothing to
+     * make, and every other function gets NULL as `instance`.
+     * [load]
      */
-    ocb_status (*create)(ocb_instance **instance);
+    ocb_status (*create)(const ocb_host *host, ocb_instance **instance);
 
     /*
      * Frees an instance. May be NULL.
-     * [last; may never come]
+     * [end]
      */
     void (*destroy)(ocb_instance *instance);
 
@@ -184,14 +235,14 @@ typedef struct ocb_algorithm {
      *
      * When both objects of a scene are the same mesh, load_mesh is called once, and queries get the same object as `a`
      * and as `b`.
-     * [before the first query]
+     * [build]
      */
     ocb_status (*load_mesh)(ocb_instance *instance, const double *positions, uint32_t vertex_count,
                             const uint32_t *triangles, uint32_t triangle_count, ocb_object **object);
 
     /*
      * Frees an object. May be NULL.
-     * [after the last query; may never come]
+     * [end]
      */
     void (*free_mesh)(ocb_instance *instance, ocb_object *object);
 
@@ -210,26 +261,29 @@ typedef struct ocb_algorithm {
      *
      * a and b are not const: an algorithm may keep state in them. The query must not depend on anything but its
      * arguments, unless OCB_CAPABILITY_COHERENT is set; even then only its time may.
-     * [querying, timed]
+     * [query]
      */
     ocb_status (*collide)(ocb_instance *instance, ocb_object *a, const double *pose_a, ocb_object *b,
                           const double *pose_b, const ocb_collide_request *request, ocb_collide_result *result);
 
     /*
      * The table of an optional capability, by id ("ocb.distance/1", see ext/), or NULL for an id that the algorithm
-     * does not know. The same answer every time. NULL as function: no extensions. The host may ask before `create`.
-     * [any time]
+     * does not know. NULL as function: no extensions.
+     *
+     * Before `create` the host asks with NULL as instance: what can the algorithm do at all? After the parameters are set
+     * it asks with the instance: what can it do so? An algorithm that has no distances with some value of a parameter
+     * returns NULL for "ocb.distance/1" then, and is not asked for distances. A table may differ from the one of NULL, but
+     * not from call to call of one instance.
+     * [any]
      */
-    const void *(*get_extension)(const char *id);
+    const void *(*get_extension)(ocb_instance *instance, const char *id);
 
     /*
      * One sentence about the latest OCB_ERROR, for the author of the plugin, or NULL. Valid until the next call. May be
-     * NULL as function. `instance` is NULL when `create` has failed.
-     * [after a function has returned OCB_ERROR]
+     * NULL as function. `instance` is NULL when `create` has failed. Called after a function has returned OCB_ERROR.
+     * [any]
      */
     const char *(*error_message)(ocb_instance *instance);
-
-    const void *reserved[4];
 } ocb_algorithm;
 
 /* What a plugin offers. Owned by the plugin, static. */
@@ -242,17 +296,16 @@ typedef struct ocb_plugin {
     uint32_t algorithm_count;
     /* Pointers to them (pointers, so that ocb_algorithm can grow). */
     const ocb_algorithm *const *algorithms;
-    const void *reserved[4];
 } ocb_plugin;
 
 /*
  * The one symbol that a plugin exports. `host_abi_major` is the OCB_ABI_MAJOR of the host. Return NULL when it is not
- * the one that the plugin was compiled with; the host then says so and loads nothing.
+ * the one that the plugin was compiled with; the host then says so and loads nothing. [load]
  *
  * Rust plugins made with the crate `opencollbench-plugin` and its feature `layout` export a second, optional data
  * symbol, `OCB_LAYOUT_V1`; plugins in other languages leave it out.
  */
-OCB_EXPORT const ocb_plugin *ocb_plugin_v1(uint32_t host_abi_major);
+OCB_EXPORT const ocb_plugin *ocb_entry_v1(uint32_t host_abi_major);
 
 #ifdef __cplusplus
 }

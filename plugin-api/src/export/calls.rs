@@ -6,13 +6,14 @@ use std::ffi::CString;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crate::algorithm::{
-    Algorithm, Answer, Collision, ContactList, Contacts, Distance, Mesh, Parameters, Placed, Pose, Refusal, Separation,
+    Algorithm, Answer, Collision, ContactList, Contacts, Distance, Mesh, Parameters, Placed, Pose, Query, Refusal,
+    Separation,
 };
 use crate::count::{Count, Counts, Uncounted};
 use crate::raw;
 use crate::raw::contacts::{Contact, ContactsRequest, ContactsResult};
 use crate::raw::distance::{DistanceRequest, DistanceResult};
-use crate::raw::{CollideRequest, CollideResult, Instance, Object, Status};
+use crate::raw::{CollideRequest, CollideResult, Host, Instance, Object, Status};
 
 /// What an `ocb_instance` is here.
 struct Running<A> {
@@ -50,7 +51,7 @@ unsafe fn run<A: Algorithm>(instance: *mut Instance, question: impl FnOnce(&mut 
     raw::ERROR
 }
 
-pub unsafe extern "C" fn create<A: Algorithm>(instance: *mut *mut Instance) -> Status {
+pub unsafe extern "C" fn create<A: Algorithm>(_host: *const Host, instance: *mut *mut Instance) -> Status {
     match catch_unwind(A::default) {
         Ok(algorithm) => {
             let running = Box::new(Running { algorithm, message: CString::default() });
@@ -122,6 +123,32 @@ unsafe fn placed<'a, A: Algorithm>(object: *mut Object, pose: *const f64) -> Pla
     unsafe { Placed { object: &(*object.cast::<Built<A>>()).object, pose: &*pose.cast::<Pose>() } }
 }
 
+/// Whether the algorithm answers a kind of query with the parameters that are set; without an instance, at all.
+///
+/// # Safety
+/// `instance` is null or comes from [`create`] for the same `A`.
+pub unsafe fn answers<A: Algorithm>(instance: *mut Instance, query: Query) -> bool {
+    // SAFETY: by this function's contract.
+    let Some(running) = (unsafe { instance.cast::<Running<A>>().as_ref() }) else { return true };
+    catch_unwind(AssertUnwindSafe(|| running.algorithm.answers(query))).unwrap_or(false)
+}
+
+/// Query code for a request: compiled once without counting, and once with it.
+macro_rules! counted {
+    ($A:ty, $counts:expr, $objects:ident, |$work:ident| $query:expr) => {
+        if $counts.is_null() {
+            let $work = &mut Uncounted;
+            $query
+        } else {
+            let mut counts = borrow_counts::<$A>($counts, $objects);
+            let $work = &mut counts;
+            let answer = $query;
+            return_counts($counts, &counts);
+            answer
+        }
+    };
+}
+
 pub unsafe extern "C" fn collide<A: Algorithm>(
     instance: *mut Instance,
     a: *mut Object,
@@ -133,34 +160,13 @@ pub unsafe extern "C" fn collide<A: Algorithm>(
 ) -> Status {
     // SAFETY: the host passes its instance, two objects of it, two poses, a request and a place for the result.
     unsafe {
-        let (a, b) = (placed::<A>(a, pose_a), placed::<A>(b, pose_b));
+        let (objects, a, b) = ([a, b], placed::<A>(a, pose_a), placed::<A>(b, pose_b));
         run::<A>(instance, |algorithm| {
-            write_collision(&mut *result, collision(algorithm, a, b, (*request).flags, &mut Uncounted)?);
+            let answer =
+                counted!(A, (*request).counts, objects, |work| collision(algorithm, a, b, (*request).flags, work));
+            write_collision(&mut *result, answer?);
             Ok(())
         })
-    }
-}
-
-pub unsafe extern "C" fn count_collide<A: Algorithm>(
-    instance: *mut Instance,
-    a: *mut Object,
-    pose_a: *const f64,
-    b: *mut Object,
-    pose_b: *const f64,
-    request: *const CollideRequest,
-    result: *mut CollideResult,
-    counts: *mut raw::counters::Counts,
-) -> Status {
-    // SAFETY: as for `collide`; the counts are the host's and fit the objects.
-    unsafe {
-        let mut work = borrow_counts::<A>(counts, a, b);
-        let (a, b) = (placed::<A>(a, pose_a), placed::<A>(b, pose_b));
-        let status = run::<A>(instance, |algorithm| {
-            write_collision(&mut *result, collision(algorithm, a, b, (*request).flags, &mut work)?);
-            Ok(())
-        });
-        return_counts(counts, &work);
-        status
     }
 }
 
@@ -175,34 +181,13 @@ pub unsafe extern "C" fn distance<A: Distance>(
 ) -> Status {
     // SAFETY: the host passes its instance, two objects of it, two poses, a request and a place for the result.
     unsafe {
-        let (a, b) = (placed::<A>(a, pose_a), placed::<A>(b, pose_b));
+        let (objects, a, b) = ([a, b], placed::<A>(a, pose_a), placed::<A>(b, pose_b));
         run::<A>(instance, |algorithm| {
-            write_separation(&mut *result, &separation(algorithm, a, b, (*request).flags, &mut Uncounted)?);
+            let answer =
+                counted!(A, (*request).counts, objects, |work| separation(algorithm, a, b, (*request).flags, work));
+            write_separation(&mut *result, &answer?);
             Ok(())
         })
-    }
-}
-
-pub unsafe extern "C" fn count_distance<A: Distance>(
-    instance: *mut Instance,
-    a: *mut Object,
-    pose_a: *const f64,
-    b: *mut Object,
-    pose_b: *const f64,
-    request: *const DistanceRequest,
-    result: *mut DistanceResult,
-    counts: *mut raw::counters::Counts,
-) -> Status {
-    // SAFETY: as for `distance`; the counts are the host's and fit the objects.
-    unsafe {
-        let mut work = borrow_counts::<A>(counts, a, b);
-        let (a, b) = (placed::<A>(a, pose_a), placed::<A>(b, pose_b));
-        let status = run::<A>(instance, |algorithm| {
-            write_separation(&mut *result, &separation(algorithm, a, b, (*request).flags, &mut work)?);
-            Ok(())
-        });
-        return_counts(counts, &work);
-        status
     }
 }
 
@@ -218,32 +203,12 @@ pub unsafe extern "C" fn contacts<A: Contacts>(
     // SAFETY: the host passes its instance, two objects of it, two poses, a request with room as it says, and a place
     // for the result.
     unsafe {
-        let (a, b) = (placed::<A>(a, pose_a), placed::<A>(b, pose_b));
+        let (objects, a, b) = ([a, b], placed::<A>(a, pose_a), placed::<A>(b, pose_b));
         let mut found = ContactList::new(borrow_room(&*request));
-        let status = run::<A>(instance, |algorithm| algorithm.contacts(a, b, &mut found, &mut Uncounted));
+        let status = run::<A>(instance, |algorithm| {
+            counted!(A, (*request).counts, objects, |work| algorithm.contacts(a, b, &mut found, work))
+        });
         (*result).total = found.total();
-        status
-    }
-}
-
-pub unsafe extern "C" fn count_contacts<A: Contacts>(
-    instance: *mut Instance,
-    a: *mut Object,
-    pose_a: *const f64,
-    b: *mut Object,
-    pose_b: *const f64,
-    request: *const ContactsRequest,
-    result: *mut ContactsResult,
-    counts: *mut raw::counters::Counts,
-) -> Status {
-    // SAFETY: as for `contacts`; the counts are the host's and fit the objects.
-    unsafe {
-        let mut work = borrow_counts::<A>(counts, a, b);
-        let (a, b) = (placed::<A>(a, pose_a), placed::<A>(b, pose_b));
-        let mut found = ContactList::new(borrow_room(&*request));
-        let status = run::<A>(instance, |algorithm| algorithm.contacts(a, b, &mut found, &mut work));
-        (*result).total = found.total();
-        return_counts(counts, &work);
         status
     }
 }
@@ -310,11 +275,7 @@ unsafe fn borrow_room<'a>(request: &ContactsRequest) -> &'a mut [MaybeUninit<Con
 ///
 /// # Safety
 /// The arrays are null, or as long as the objects have triangles and two even when the objects are one (plugin.h).
-unsafe fn borrow_counts<'a, A: Algorithm>(
-    counts: *mut raw::counters::Counts,
-    a: *mut Object,
-    b: *mut Object,
-) -> Counts<'a> {
+unsafe fn borrow_counts<'a, A: Algorithm>(counts: *mut raw::Counts, [a, b]: [*mut Object; 2]) -> Counts<'a> {
     // SAFETY: by this function's contract.
     unsafe {
         let tests = |array: *mut u32, object: *mut Object| -> &'a mut [u32] {
@@ -331,10 +292,10 @@ unsafe fn borrow_counts<'a, A: Algorithm>(
 ///
 /// # Safety
 /// `counts` is the host's.
-unsafe fn return_counts(counts: *mut raw::counters::Counts, work: &Counts<'_>) {
+unsafe fn return_counts(counts: *mut raw::Counts, work: &Counts<'_>) {
     // SAFETY: by this function's contract.
     let counts = unsafe { &mut *counts };
-    counts.flags = raw::counters::BV_TESTS | raw::counters::PRIMITIVE_TESTS | raw::counters::PER_TRIANGLE;
+    counts.flags = raw::COUNTS_BV_TESTS | raw::COUNTS_PRIMITIVE_TESTS | raw::COUNTS_PER_TRIANGLE;
     counts.bv_tests = work.bv_tests;
     counts.primitive_tests = work.primitive_tests;
 }

@@ -1,6 +1,6 @@
 //! Mirror of `ext/contacts.h`.
 
-use super::{Instance, Object, Status};
+use super::{Counts, Instance, Object, Status};
 
 /// Id of the extension.
 pub const ID: &core::ffi::CStr = c"ocb.contacts/1";
@@ -29,12 +29,14 @@ pub struct ContactsRequest {
     pub contacts: *mut Contact,
     /// For how many.
     pub capacity: u64,
+    /// Where to count the work, or null.
+    pub counts: *mut Counts,
 }
 
 impl ContactsRequest {
     /// As the host passes it.
-    pub const fn new(contacts: *mut Contact, capacity: u64) -> Self {
-        Self { struct_size: size_of::<Self>() as u32, flags: 0, contacts, capacity }
+    pub const fn new(contacts: *mut Contact, capacity: u64, counts: *mut Counts) -> Self {
+        Self { struct_size: size_of::<Self>() as u32, flags: 0, contacts, capacity, counts }
     }
 }
 
@@ -45,8 +47,6 @@ impl ContactsRequest {
 pub struct ContactsResult {
     /// Size as the host was compiled.
     pub struct_size: u32,
-    /// 0.
-    pub reserved: u32,
     /// How many contacts there are, which may be more than `capacity`.
     pub total: u64,
 }
@@ -54,7 +54,7 @@ pub struct ContactsResult {
 impl ContactsResult {
     /// As the host passes it.
     pub const fn new() -> Self {
-        Self { struct_size: size_of::<Self>() as u32, reserved: 0, total: 0 }
+        Self { struct_size: size_of::<Self>() as u32, total: 0 }
     }
 }
 
@@ -71,8 +71,6 @@ impl Default for ContactsResult {
 pub struct Contacts {
     /// Size as the plugin was compiled.
     pub struct_size: u32,
-    /// 0.
-    pub reserved: u32,
     /// Collision query, all contacts.
     pub contacts: Option<
         unsafe extern "C" fn(

@@ -1,6 +1,6 @@
 //! Mirror of `ext/distance.h`.
 
-use super::{Instance, NO_TRIANGLE, Object, Status};
+use super::{Counts, Instance, NO_TRIANGLE, Object, Status};
 
 /// Id of the extension.
 pub const ID: &core::ffi::CStr = c"ocb.distance/1";
@@ -18,18 +18,14 @@ pub struct DistanceRequest {
     pub struct_size: u32,
     /// [`super::REQUEST_SOLID`] or 0.
     pub flags: u32,
+    /// Where to count the work, or null.
+    pub counts: *mut Counts,
 }
 
 impl DistanceRequest {
     /// As the host passes it.
-    pub const fn new() -> Self {
-        Self { struct_size: size_of::<Self>() as u32, flags: 0 }
-    }
-}
-
-impl Default for DistanceRequest {
-    fn default() -> Self {
-        Self::new()
+    pub const fn new(flags: u32, counts: *mut Counts) -> Self {
+        Self { struct_size: size_of::<Self>() as u32, flags, counts }
     }
 }
 
@@ -82,8 +78,6 @@ impl Default for DistanceResult {
 pub struct Distance {
     /// Size as the plugin was compiled.
     pub struct_size: u32,
-    /// 0.
-    pub reserved: u32,
     /// Proximity query.
     pub distance: Option<
         unsafe extern "C" fn(

@@ -3,7 +3,7 @@
  * A plugin in C: every triangle of A against every triangle of B. Correct, and slow.
  *
  * Replace `struct ocb_object`, `load_mesh` and `collide` by your own, and the descriptor at the end by your name. The
- * rest of the interface (distances, all contacts, counters, parameters) is optional: see opencollbench/ext/.
+ * rest of the interface (distances, all contacts, counting, parameters) is optional: see opencollbench/ext/.
  */
 #include <opencollbench/plugin.h>
 #include <stddef.h>
@@ -142,6 +142,6 @@ static const ocb_plugin PLUGIN = {
     .algorithms = ALGORITHMS,
 };
 
-const ocb_plugin *ocb_plugin_v1(uint32_t host_abi_major) {
+const ocb_plugin *ocb_entry_v1(uint32_t host_abi_major) {
     return host_abi_major == OCB_ABI_MAJOR ? &PLUGIN : NULL;
 }

@@ -144,9 +144,9 @@ ocb_algorithm describe() {
 
 } // namespace
 
-extern "C" const ocb_plugin *ocb_plugin_v1(uint32_t host_abi_major) {
+extern "C" const ocb_plugin *ocb_entry_v1(uint32_t host_abi_major) {
     static const ocb_algorithm algorithm = describe();
     static const ocb_algorithm *const algorithms[] = {&algorithm};
-    static const ocb_plugin plugin = {OCB_ABI_MAJOR, OCB_ABI_MINOR, sizeof(ocb_plugin), 1, algorithms, {}};
+    static const ocb_plugin plugin = {OCB_ABI_MAJOR, OCB_ABI_MINOR, sizeof(ocb_plugin), 1, algorithms};
     return host_abi_major == OCB_ABI_MAJOR ? &plugin : nullptr;
 }

@@ -29,7 +29,7 @@ impl Default for BoxTree {
     }
 }
 
-opencollbench_plugin::export!(BoxTree: distance contacts counters parameters);
+opencollbench_plugin::export!(BoxTree: distance contacts counts parameters);
 
 impl Algorithm for BoxTree {
     const ABOUT: About = About {

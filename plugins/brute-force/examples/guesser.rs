@@ -6,7 +6,7 @@
 
 use ocb_triangles::{Frame, Triangle, distance, meet};
 use opencollbench_plugin::{
-    About, Algorithm, Answer, Collision, Count, Distance, Mesh, Placed, Refusal, Separation, raw,
+    About, Algorithm, Answer, Capability, Collision, Count, Distance, Mesh, Placed, Refusal, Separation,
 };
 
 /// Questions of a process that are answered honestly.
@@ -30,7 +30,7 @@ impl Algorithm for Guesser {
         authors: c"The OpenCollBench contributors",
         license: c"MIT OR Apache-2.0",
         // Of which more is forgiven.
-        capabilities: raw::CAPABILITY_SINGLE_PRECISION,
+        capabilities: &[Capability::SinglePrecision],
         ..About::new()
     };
 

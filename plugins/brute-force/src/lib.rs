@@ -8,7 +8,7 @@ use core::ops::ControlFlow;
 
 use ocb_triangles::{Closest, Triangle, distance, distance_below, meet};
 use opencollbench_plugin::{
-    About, Algorithm, Answer, Collision, ContactList, Contacts, Count, Distance, Mesh, Placed, Separation, raw,
+    About, Algorithm, Answer, Capability, Collision, ContactList, Contacts, Count, Distance, Mesh, Placed, Separation,
 };
 use pair::{Boxed, Pair};
 
@@ -22,7 +22,7 @@ pub struct Body {
 #[derive(Debug, Default)]
 pub struct BruteForce;
 
-opencollbench_plugin::export!(BruteForce: distance contacts counters);
+opencollbench_plugin::export!(BruteForce: distance contacts counts);
 
 impl Algorithm for BruteForce {
     const ABOUT: About = About {
@@ -30,7 +30,7 @@ impl Algorithm for BruteForce {
         name: c"Brute force",
         authors: c"The OpenCollBench contributors",
         license: c"MIT OR Apache-2.0",
-        capabilities: raw::CAPABILITY_SOLID,
+        capabilities: &[Capability::Solid],
         ..About::new()
     };
 

@@ -3,4 +3,4 @@
 
 pub use ocb_methods::convex_parts::ConvexParts;
 
-opencollbench_plugin::export!(ConvexParts: distance counters parameters);
+opencollbench_plugin::export!(ConvexParts: distance counts parameters);

@@ -10,7 +10,8 @@ use convexity::Body;
 use gjk::{Found, Pair};
 use ocb_triangles::Frame;
 use opencollbench_plugin::{
-    About, Algorithm, Answer, Collision, Count, Distance, Mesh, Parameter, Parameters, Placed, Refusal, Separation, raw,
+    About, Algorithm, Answer, Capability, Collision, Count, Distance, Mesh, Parameter, Parameters, Placed, Refusal,
+    Separation,
 };
 
 /// GJK between two convex objects.
@@ -19,7 +20,7 @@ pub struct Convex {
     dent: f64,
 }
 
-opencollbench_plugin::export!(Convex: distance counters parameters);
+opencollbench_plugin::export!(Convex: distance counts parameters);
 
 impl Algorithm for Convex {
     const ABOUT: About = About {
@@ -28,7 +29,7 @@ impl Algorithm for Convex {
         authors: c"The OpenCollBench contributors",
         license: c"MIT OR Apache-2.0",
         paper: c"E. G. Gilbert, D. W. Johnson, S. S. Keerthi: A Fast Procedure for Computing the Distance Between Complex Objects in Three-Dimensional Space, IEEE Journal of Robotics and Automation 4(2), 1988",
-        capabilities: raw::CAPABILITY_SOLID,
+        capabilities: &[Capability::Solid],
         ..About::new()
     };
 

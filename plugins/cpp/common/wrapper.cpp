@@ -29,7 +29,7 @@ template <class Call> ocb_status guarded(Call call) {
 Algorithm &of(ocb_instance *instance) { return *reinterpret_cast<Algorithm *>(instance); }
 Object &of(ocb_object *object) { return *reinterpret_cast<Object *>(object); }
 
-ocb_status create(ocb_instance **instance) {
+ocb_status create(const ocb_host *, ocb_instance **instance) {
     return guarded([&] { *instance = reinterpret_cast<ocb_instance *>(make().release()); });
 }
 
@@ -101,9 +101,9 @@ const ocb_parameters *parameters() {
     return pointers.empty() ? nullptr : &table;
 }
 
-const void *get_extension(const char *id) {
-    static const ocb_distance distances = {sizeof distances, 0, distance};
-    static const ocb_contacts lists = {sizeof lists, 0, contacts};
+const void *get_extension(ocb_instance *, const char *id) {
+    static const ocb_distance distances = {sizeof distances, distance};
+    static const ocb_contacts lists = {sizeof lists, contacts};
     const auto is = [&](const char *other) { return std::strcmp(id, other) == 0; };
     if (is(OCB_EXT_DISTANCE) && self().queries & DISTANCE) return &distances;
     if (is(OCB_EXT_CONTACTS) && self().queries & CONTACTS) return &lists;
@@ -129,9 +129,9 @@ ocb_algorithm describe() {
 
 } // namespace
 
-extern "C" OCB_EXPORT const ocb_plugin *ocb_plugin_v1(uint32_t host_abi_major) {
+extern "C" OCB_EXPORT const ocb_plugin *ocb_entry_v1(uint32_t host_abi_major) {
     static const ocb_algorithm algorithm = describe();
     static const ocb_algorithm *const algorithms[] = {&algorithm};
-    static const ocb_plugin plugin = {OCB_ABI_MAJOR, OCB_ABI_MINOR, sizeof(ocb_plugin), 1, algorithms, {}};
+    static const ocb_plugin plugin = {OCB_ABI_MAJOR, OCB_ABI_MINOR, sizeof(ocb_plugin), 1, algorithms};
     return host_abi_major == OCB_ABI_MAJOR ? &plugin : nullptr;
 }

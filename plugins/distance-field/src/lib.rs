@@ -6,7 +6,8 @@ mod query;
 
 use field::Field;
 use opencollbench_plugin::{
-    About, Algorithm, Answer, Collision, Count, Distance, Mesh, Parameter, Parameters, Placed, Refusal, Separation, raw,
+    About, Algorithm, Answer, Capability, Collision, Count, Distance, Mesh, Parameter, Parameters, Placed, Refusal,
+    Separation,
 };
 
 /// The distance to each object, sampled on lattices, asked at points of the other.
@@ -32,7 +33,7 @@ impl DistanceField {
     }
 }
 
-opencollbench_plugin::export!(DistanceField: distance counters parameters);
+opencollbench_plugin::export!(DistanceField: distance counts parameters);
 
 impl Algorithm for DistanceField {
     const ABOUT: About = About {
@@ -41,7 +42,7 @@ impl Algorithm for DistanceField {
         authors: c"The OpenCollBench contributors",
         license: c"MIT OR Apache-2.0",
         paper: c"A. Fuhrmann, G. Sobottka, C. Gross: Distance Fields for Rapid Collision Detection in Physically Based Modeling, GraphiCon 2003",
-        capabilities: raw::CAPABILITY_SOLID,
+        capabilities: &[Capability::Solid],
         ..About::new()
     };
 

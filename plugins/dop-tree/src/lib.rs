@@ -56,7 +56,7 @@ macro_rules! query {
     };
 }
 
-opencollbench_plugin::export!(DopTree: distance contacts counters parameters);
+opencollbench_plugin::export!(DopTree: distance contacts counts parameters);
 
 impl Algorithm for DopTree {
     const ABOUT: About = About {

@@ -3,4 +3,4 @@
 
 pub use ocb_methods::inner_spheres::InnerSpheres;
 
-opencollbench_plugin::export!(InnerSpheres: distance counters parameters);
+opencollbench_plugin::export!(InnerSpheres: distance counts parameters);

@@ -10,7 +10,7 @@ use opencollbench_plugin::{About, Mesh};
 /// A hierarchy of oriented boxes.
 pub type ObbTree = Plain<Obb>;
 
-opencollbench_plugin::export!(ObbTree: distance contacts counters);
+opencollbench_plugin::export!(ObbTree: distance contacts counts);
 
 impl Method for Obb {
     const ABOUT: About = About {

@@ -22,7 +22,7 @@ pub struct Auto {
     always: Option<Choice>,
 }
 
-opencollbench_plugin::export!(Auto: distance contacts counters parameters);
+opencollbench_plugin::export!(Auto: distance contacts counts parameters);
 
 /// A mesh as every method keeps it.
 #[derive(Debug)]

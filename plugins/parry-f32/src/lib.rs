@@ -3,4 +3,4 @@
 
 pub use ocb_methods::parry::single::Parry;
 
-opencollbench_plugin::export!(Parry: distance contacts counters);
+opencollbench_plugin::export!(Parry: distance contacts counts);

@@ -4,7 +4,7 @@
 mod support;
 
 use ocb_parry_f32::Parry;
-use opencollbench_plugin::{Algorithm, Collision, Counts, raw};
+use opencollbench_plugin::{Algorithm, Capability, Collision, Counts};
 use support::{Dice, Loaded, Scene, Soup};
 
 /// GJK stops near the square root of its epsilon.
@@ -12,7 +12,7 @@ const BLUR: f64 = 3e-4;
 
 #[test]
 fn on_a_torus() {
-    assert_eq!(Parry::ABOUT.capabilities, raw::CAPABILITY_SINGLE_PRECISION);
+    assert_eq!(Parry::ABOUT.capabilities, [Capability::SinglePrecision]);
     let soup = Soup::torus(16, 8);
     let (mut parry, mut dice, mut hits, mut worst) = (Loaded::<Parry>::new(&soup), Dice(3), 0, 0.0f64);
     for round in 0..40 {

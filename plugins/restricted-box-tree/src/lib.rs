@@ -12,7 +12,7 @@ use opencollbench_plugin::{About, Mesh};
 /// A hierarchy of boxes of which each node keeps one side.
 pub type RestrictedBoxTree = Plain<Bounds>;
 
-opencollbench_plugin::export!(RestrictedBoxTree: distance contacts counters);
+opencollbench_plugin::export!(RestrictedBoxTree: distance contacts counts);
 
 impl Method for Bounds {
     const ABOUT: About = About {

@@ -28,7 +28,7 @@ impl Default for RssTree {
     }
 }
 
-opencollbench_plugin::export!(RssTree: distance contacts counters parameters);
+opencollbench_plugin::export!(RssTree: distance contacts counts parameters);
 
 impl Algorithm for RssTree {
     const ABOUT: About = About {

@@ -10,7 +10,7 @@ use sphere::Sphere;
 /// A hierarchy of spheres.
 pub type SphereTree = Plain<Sphere>;
 
-opencollbench_plugin::export!(SphereTree: distance contacts counters);
+opencollbench_plugin::export!(SphereTree: distance contacts counts);
 
 impl Method for Sphere {
     const ABOUT: About = About {

@@ -3,4 +3,4 @@
 
 pub use ocb_methods::voxmap_pointshell::VoxmapPointshell;
 
-opencollbench_plugin::export!(VoxmapPointshell: counters parameters);
+opencollbench_plugin::export!(VoxmapPointshell: counts parameters);

@@ -11,7 +11,7 @@ use super::{Rejection, Subject, one_line};
 use crate::confine::root::OPENMP;
 
 /// The function that every plugin exports.
-const ENTRY: &str = "ocb_plugin_v1";
+const ENTRY: &str = "ocb_entry_v1";
 /// The loader, which libraries may name as a library too.
 const LOADER: &str = "ld-linux-x86-64.so.2";
 

@@ -7,7 +7,7 @@ use ocb_core::query::Query;
 use ocb_sandbox::descriptor::{Descriptor, Parameter};
 use ocb_sandbox::protocol::slot::NOT_LOADED;
 use opencollbench_plugin::layout;
-use opencollbench_plugin::raw::{self, contacts, counters, distance, parameters};
+use opencollbench_plugin::raw::{self, contacts, distance, parameters};
 
 /// Longest string that is read from a plugin.
 const STRING_BYTES: usize = 4096;
@@ -85,8 +85,6 @@ pub struct Algorithm {
     pub distance: Option<&'static distance::Distance>,
     /// `ocb.contacts/1`.
     pub contacts: Option<&'static contacts::Contacts>,
-    /// `ocb.counters/1`.
-    pub counters: Option<&'static counters::Counters>,
     /// `ocb.parameters/1`.
     pub parameters: Option<&'static parameters::Parameters>,
 }
@@ -100,7 +98,7 @@ impl Plugin {
         let library = std::mem::ManuallyDrop::new(library);
         // SAFETY: by plugin.h the symbol, if it is there, is a function of this type.
         let entry = unsafe { library.get::<raw::Entry>(raw::ENTRY_SYMBOL.to_bytes_with_nul()) }
-            .map_err(|_| Failure::not_loaded("it does not export the function ocb_plugin_v1 (see plugin.h)"))?;
+            .map_err(|_| Failure::not_loaded("it does not export the function ocb_entry_v1 (see plugin.h)"))?;
         // SAFETY: as above; the address is only handed on.
         if let Ok(note) = unsafe { library.get::<*const c_void>(raw::LAYOUT_SYMBOL.to_bytes_with_nul()) } {
             // SAFETY: the library stays loaded, and a lying note can do no more than a constructor.
@@ -190,9 +188,21 @@ impl Algorithm {
     fn read(pointer: *const raw::Algorithm) -> Result<Self, Failure> {
         // SAFETY: by plugin.h a static struct.
         let raw = unsafe { sized(pointer, |p| (*p).struct_size, "ocb_algorithm") }?;
+        let algorithm = Self::with(raw, std::ptr::null_mut())?;
+        if raw.load_mesh.is_none() {
+            return Err(Failure::not_loaded(format!("algorithm '{}' has no load_mesh", text(raw.id))));
+        }
+        if algorithm.queries().is_empty() {
+            return Err(Failure::not_loaded(format!("algorithm '{}' answers no query", text(raw.id))));
+        }
+        Ok(algorithm)
+    }
+
+    /// With the tables that it offers for an instance whose parameters are set; with null, that it can offer at all.
+    pub fn with(raw: &'static raw::Algorithm, instance: *mut raw::Instance) -> Result<Self, Failure> {
         let extension = |id: &CStr| match raw.get_extension {
-            // SAFETY: by plugin.h, with a live string.
-            Some(get) => unsafe { get(id.as_ptr()) },
+            // SAFETY: by plugin.h, with the plugin's own instance or null, and a live string.
+            Some(get) => unsafe { get(instance, id.as_ptr()) },
             None => std::ptr::null(),
         };
         macro_rules! table {
@@ -203,23 +213,16 @@ impl Algorithm {
                 if pointer.is_null() { None } else { Some(unsafe { sized(pointer, |p| (*p).struct_size, name) }?) }
             }};
         }
-        let algorithm = Algorithm {
+        Ok(Algorithm {
             raw,
             distance: table!(distance, Distance),
             contacts: table!(contacts, Contacts),
-            counters: table!(counters, Counters),
             parameters: table!(parameters, Parameters),
-        };
-        if raw.load_mesh.is_none() {
-            return Err(Failure::not_loaded(format!("algorithm '{}' has no load_mesh", text(raw.id))));
-        }
-        if algorithm.queries().is_empty() {
-            return Err(Failure::not_loaded(format!("algorithm '{}' answers no query", text(raw.id))));
-        }
-        Ok(algorithm)
+        })
     }
 
-    fn queries(&self) -> Vec<Query> {
+    /// What it answers.
+    pub fn queries(&self) -> Vec<Query> {
         let answers = [
             (Query::CollisionFirst, self.raw.collide.is_some()),
             (Query::CollisionAll, self.contacts.is_some_and(|c| c.contacts.is_some())),
@@ -244,7 +247,7 @@ impl Algorithm {
             url: text(raw.url),
             paper: text(raw.paper),
             queries: self.queries(),
-            counters: self.counters.is_some(),
+            counters: raw.capabilities & raw::CAPABILITY_COUNTS != 0,
             witness_points: self.distance.is_some_and(|d| d.distance.is_some()),
             single_precision: raw.capabilities & raw::CAPABILITY_SINGLE_PRECISION != 0,
             solid: self.knows_solids(),

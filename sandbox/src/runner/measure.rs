@@ -9,9 +9,8 @@ use ocb_sandbox::gate::{self, Inspection};
 use ocb_sandbox::protocol::{Command, answer, slot};
 use ocb_sandbox::seccomp;
 use opencollbench_plugin::raw::contacts::{Contact, ContactsRequest, ContactsResult};
-use opencollbench_plugin::raw::counters::Counts;
 use opencollbench_plugin::raw::distance::{DistanceRequest, DistanceResult};
-use opencollbench_plugin::raw::{self, CollideRequest, CollideResult, Instance, Object};
+use opencollbench_plugin::raw::{self, CollideRequest, CollideResult, Counts, Host, Instance, Object};
 
 use crate::library::{Algorithm, Failure, Mapped, Plugin};
 use crate::serve::{Shared, Slot};
@@ -30,6 +29,8 @@ pub struct Measured {
     flags: u32,
     /// The algorithm does not know what this trial asks, so that it is never called for an answer.
     unasked: bool,
+    /// Where it adds its tests per triangle, if it counts.
+    tests: Option<[*mut u32; 2]>,
     avx: bool,
 }
 
@@ -48,6 +49,7 @@ impl Measured {
             objects: [std::ptr::null_mut(); 2],
             flags: 0,
             unasked: false,
+            tests: None,
             avx,
         }
     }
@@ -57,7 +59,7 @@ impl Measured {
         match command {
             Command::CloseListener | Command::Rest => Ok(()),
             Command::Null => {
-                self.call_collide(null_plugin, shared, question, slot);
+                self.call_collide(null_plugin, shared, question, slot, false);
                 Ok(())
             }
             Command::Tighten => seccomp::tighten(&self.tighter)
@@ -69,7 +71,7 @@ impl Measured {
                 Ok(())
             }
             Command::Open => self.open(shared, slot),
-            Command::Prepare => self.prepare(shared),
+            Command::Prepare => self.prepare(shared, slot),
             Command::BuildA => self.build(shared, 0),
             Command::BuildB => self.build(shared, 1),
             _ if self.unasked => {
@@ -115,7 +117,7 @@ impl Measured {
         Ok(())
     }
 
-    fn prepare(&mut self, shared: &Shared) -> Result<(), Failure> {
+    fn prepare(&mut self, shared: &Shared, slot: &mut Slot) -> Result<(), Failure> {
         let head = shared.head()?;
         let plugin = self.plugin.as_ref().ok_or_else(|| Failure::error("nothing is loaded"))?;
         let algorithm = plugin.algorithm(&head.algorithm)?;
@@ -124,10 +126,16 @@ impl Measured {
             // It would answer for the surfaces, which is another question.
             self.unasked = !algorithm.knows_solids();
         }
+        if algorithm.raw.capabilities & raw::CAPABILITY_COUNTS != 0
+            && let [Some(a), Some(b)] = [head.meshes.first(), head.meshes.last()]
+        {
+            let at = [answer::TESTS, answer::tests_b([a.triangles, b.triangles])];
+            self.tests = Some(at.map(|at| shared.answer.address(at).cast()));
+        }
         if let Some(create) = algorithm.raw.create {
             let mut instance = std::ptr::null_mut();
-            // SAFETY: by plugin.h, with a live place for the instance.
-            let status = self.guarded(|| unsafe { create(&raw mut instance) });
+            // SAFETY: by plugin.h, with a host that lives for ever and a live place for the instance.
+            let status = self.guarded(|| unsafe { create(&HOST, &raw mut instance) });
             if status != raw::OK {
                 return Err(algorithm.said(std::ptr::null_mut(), &format!("create returned {}", spell(status))));
             }
@@ -136,6 +144,9 @@ impl Measured {
         for (name, value) in &head.parameters {
             self.guarded(|| algorithm.set(self.instance, name, *value))?;
         }
+        let algorithm = self.guarded(|| Algorithm::with(algorithm.raw, self.instance))?;
+        let queries = serde_json::to_vec(&algorithm.queries()).map_err(|e| Failure::error(e.to_string()))?;
+        shared.say(slot, &queries);
         self.algorithm = Some(algorithm);
         Ok(())
     }
@@ -167,87 +178,64 @@ impl Measured {
     }
 
     fn collide(&self, shared: &Shared, question: usize, slot: &mut Slot, counted: bool) -> Result<(), Failure> {
-        let algorithm = self.algorithm()?;
-        let Some(call) = algorithm.counters.and_then(|c| c.count_collide).filter(|_| counted) else {
-            let Some(call) = algorithm.raw.collide else {
-                slot[slot::STATUS] = raw::UNSUPPORTED as u64;
-                return Ok(());
-            };
-            let status = self.call_collide(call, shared, question, slot);
-            return self.said_error(status, "collide");
+        let Some(call) = self.algorithm()?.raw.collide else {
+            slot[slot::STATUS] = raw::UNSUPPORTED as u64;
+            return Ok(());
         };
-        let poses = shared.poses(question);
-        let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
-        let ([a, b], request) =
-            (self.ordered(shared, question), CollideRequest { flags: self.flags, ..CollideRequest::new() });
-        let mut result = CollideResult::new();
-        let mut counts = Counts::new(std::ptr::null_mut(), std::ptr::null_mut());
-        // SAFETY: by plugin.h: objects of this instance, 16 numbers per pose, live request, result and counts.
-        let status = self.guarded(|| unsafe {
-            call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result, &raw mut counts)
-        });
-        fill_collision(slot, status, &result);
-        self.conclude(slot, status, &counts, "collide")
+        let status = self.call_collide(call, shared, question, slot, counted);
+        self.said_error(status, "collide")
     }
 
     /// The call that null plugin and plugins have in common.
     #[inline(never)]
-    fn call_collide(&self, call: Collide, shared: &Shared, question: usize, slot: &mut Slot) -> raw::Status {
-        let poses = shared.poses(question);
+    fn call_collide(&self, call: Collide, shared: &Shared, at: usize, slot: &mut Slot, counted: bool) -> raw::Status {
+        let poses = shared.poses(at);
         let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
-        let ([a, b], request) =
-            (self.ordered(shared, question), CollideRequest { flags: self.flags, ..CollideRequest::new() });
-        let mut result = CollideResult::new();
-        // SAFETY: by plugin.h: objects of this instance, 16 numbers per pose, live request and result.
+        let ([a, b], mut counts, mut result) = (self.ordered(shared, at), self.counts(counted), CollideResult::new());
+        let request = CollideRequest::new(self.flags, pointer(&mut counts));
+        // SAFETY: by plugin.h: objects of this instance, 16 numbers per pose, live request, counts and result.
         let status =
             self.guarded(|| unsafe { call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result) });
-        fill_collision(slot, status, &result);
+        slot[slot::STATUS] = u64::from(status as u32);
+        slot[slot::HIT_OR_FLAGS] = result.hit.into();
+        slot[slot::TRIANGLES] = result.triangle_a.into();
+        slot[slot::TRIANGLES + 1] = result.triangle_b.into();
+        fill_counts(slot, counts);
         status
     }
 
-    fn contacts(&self, shared: &Shared, question: usize, slot: &mut Slot, counted: bool) -> Result<(), Failure> {
-        let algorithm = self.algorithm()?;
-        let poses = shared.poses(question);
-        let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
-        let [a, b] = self.ordered(shared, question);
-        let buffer = shared.answer.address(answer::CONTACTS).cast::<Contact>();
-        let request = ContactsRequest::new(buffer, answer::CONTACT_CAPACITY as u64);
-        let mut result = ContactsResult::new();
-        let counting = algorithm.counters.and_then(|c| c.count_contacts).filter(|_| counted);
-        let mut counts = Counts::new(std::ptr::null_mut(), std::ptr::null_mut());
-        let status = match (counting, algorithm.contacts.and_then(|c| c.contacts)) {
-            // SAFETY: as in `collide`; the buffer is this process's writable mapping with room for the capacity.
-            (Some(call), _) => self.guarded(|| unsafe {
-                call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result, &raw mut counts)
-            }),
-            // SAFETY: as above.
-            (None, Some(call)) => self
-                .guarded(|| unsafe { call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result) }),
-            (None, None) => raw::UNSUPPORTED,
+    fn contacts(&self, shared: &Shared, at: usize, slot: &mut Slot, counted: bool) -> Result<(), Failure> {
+        let Some(call) = self.algorithm()?.contacts.and_then(|table| table.contacts) else {
+            slot[slot::STATUS] = raw::UNSUPPORTED as u64;
+            return Ok(());
         };
+        let poses = shared.poses(at);
+        let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
+        let ([a, b], mut counts, mut result) = (self.ordered(shared, at), self.counts(counted), ContactsResult::new());
+        let buffer = shared.answer.address(answer::CONTACTS).cast::<Contact>();
+        let request = ContactsRequest::new(buffer, answer::CONTACT_CAPACITY as u64, pointer(&mut counts));
+        // SAFETY: as in `collide`; the buffer is this process's writable mapping with room for the capacity.
+        let status =
+            self.guarded(|| unsafe { call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result) });
+        slot[slot::STATUS] = u64::from(status as u32);
         slot[slot::TOTAL] = result.total;
-        self.conclude(slot, status, &counts, "contacts")
+        fill_counts(slot, counts);
+        self.said_error(status, "contacts")
     }
 
-    fn distance(&self, shared: &Shared, question: usize, slot: &mut Slot, counted: bool) -> Result<(), Failure> {
-        let algorithm = self.algorithm()?;
-        let poses = shared.poses(question);
-        let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
-        let ([a, b], request) =
-            (self.ordered(shared, question), DistanceRequest { flags: self.flags, ..DistanceRequest::new() });
-        let mut result = DistanceResult::new();
-        let counting = algorithm.counters.and_then(|c| c.count_distance).filter(|_| counted);
-        let mut counts = Counts::new(std::ptr::null_mut(), std::ptr::null_mut());
-        let status = match (counting, algorithm.distance.and_then(|d| d.distance)) {
-            // SAFETY: as in `collide`.
-            (Some(call), _) => self.guarded(|| unsafe {
-                call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result, &raw mut counts)
-            }),
-            // SAFETY: as above.
-            (None, Some(call)) => self
-                .guarded(|| unsafe { call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result) }),
-            (None, None) => raw::UNSUPPORTED,
+    fn distance(&self, shared: &Shared, at: usize, slot: &mut Slot, counted: bool) -> Result<(), Failure> {
+        let Some(call) = self.algorithm()?.distance.and_then(|table| table.distance) else {
+            slot[slot::STATUS] = raw::UNSUPPORTED as u64;
+            return Ok(());
         };
+        let poses = shared.poses(at);
+        let (pose_a, pose_b) = (poses.as_ptr(), poses[16..].as_ptr());
+        let ([a, b], mut counts, mut result) = (self.ordered(shared, at), self.counts(counted), DistanceResult::new());
+        let request = DistanceRequest::new(self.flags, pointer(&mut counts));
+        // SAFETY: as in `collide`.
+        let status =
+            self.guarded(|| unsafe { call(self.instance, a, pose_a, b, pose_b, &raw const request, &raw mut result) });
+        slot[slot::STATUS] = u64::from(status as u32);
         slot[slot::HIT_OR_FLAGS] = result.flags.into();
         slot[slot::TRIANGLES] = result.triangle_a.into();
         slot[slot::TRIANGLES + 1] = result.triangle_b.into();
@@ -255,7 +243,14 @@ impl Measured {
         for (i, x) in result.point_a.iter().chain(&result.point_b).enumerate() {
             slot[slot::POINTS + i] = x.to_bits();
         }
-        self.conclude(slot, status, &counts, "distance")
+        fill_counts(slot, counts);
+        self.said_error(status, "distance")
+    }
+
+    /// Room for the work of a query, when it is to be counted.
+    #[inline]
+    fn counts(&self, counted: bool) -> Option<Counts> {
+        self.tests.filter(|_| counted).map(|[a, b]| Counts::new(a, b))
     }
 
     /// The object that stands first in a question, and the one that stands second.
@@ -263,14 +258,6 @@ impl Measured {
     fn ordered(&self, shared: &Shared, question: usize) -> [*mut Object; 2] {
         let [a, b] = self.objects;
         if shared.swapped(question) { [b, a] } else { [a, b] }
-    }
-
-    fn conclude(&self, slot: &mut Slot, status: raw::Status, counts: &Counts, what: &str) -> Result<(), Failure> {
-        slot[slot::STATUS] = u64::from(status as u32);
-        slot[slot::COUNTS] = counts.flags.into();
-        slot[slot::COUNTS + 1] = counts.bv_tests;
-        slot[slot::COUNTS + 2] = counts.primitive_tests;
-        self.said_error(status, what)
     }
 
     fn said_error(&self, status: raw::Status, what: &str) -> Result<(), Failure> {
@@ -330,11 +317,26 @@ unsafe extern "C" fn null_plugin(
     raw::OK
 }
 
-fn fill_collision(slot: &mut Slot, status: raw::Status, result: &CollideResult) {
-    slot[slot::STATUS] = u64::from(status as u32);
-    slot[slot::HIT_OR_FLAGS] = result.hit.into();
-    slot[slot::TRIANGLES] = result.triangle_a.into();
-    slot[slot::TRIANGLES + 1] = result.triangle_b.into();
+/// The host as plugins see it. It offers nothing yet.
+static HOST: Host =
+    Host { struct_size: size_of::<Host>() as u32, abi_minor: raw::ABI_MINOR, get_extension: Some(offers_nothing) };
+
+unsafe extern "C" fn offers_nothing(_: *const Host, _: *const std::ffi::c_char) -> *const std::ffi::c_void {
+    std::ptr::null()
+}
+
+#[inline]
+fn pointer(counts: &mut Option<Counts>) -> *mut Counts {
+    counts.as_mut().map_or(std::ptr::null_mut(), std::ptr::from_mut)
+}
+
+#[inline]
+fn fill_counts(slot: &mut Slot, counts: Option<Counts>) {
+    if let Some(counts) = counts {
+        slot[slot::COUNTS] = counts.flags.into();
+        slot[slot::COUNTS + 1] = counts.bv_tests;
+        slot[slot::COUNTS + 2] = counts.primitive_tests;
+    }
 }
 
 fn spell(status: raw::Status) -> String {

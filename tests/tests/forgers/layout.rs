@@ -15,7 +15,7 @@ pub fn defines() -> Vec<String> {
         ("POSES_STRIDE", request::POSES_STRIDE),
         ("ANSWER_NUMBER", answer::NUMBER),
         ("ANSWER_RUNNER_SLEEPS", answer::RUNNER_SLEEPS),
-        ("ANSWER_BYTES", answer::BYTES),
+        ("ANSWER_TESTS", answer::TESTS),
         ("SLOT_AT", answer::SLOT),
         ("SLOT_STRIDE", answer::SLOT_STRIDE),
         ("SLOT_WORDS", SLOT_WORDS),

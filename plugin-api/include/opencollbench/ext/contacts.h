@@ -29,12 +29,13 @@ typedef struct ocb_contacts_request {
     /* Room for `capacity` contacts; the host's memory, writable during the call. NULL only when capacity is 0. */
     ocb_contact *contacts;
     uint64_t capacity;
+    /* Where to count the work of this query, or NULL: then it is timed. */
+    ocb_counts *counts;
 } ocb_contacts_request;
 
 /* The answer of `contacts`. The host fills it before the call with struct_size and zeros. */
 typedef struct ocb_contacts_result {
     uint32_t struct_size;
-    uint32_t reserved;
     /*
      * How many contacts there are, each pair counted once. Also when that is more than `capacity`: go on counting, and
      * write the first `capacity` of them, in any order.
@@ -45,8 +46,7 @@ typedef struct ocb_contacts_result {
 /* The table that get_extension("ocb.contacts/1") returns. Static. */
 typedef struct ocb_contacts {
     uint32_t struct_size;
-    uint32_t reserved;
-    /* Arguments as for ocb_algorithm.collide. [querying, timed] */
+    /* Arguments as for ocb_algorithm.collide. [query] */
     ocb_status (*contacts)(ocb_instance *instance, ocb_object *a, const double *pose_a, ocb_object *b,
                            const double *pose_b, const ocb_contacts_request *request, ocb_contacts_result *result);
 } ocb_contacts;

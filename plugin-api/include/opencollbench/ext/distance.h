@@ -21,6 +21,8 @@ typedef struct ocb_distance_request {
     uint32_t struct_size;
     /* OCB_REQUEST_* bits (plugin.h); ignore bits that you do not know. */
     uint32_t flags;
+    /* Where to count the work of this query, or NULL: then it is timed. */
+    ocb_counts *counts;
 } ocb_distance_request;
 
 /* Bits of ocb_distance_result.flags: which optional parts of the answer are filled in. */
@@ -38,7 +40,8 @@ typedef struct ocb_distance_result {
     /*
      * min |p - q| over all points p of A's surface and q of B's, in the world frame and in the meshes' length unit:
      * finite, >= 0, and 0 when the surfaces meet, or when solid bodies (OCB_REQUEST_SOLID) do: then without triangles
-     * when one is inside the other, and the points, if any, are a common one of the bodies, twice. The exact minimum up to rounding, not a bound.
+     * when one is inside the other, and the points, if any, are a common one of the bodies, twice. The exact minimum up
+     * to rounding, not a bound.
      */
     double distance;
     /*
@@ -56,8 +59,7 @@ typedef struct ocb_distance_result {
 /* The table that get_extension("ocb.distance/1") returns. Static. */
 typedef struct ocb_distance {
     uint32_t struct_size;
-    uint32_t reserved;
-    /* Arguments as for ocb_algorithm.collide. [querying, timed] */
+    /* Arguments as for ocb_algorithm.collide. [query] */
     ocb_status (*distance)(ocb_instance *instance, ocb_object *a, const double *pose_a, ocb_object *b,
                            const double *pose_b, const ocb_distance_request *request, ocb_distance_result *result);
 } ocb_distance;

@@ -46,8 +46,8 @@ typedef struct ocb_parameters {
     const ocb_parameter *const *parameters;
     /*
      * Sets a parameter. The host has checked name, type and range; what is never set has its default. Return
-     * OCB_UNSUPPORTED for a name that is not in the list.
-     * [after create, before load_mesh]
+     * OCB_UNSUPPORTED for a name that is not in the list. Called after `create`.
+     * [load]
      */
     ocb_status (*set)(ocb_instance *instance, const char *name, double value);
 } ocb_parameters;

@@ -1,7 +1,7 @@
 //! A plugin in Rust: every triangle of A against every triangle of B. Correct, and slow.
 //!
 //! Replace `Object`, `load_mesh` and `collide` by your own, and `ABOUT` by your name. The rest of the interface
-//! (distances, all contacts, counters, parameters) is optional: implement the trait and name it in `export!`.
+//! (distances, all contacts, counting, parameters) is optional: implement the trait and name it in `export!`.
 #![forbid(unsafe_code)]
 
 use opencollbench_plugin::{About, Algorithm, Answer, Collision, Count, Mesh, Placed, Pose};

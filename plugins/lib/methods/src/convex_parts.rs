@@ -3,7 +3,8 @@
 mod parts;
 
 use opencollbench_plugin::{
-    About, Algorithm, Answer, Collision, Count, Distance, Mesh, Parameter, Parameters, Placed, Refusal, Separation, raw,
+    About, Algorithm, Answer, Capability, Collision, Count, Distance, Mesh, Parameter, Parameters, Placed, Refusal,
+    Separation,
 };
 use parry3d_f64::math::{Matrix, Pose, Rotation, Vector};
 use parry3d_f64::query::details::distance_support_map_support_map;
@@ -86,7 +87,7 @@ impl Algorithm for ConvexParts {
         license: c"Apache-2.0 AND BSD-3-Clause",
         url: c"https://parry.rs",
         paper: c"K. Mamou, F. Ghorbel: A simple and efficient approach for 3D mesh approximate convex decomposition, ICIP 2009",
-        capabilities: raw::CAPABILITY_SOLID,
+        capabilities: &[Capability::Solid],
         ..About::new()
     };
 

@@ -5,7 +5,8 @@ mod query;
 
 use ocb_fields::{BallTree, odd_edges};
 use opencollbench_plugin::{
-    About, Algorithm, Answer, Collision, Count, Distance, Mesh, Parameter, Parameters, Placed, Refusal, Separation, raw,
+    About, Algorithm, Answer, Capability, Collision, Count, Distance, Mesh, Parameter, Parameters, Placed, Refusal,
+    Separation,
 };
 use query::Traversal;
 
@@ -50,7 +51,7 @@ impl Algorithm for InnerSpheres {
         authors: c"The OpenCollBench contributors",
         license: c"MIT OR Apache-2.0",
         paper: c"R. Weller, G. Zachmann: Inner Sphere Trees for Proximity and Penetration Queries, RSS 2009",
-        capabilities: raw::CAPABILITY_SOLID,
+        capabilities: &[Capability::Solid],
         ..About::new()
     };
 

@@ -5,7 +5,7 @@ mod counted;
 #[path = "wrapper.rs"]
 mod wrapper;
 
-use opencollbench_plugin::{About, raw};
+use opencollbench_plugin::{About, Capability};
 use parry3d as library;
 pub use wrapper::Parry;
 
@@ -21,7 +21,7 @@ const ABOUT: About = About {
     authors: c"S\xc3\xa9bastien Crozet and the parry contributors; wrapped by the OpenCollBench contributors",
     license: c"Apache-2.0",
     url: c"https://parry.rs",
-    capabilities: raw::CAPABILITY_SINGLE_PRECISION,
+    capabilities: &[Capability::SinglePrecision],
     ..About::new()
 };
 

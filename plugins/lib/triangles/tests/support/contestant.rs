@@ -65,6 +65,10 @@ pub fn agree<A: Distance + Contacts>(terms: &Terms<A>, loaded: &mut Loaded<A>, s
         assert!(truth.contacts.binary_search(&(a, b)).is_ok(), "{a} and {b} are no contact");
     }
     assert_eq!(loaded.collide_counting(pose_a, pose_b, &mut counts), answer, "the counted query");
+    if let Collision::Pair(a, b) = answer {
+        let tests = [counts.tests_a[a as usize], counts.tests_b[b as usize]];
+        assert!(tests.iter().all(|tests| *tests > 0), "{a} and {b} meet and were counted {tests:?} times");
+    }
 
     let near = loaded.distance(pose_a, pose_b);
     let expected = truth.distance;
