@@ -113,6 +113,17 @@ pub enum Phase {
     Query,
 }
 
+impl Phase {
+    /// As plugin.h names it.
+    pub fn mark(self) -> &'static str {
+        match self {
+            Phase::Load => "[load]",
+            Phase::Build => "[build]",
+            Phase::Query => "[query]",
+        }
+    }
+}
+
 impl fmt::Display for Phase {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -146,6 +157,19 @@ impl Outcome {
     /// Our fault or this machine's: such a run says nothing about the plugin.
     pub fn ours(&self) -> bool {
         matches!(self, Outcome::SandboxFault { .. })
+    }
+
+    /// What the plugin was asked to do when it ended.
+    pub fn phase(&self) -> Option<Phase> {
+        match self {
+            Outcome::Failed { phase, .. }
+            | Outcome::Signaled { phase, .. }
+            | Outcome::TimedOut { phase, .. }
+            | Outcome::OutOfMemory { phase, .. }
+            | Outcome::SyscallDenied { phase, .. }
+            | Outcome::ProtocolViolation { phase, .. } => Some(*phase),
+            _ => None,
+        }
     }
 
     pub(crate) fn fault(step: impl Into<String>, reason: impl fmt::Display) -> Self {

@@ -144,9 +144,7 @@ impl Checking<'_> {
             Err(ending) if ending.outcome.ours() => Err(LabError::Fault(ending.to_string())),
             Err(_) if self.is_stopped() => Ok(false),
             Err(ending) => {
-                let hint = hint_for(&ending.outcome);
-                let evidence = with_output(&ending.to_string(), &ending.stderr);
-                self.line("load and describe", CheckVerdict::Fail, evidence, hint);
+                self.failed("load and describe", &ending.outcome, &ending.stderr);
                 Ok(false)
             }
         }
@@ -154,6 +152,21 @@ impl Checking<'_> {
 
     fn line(&mut self, check: impl Into<String>, verdict: CheckVerdict, evidence: String, hint: Option<&str>) {
         self.add(CheckLine { check: check.into(), verdict, evidence, hint: hint.map(str::to_owned), repro: None });
+    }
+
+    /// The line for a process that ended before its work was done. It names the phase as plugin.h does, and the last lines that
+    /// the plugin wrote, which are often the whole explanation.
+    fn failed(&mut self, check: impl Into<String>, outcome: &Outcome, stderr: &str) {
+        let mut evidence = outcome.to_string();
+        if let Some(phase) = outcome.phase() {
+            evidence += &format!(" Phase of plugin.h: {}.", phase.mark());
+        }
+        let mut tail: Vec<&str> = stderr.lines().rev().filter(|line| !line.trim().is_empty()).take(3).collect();
+        if !tail.is_empty() {
+            tail.reverse();
+            evidence += &format!(" Its output: {}", tail.join(" / "));
+        }
+        self.line(check, CheckVerdict::Fail, evidence, hint_for(outcome));
     }
 
     /// Nobody wants to know any more.
@@ -188,7 +201,7 @@ impl Checking<'_> {
             Err(ending) if ending.outcome.ours() => return Err(LabError::Fault(ending.to_string())),
             Err(_) if self.is_stopped() => return Ok(false),
             Err(ending) => {
-                self.line("ELF gate", CheckVerdict::Fail, ending.to_string(), hint_for(&ending.outcome));
+                self.failed("ELF gate", &ending.outcome, &ending.stderr);
                 return Ok(false);
             }
         };
@@ -246,15 +259,6 @@ fn query_name(query: Query) -> &'static str {
         Query::CollisionAll => "all contacts",
         Query::Proximity => "distance",
     }
-}
-
-/// The last lines that the plugin wrote are often the whole explanation.
-fn with_output(sentence: &str, stderr: &str) -> String {
-    let tail: Vec<&str> = stderr.lines().rev().filter(|line| !line.trim().is_empty()).take(3).collect();
-    if tail.is_empty() {
-        return sentence.to_owned();
-    }
-    format!("{sentence} Its output: {}", tail.into_iter().rev().collect::<Vec<_>>().join(" / "))
 }
 
 fn hint_for(outcome: &Outcome) -> Option<&'static str> {

@@ -8,9 +8,9 @@ use ocb_core::instance::Presented;
 use ocb_core::query::{Answer, Counters, Query, Semantics};
 use ocb_sandbox::{Ending, Killer, Launcher, Outcome, PassPlan, Session, Trial, integrity};
 
+use super::Checking;
 use super::suite::{Scene, suite};
 use super::term::share;
-use super::{Checking, hint_for, with_output};
 use crate::model::{AlgorithmInfo, CheckVerdict};
 use crate::{LabError, Result};
 
@@ -24,6 +24,8 @@ const ROUNDS: u32 = 30;
 /// All that one process said about a scene.
 struct Heard {
     answers: Vec<(Answer, Option<Counters>)>,
+    /// The tests per triangle add up to the primitive tests.
+    per_triangle: bool,
     build_ns: f64,
     memory: Option<u64>,
 }
@@ -63,8 +65,7 @@ impl Checking<'_> {
                     return Ok(());
                 }
                 Err(ending) => {
-                    let evidence = with_output(&ending.to_string(), &ending.stderr);
-                    self.line(format!("{id}: determinism"), CheckVerdict::Fail, evidence, hint_for(&ending.outcome));
+                    self.failed(format!("{id}: determinism"), &ending.outcome, &ending.stderr);
                     return Ok(());
                 }
             }
@@ -112,8 +113,13 @@ impl Checking<'_> {
             None => true,
         });
         let odd = odd.count();
-        if odd == 0 {
-            self.line(check, CheckVerdict::Pass, "The counters are plausible.".into(), None);
+        if odd == 0 && heard.per_triangle {
+            self.line(check, CheckVerdict::Pass, "The counters are plausible, per triangle too.".into(), None);
+        } else if odd == 0 {
+            let evidence = "The tests per triangle are missing or do not add up to the primitive tests: there is no \
+                            heatmap of them.";
+            let hint = "For each primitive test, add 1 to its triangle of A and to its triangle of B.";
+            self.line(check, CheckVerdict::Note, evidence.into(), Some(hint));
         } else {
             let evidence = format!(
                 "{odd} of {} counts are missing or impossible: a hit without a test, or more tests than pairs.",
@@ -143,7 +149,7 @@ impl Checking<'_> {
                 return Ok(());
             }
             Err(ending) => {
-                self.line(check, CheckVerdict::Fail, ending.to_string(), hint_for(&ending.outcome));
+                self.failed(check, &ending.outcome, &ending.stderr);
                 return Ok(());
             }
         };
@@ -159,7 +165,7 @@ impl Checking<'_> {
             return Ok(());
         }
         if ending.outcome != Outcome::Completed {
-            self.line(check, CheckVerdict::Fail, ending.to_string(), hint_for(&ending.outcome));
+            self.failed(check, &ending.outcome, &ending.stderr);
             return Ok(());
         }
         let facts = [facts];
@@ -200,9 +206,10 @@ fn hear(
             Err(_) => break,
         }
     }
+    let per_triangle = session.triangle_tests().is_some();
     let ending = session.finish();
     if ending.outcome != Outcome::Completed {
         return Err(ending);
     }
-    Ok(Heard { answers, build_ns, memory: ending.memory_peak_bytes })
+    Ok(Heard { answers, per_triangle, build_ns, memory: ending.memory_peak_bytes })
 }

@@ -19,7 +19,7 @@ use super::conduct::PARTS as CONDUCT;
 use super::repro::{Question, reduced};
 use super::suite::{Scene, suite};
 use super::term::share;
-use super::{Checking, hint_for, query_name, with_output};
+use super::{Checking, query_name};
 use crate::measure::precision;
 use crate::model::{AlgorithmInfo, CheckLine, CheckVerdict, Repro};
 use crate::{LabError, Result};
@@ -165,8 +165,7 @@ impl Checking<'_> {
             let (hint, repro) = (repro.is_some().then(|| hint.to_owned()), repro.map(Box::new));
             self.add(CheckLine { check, verdict: CheckVerdict::Fail, evidence, hint, repro });
         } else if let Some((outcome, stderr)) = ending {
-            let hint = hint_for(&outcome);
-            self.line(check, CheckVerdict::Fail, with_output(&outcome.to_string(), &stderr), hint);
+            self.failed(check, &outcome, &stderr);
         } else if answers == 0 {
             self.not_reached(check, CheckVerdict::Fail, "no query was");
         } else if silent > 0 {

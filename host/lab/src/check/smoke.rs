@@ -19,7 +19,7 @@ use ocb_sandbox::{Launcher, Outcome, Trial};
 
 use super::repro::{Question, reduced};
 use super::term::share;
-use super::{Checking, hint_for, query_name, with_output};
+use super::{Checking, query_name};
 use crate::measure::precision;
 use crate::model::{AlgorithmInfo, CheckLine, CheckVerdict};
 use crate::{LabError, Result};
@@ -89,8 +89,7 @@ impl Checking<'_> {
                 return Ok(());
             }
             Err(ending) => {
-                let evidence = with_output(&ending.to_string(), &ending.stderr);
-                self.line(check, CheckVerdict::Fail, evidence, hint_for(&ending.outcome));
+                self.failed(check, &ending.outcome, &ending.stderr);
                 return Ok(());
             }
         };
@@ -113,8 +112,7 @@ impl Checking<'_> {
             return Err(LabError::Fault(ending.to_string()));
         }
         if in_time && ending.outcome != Outcome::Completed {
-            let evidence = with_output(&ending.to_string(), &ending.stderr);
-            self.line(check, CheckVerdict::Fail, evidence, hint_for(&ending.outcome));
+            self.failed(check, &ending.outcome, &ending.stderr);
         } else if !wrong.is_empty() && !self.is_stopped() {
             let many = wrong.len();
             let (first, verdict, answer) = wrong.swap_remove(0);
