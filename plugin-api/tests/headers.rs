@@ -57,3 +57,12 @@ fn every_header_compiles_alone() {
         support::compile_as_every_standard(&source);
     }
 }
+
+#[test]
+fn the_cpp_header_compiles_alone() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let source = folder.path().join("alone.cpp");
+    std::fs::write(&source, "#include <opencollbench/plugin.hpp>\n#include <opencollbench/plugin.hpp>\n")
+        .expect("written");
+    support::compile_as(&[("c++", "c++17"), ("c++", "c++20")], &source);
+}

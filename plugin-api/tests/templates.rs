@@ -122,12 +122,30 @@ fn the_c_template_answers() {
     check(&plugin);
 }
 
+/// With `plugin.hpp` a correct plugin fits on a page.
 #[test]
-fn the_cpp_template_answers() {
+fn the_cpp_template_answers_in_fewer_than_sixty_lines() {
+    let source = std::fs::read_to_string(package().join("templates/cpp/my_plugin.cpp")).expect("the template");
+    assert!(source.lines().count() < 60);
     let (_folder, file) = make("cpp");
     let plugin = Plugin::load(&file);
     assert_eq!(plugin.id(), "my-algorithm-cpp");
     check(&plugin);
+}
+
+#[test]
+fn the_cpp_code_in_the_guide_compiles() {
+    let guide = std::fs::read_to_string(package().join("README.md")).expect("the guide");
+    let blocks: Vec<&str> =
+        guide.split("```cpp\n").skip(1).map(|rest| rest.split("```").next().unwrap_or("")).collect();
+    assert_eq!(blocks.len(), 1);
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let source = folder.path().join("guide.cpp");
+    std::fs::write(&source, blocks[0]).expect("written");
+    run(command("g++")
+        .args(["-std=c++17", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-I"])
+        .arg(package().join("include"))
+        .arg(&source));
 }
 
 /// Built in a copy outside the repository, as an author would, with the versions that the workspace has locked.

@@ -6,7 +6,8 @@
  * one or more algorithms. An algorithm answers queries about pairs of triangle meshes: do they collide, and, with the
  * extensions of `ext/`, how far apart are they, and which triangles intersect?
  *
- * A minimal plugin is a descriptor and two functions: `load_mesh` and `collide`. Everything else may be NULL.
+ * A minimal plugin is a descriptor and two functions: `load_mesh` and `collide`. Everything else may be NULL. C++ authors
+ * include `plugin.hpp`, which wraps all of this in a class.
  *
  * THE PHASES OF A PLUGIN
  *

@@ -32,14 +32,19 @@ pub const STANDARDS: [(&str, &str); 6] =
 
 /// Checks a source file as every standard with every compiler there is; gcc must be there.
 pub fn compile_as_every_standard(source: &Path) {
+    compile_as(&STANDARDS, source);
+}
+
+/// The same as these standards.
+pub fn compile_as(standards: &[(&str, &str)], source: &Path) {
     for (compilers, required) in [(["gcc", "g++"], true), (["clang", "clang++"], false)] {
         let found = command(compilers[0]).arg("--version").output().is_ok();
         assert!(found || !required, "{} is needed: install gcc and g++", compilers[0]);
         if !found {
             continue;
         }
-        for (language, standard) in STANDARDS {
-            run(command(compilers[usize::from(language == "c++")])
+        for (language, standard) in standards {
+            run(command(compilers[usize::from(*language == "c++")])
                 .args(["-x", language, &format!("-std={standard}")])
                 .args(["-Wall", "-Wextra", "-pedantic", "-Werror", "-fsyntax-only", "-I"])
                 .arg(package().join("include"))

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use ocb_tests::place::{text, tracked};
 
-const CODE: [&str; 10] = ["rs", "ts", "vue", "mjs", "css", "c", "cpp", "h", "sh", "sql"];
+const CODE: [&str; 11] = ["rs", "ts", "vue", "mjs", "css", "c", "cpp", "h", "hpp", "sh", "sql"];
 
 fn is_code(path: &Path) -> bool {
     path.extension().is_some_and(|e| CODE.iter().any(|c| e == *c))
