@@ -6,6 +6,7 @@
 
 #include <triangles.hpp>
 
+#include <cmath>
 #include <functional>
 
 namespace standin {
@@ -39,12 +40,16 @@ struct Matrix {
     ocb::Triangle operator()(const Numbered &n) const { return ocb::Pose{m}(n.triangle); }
 };
 
-// Calls `met` with the ids of all pairs that meet, until it says false.
-inline void meetings(const Soup &a, const Matrix &at_a, const Soup &b, const Matrix &at_b,
-                     const std::function<bool(int, int)> &met) {
+// Calls `met` with the ids of all pairs that meet, until it says false. Returns how many pairs were tested.
+inline int meetings(const Soup &a, const Matrix &at_a, const Soup &b, const Matrix &at_b,
+                    const std::function<bool(int, int)> &met) {
+    int tests = 0;
     for (const Numbered &i : a.all)
-        for (const Numbered &j : b.all)
-            if (ocb::meet(at_a(i), at_b(j)) && !met(i.id, j.id)) return;
+        for (const Numbered &j : b.all) {
+            tests++;
+            if (ocb::meet(at_a(i), at_b(j)) && !met(i.id, j.id)) return tests;
+        }
+    return tests;
 }
 
 struct Nearest {

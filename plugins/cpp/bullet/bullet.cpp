@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
 // Bullet's GImpact: its quantised box hierarchies name the pairs of triangles, its clipping test decides each.
-#include "wrapper.hpp"
+#include <opencollbench/plugin.hpp>
 
 #include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
 #include <BulletCollision/Gimpact/btGImpactShape.h>
 
+#include <memory>
+
 namespace {
 
-using namespace ocb;
-
-struct Shape : Object {
+struct Shape {
     // Bullet keeps pointers to both.
     std::vector<double> positions;
     std::vector<int> corners;
     btTriangleIndexVertexArray arrays;
     std::unique_ptr<btGImpactMeshShape> shape;
 
-    Shape(const Mesh &mesh, double margin)
+    Shape(const ocb::Mesh &mesh, double margin)
         : positions(mesh.positions, mesh.positions + 3 * size_t{mesh.vertex_count}),
-          corners(mesh.corners, mesh.corners + 3 * size_t{mesh.triangle_count}) {
+          corners(mesh.triangles, mesh.triangles + 3 * size_t{mesh.triangle_count}) {
         btIndexedMesh indexed;
         indexed.m_numTriangles = static_cast<int>(mesh.triangle_count);
         indexed.m_triangleIndexBase = reinterpret_cast<const unsigned char *>(corners.data());
@@ -33,11 +33,12 @@ struct Shape : Object {
         shape->setMargin(margin);
         shape->updateBound();
     }
+    Shape(const Shape &) = delete;
 
     btGImpactMeshShapePart &part() { return *shape->getMeshPart(0); }
 };
 
-btTransform transform(Pose pose) {
+btTransform transform(ocb::Pose pose) {
     btMatrix3x3 basis;
     btVector3 origin;
     for (int row = 0; row < 3; row++) {
@@ -62,32 +63,47 @@ struct Locked {
     ~Locked() { part.unlockChildShapes(); }
 };
 
-class Bullet : public Algorithm {
+class Bullet {
   public:
-    void set(const std::string &name, double value) override {
-        if (name == "margin") margin = value;
-        else Algorithm::set(name, value);
+    static ocb::About about() {
+        return {"bullet" OCB_VARIANT,
+                "Bullet (GImpact)" OCB_VARIANT,
+                "3.24",
+                "Erwin Coumans, Francisco Leon Najera",
+                "Zlib",
+                "https://github.com/bulletphysics/bullet3",
+                nullptr,
+                0,
+                // Bullet does not report its tests between boxes.
+                OCB_COUNTS_PRIMITIVE_TESTS | OCB_COUNTS_PER_TRIANGLE,
+                {ocb::real("margin", "Shell around each triangle that counts as part of it, in the meshes' unit of length.",
+                           0, 1e3, 0)}};
     }
 
-    std::unique_ptr<Object> load(const Mesh &mesh) override { return std::make_unique<Shape>(mesh, margin); }
+    void set(const std::string &name, double value) {
+        if (name == "margin") margin = value;
+        else throw ocb::Unsupported("there is no parameter " + name);
+    }
 
-    bool collide(Object &a, Pose pose_a, Object &b, Pose pose_b, Pair &pair) override {
-        btGImpactMeshShapePart &part_a = static_cast<Shape &>(a).part(), &part_b = static_cast<Shape &>(b).part();
-        const btTransform placed_a = transform(pose_a), placed_b = transform(pose_b);
+    Shape load(const ocb::Mesh &mesh) { return Shape(mesh, margin); }
+
+    ocb::Collision collide(ocb::Placed<Shape> a, ocb::Placed<Shape> b, ocb::Work &work) {
+        btGImpactMeshShapePart &part_a = a.object.part(), &part_b = b.object.part();
+        const btTransform placed_a = transform(a.pose), placed_b = transform(b.pose);
         const Locked locked_a(part_a), locked_b(part_b);
         candidates.resizeNoInitialize(0);
         btGImpactQuantizedBvh::find_collision(part_a.getBoxSet(), placed_a, part_b.getBoxSet(), placed_b, candidates);
         for (int i = 0; i < candidates.size(); i++) {
-            const GIM_PAIR &candidate = candidates[i];
-            btPrimitiveTriangle of_a = triangle(part_a, candidate.m_index1, placed_a);
-            btPrimitiveTriangle of_b = triangle(part_b, candidate.m_index2, placed_b);
+            const auto first = static_cast<uint32_t>(candidates[i].m_index1);
+            const auto second = static_cast<uint32_t>(candidates[i].m_index2);
+            btPrimitiveTriangle of_a = triangle(part_a, candidates[i].m_index1, placed_a);
+            btPrimitiveTriangle of_b = triangle(part_b, candidates[i].m_index2, placed_b);
             GIM_TRIANGLE_CONTACT contact;
-            if (of_a.overlap_test_conservative(of_b) && of_a.find_triangle_collision_clip_method(of_b, contact)) {
-                pair = {static_cast<uint32_t>(candidate.m_index1), static_cast<uint32_t>(candidate.m_index2)};
-                return true;
-            }
+            work.primitive_test(first, second);
+            if (of_a.overlap_test_conservative(of_b) && of_a.find_triangle_collision_clip_method(of_b, contact))
+                return ocb::Collision::pair(first, second);
         }
-        return false;
+        return {};
     }
 
   private:
@@ -97,17 +113,4 @@ class Bullet : public Algorithm {
 
 } // namespace
 
-ocb::About ocb::about() {
-    return {"bullet" OCB_VARIANT,
-            "Bullet (GImpact)" OCB_VARIANT,
-            "3.24",
-            "Erwin Coumans, Francisco Leon Najera",
-            "Zlib",
-            "https://github.com/bulletphysics/bullet3",
-            nullptr,
-            COLLIDE,
-            0,
-            {real("margin", "Shell around each triangle that counts as part of it, in the meshes' unit of length.", 0, 1e3, 0)}};
-}
-
-std::unique_ptr<ocb::Algorithm> ocb::make() { return std::make_unique<Bullet>(); }
+OCB_PLUGIN(Bullet)

@@ -3,9 +3,7 @@
 // Do two triangles meet? For libraries that leave this to their user.
 #pragma once
 
-#include "wrapper.hpp"
-
-#include <algorithm>
+#include <opencollbench/plugin.hpp>
 
 namespace ocb {
 

@@ -3,15 +3,15 @@
 // Embree: rtcCollide names the pairs of triangles whose boxes overlap; the test of each pair is ours. It knows no placed
 // objects, so B is moved into A's frame and its hierarchy is made to fit, anew for every query.
 #include "triangles.hpp"
-#include "wrapper.hpp"
 
 #include <embree3/rtcore.h>
 
+#include <cmath>
 #include <limits>
 
 namespace {
 
-using namespace ocb;
+using ocb::Pose, ocb::Triangle, ocb::Vector;
 
 // A scene of one geometry, whose triangles may be moved. Embree's boxes are of float: they are rounded outwards.
 class Scene {
@@ -57,8 +57,9 @@ class Scene {
     static void bound(const RTCBoundsFunctionArguments *arguments) {
         const Triangle &t = static_cast<const Scene *>(arguments->geometryUserPtr)->placed[arguments->primID];
         const auto around = [&](int axis) { return std::minmax({t[0][axis], t[1][axis], t[2][axis]}); };
-        const auto below = [](double x) { return std::nextafterf(static_cast<float>(x), -std::numeric_limits<float>::max()); };
-        const auto above = [](double x) { return std::nextafterf(static_cast<float>(x), std::numeric_limits<float>::max()); };
+        const float most = std::numeric_limits<float>::max();
+        const auto below = [&](double x) { return std::nextafterf(static_cast<float>(x), -most); };
+        const auto above = [&](double x) { return std::nextafterf(static_cast<float>(x), most); };
         const std::pair<double, double> x = around(0), y = around(1), z = around(2);
         RTCBounds &box = *arguments->bounds_o;
         box.lower_x = below(x.first), box.lower_y = below(y.first), box.lower_z = below(z.first);
@@ -71,55 +72,75 @@ class Scene {
     RTCGeometry geometry;
 };
 
-struct Model : Object {
+struct Model {
     std::vector<Triangle> triangles;
     // As object A, at rest, and as object B.
-    std::unique_ptr<Scene> resting, moving;
+    Scene resting, moving;
+
+    Model(RTCDevice device, const ocb::Mesh &mesh, RTCBuildQuality again)
+        : triangles(all(mesh)), resting(device, triangles, again), moving(device, triangles, again) {
+        if (const RTCError error = rtcGetDeviceError(device))
+            throw std::runtime_error("Embree's error " + std::to_string(error));
+    }
+
+    static std::vector<Triangle> all(const ocb::Mesh &mesh) {
+        std::vector<Triangle> triangles;
+        for (uint32_t i = 0; i < mesh.triangle_count; i++) triangles.push_back(mesh.triangle(i));
+        return triangles;
+    }
 };
 
-class Embree : public Algorithm {
+class Embree {
   public:
+    static ocb::About about() {
+        return {"embree",
+                "Embree (rtcCollide)",
+                RTC_VERSION_STRING,
+                "Ingo Wald, Sven Woop, Carsten Benthin, Gregory S. Johnson, Manfred Ernst",
+                "Apache-2.0",
+                "https://www.embree.org",
+                "Wald et al.: Embree: A Kernel Framework for Efficient CPU Ray Tracing, SIGGRAPH 2014",
+                0,
+                // Embree does not report its tests between boxes.
+                OCB_COUNTS_PRIMITIVE_TESTS | OCB_COUNTS_PER_TRIANGLE,
+                {ocb::integer("rebuild", "1: build B's hierarchy anew for every query instead of fitting the old one.",
+                              0, 1, 0)}};
+    }
+
     Embree() : device(rtcNewDevice("threads=1,set_affinity=0,start_threads=0")) {
         if (!device) throw std::runtime_error("Embree makes no device");
     }
-    ~Embree() override { rtcReleaseDevice(device); }
+    ~Embree() { rtcReleaseDevice(device); }
+    Embree(const Embree &) = delete;
 
-    void set(const std::string &name, double value) override {
+    void set(const std::string &name, double value) {
         if (name == "rebuild") again = value != 0 ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_REFIT;
-        else Algorithm::set(name, value);
+        else throw ocb::Unsupported("there is no parameter " + name);
     }
 
-    std::unique_ptr<Object> load(const Mesh &mesh) override {
-        auto model = std::make_unique<Model>();
-        for (uint32_t i = 0; i < mesh.triangle_count; i++) model->triangles.push_back(mesh.triangle(i));
-        for (auto *scene : {&model->resting, &model->moving})
-            *scene = std::make_unique<Scene>(device, model->triangles, again);
-        if (const RTCError error = rtcGetDeviceError(device))
-            throw std::runtime_error("Embree's error " + std::to_string(error));
-        return model;
-    }
+    Model load(const ocb::Mesh &mesh) { return Model(device, mesh, again); }
 
-    bool collide(Object &a, Pose pose_a, Object &b, Pose pose_b, Pair &pair) override {
-        Question question{*static_cast<Model &>(a).resting, *static_cast<Model &>(b).moving, {}};
-        question.b.move(pose_b, pose_a);
+    ocb::Collision collide(ocb::Placed<Model> a, ocb::Placed<Model> b, ocb::Work &work) {
+        Question question{a.object.resting, b.object.moving, work, {}};
+        b.object.moving.move(b.pose, a.pose);
         rtcCollide(question.a.handle(), question.b.handle(), test, &question);
-        pair = question.found;
-        return pair.a != OCB_NO_TRIANGLE;
+        return question.found;
     }
 
   private:
     struct Question {
-        const Scene &a;
-        Scene &b;
-        Pair found;
+        const Scene &a, &b;
+        ocb::Work &work;
+        ocb::Collision found;
     };
 
     // Embree cannot be told to stop; after the first pair the rest is not looked at.
     static void test(void *user, RTCCollision *candidates, unsigned count) {
         Question &question = *static_cast<Question *>(user);
-        for (unsigned i = 0; i < count && question.found.a == OCB_NO_TRIANGLE; i++) {
-            const RTCCollision &c = candidates[i];
-            if (meet(question.a.triangle(c.primID0), question.b.triangle(c.primID1))) question.found = {c.primID0, c.primID1};
+        for (unsigned i = 0; i < count && !question.found.hit; i++) {
+            const uint32_t a = candidates[i].primID0, b = candidates[i].primID1;
+            question.work.primitive_test(a, b);
+            if (ocb::meet(question.a.triangle(a), question.b.triangle(b))) question.found = ocb::Collision::pair(a, b);
         }
     }
 
@@ -129,17 +150,4 @@ class Embree : public Algorithm {
 
 } // namespace
 
-ocb::About ocb::about() {
-    return {"embree",
-            "Embree (rtcCollide)",
-            RTC_VERSION_STRING,
-            "Ingo Wald, Sven Woop, Carsten Benthin, Gregory S. Johnson, Manfred Ernst",
-            "Apache-2.0",
-            "https://www.embree.org",
-            "Wald et al.: Embree: A Kernel Framework for Efficient CPU Ray Tracing, SIGGRAPH 2014",
-            COLLIDE,
-            0,
-            {whole("rebuild", "1: build B's hierarchy anew for every query instead of fitting the old one.", 0, 1, 0)}};
-}
-
-std::unique_ptr<ocb::Algorithm> ocb::make() { return std::make_unique<Embree>(); }
+OCB_PLUGIN(Embree)

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
 // SOLID 3, built against your own copy: trees of axis-aligned boxes, triangles compared by GJK.
-#include "wrapper.hpp"
+#include <opencollbench/plugin.hpp>
 
 #include <SOLID.h>
 
 namespace {
 
-using namespace ocb;
-
-struct Shape : Object {
+struct Shape {
     // SOLID keeps a pointer to them.
     std::vector<DT_Scalar> positions;
     DT_VertexBaseHandle base;
@@ -17,7 +15,7 @@ struct Shape : Object {
     // The same object may be both objects of a query.
     DT_ObjectHandle as_a, as_b;
 
-    explicit Shape(const Mesh &mesh)
+    explicit Shape(const ocb::Mesh &mesh)
         : positions(mesh.positions, mesh.positions + 3 * size_t{mesh.vertex_count}),
           base(DT_NewVertexBase(positions.data(), 3 * sizeof(DT_Scalar))), shape(DT_NewComplexShape(base)) {
         for (uint32_t i = 0; i < mesh.triangle_count; i++) {
@@ -27,65 +25,70 @@ struct Shape : Object {
         DT_EndComplexShape();
         as_a = DT_CreateObject(this, shape), as_b = DT_CreateObject(this, shape);
     }
-    ~Shape() override {
+    ~Shape() {
         DT_DestroyObject(as_a);
         DT_DestroyObject(as_b);
         DT_DeleteShape(shape);
         DT_DeleteVertexBase(base);
     }
+    Shape(const Shape &) = delete;
 };
 
-void place(DT_ObjectHandle object, Pose pose) {
+void place(DT_ObjectHandle object, ocb::Pose pose) {
     double columns[16];
     for (int i = 0; i < 16; i++) columns[4 * (i % 4) + i / 4] = pose.m[i];
     DT_SetMatrixd(object, columns);
 }
 
-class Solid : public Algorithm {
+ocb::Vector vector(const DT_Vector3 p) { return {p[0], p[1], p[2]}; }
+
+class Solid {
   public:
+    static ocb::About about() {
+        return {"solid",
+                "SOLID",
+                "3",
+                "Gino van den Bergen",
+                "LicenseRef-SOLID-QPL-or-GPL",
+                "https://dtecta.com",
+                "van den Bergen: A Fast and Robust GJK Implementation for Collision Detection of Convex Objects, 1999",
+                sizeof(DT_Scalar) == sizeof(float) ? OCB_CAPABILITY_SINGLE_PRECISION : 0,
+                0,
+                {ocb::real("accuracy", "Relative error of closest points at which GJK stops; SOLID's own default is 1e-3.",
+                           1e-15, 1, 1e-12)}};
+    }
+
     Solid() { DT_SetAccuracy(static_cast<DT_Scalar>(1e-12)); }
 
-    void set(const std::string &name, double value) override {
+    void set(const std::string &name, double value) {
         if (name == "accuracy") DT_SetAccuracy(static_cast<DT_Scalar>(value));
-        else Algorithm::set(name, value);
+        else throw ocb::Unsupported("there is no parameter " + name);
     }
 
-    std::unique_ptr<Object> load(const Mesh &mesh) override { return std::make_unique<Shape>(mesh); }
+    Shape load(const ocb::Mesh &mesh) { return Shape(mesh); }
 
-    bool collide(Object &a, Pose pose_a, Object &b, Pose pose_b, Pair &) override {
-        const DT_ObjectHandle first = static_cast<Shape &>(a).as_a, second = static_cast<Shape &>(b).as_b;
-        place(first, pose_a);
-        place(second, pose_b);
+    using Object = ocb::Placed<Shape>;
+
+    ocb::Collision collide(Object a, Object b, ocb::Work &) {
+        const DT_ObjectHandle first = a.object.as_a, second = b.object.as_b;
+        place(first, a.pose);
+        place(second, b.pose);
         DT_Vector3 common;
-        return DT_GetCommonPoint(first, second, common);
+        return DT_GetCommonPoint(first, second, common) ? ocb::Collision::somewhere() : ocb::Collision{};
     }
 
-    Distance distance(Object &a, Pose pose_a, Object &b, Pose pose_b) override {
-        const DT_ObjectHandle first = static_cast<Shape &>(a).as_a, second = static_cast<Shape &>(b).as_b;
-        place(first, pose_a);
-        place(second, pose_b);
+    ocb::Distance distance(Object a, Object b, ocb::Work &) {
+        const DT_ObjectHandle first = a.object.as_a, second = b.object.as_b;
+        place(first, a.pose);
+        place(second, b.pose);
         DT_Vector3 point_a, point_b;
-        Distance found;
-        found.value = DT_GetClosestPair(first, second, point_a, point_b);
-        found.has_points = found.value > 0;
-        for (int k = 0; k < 3; k++) found.a[k] = point_a[k], found.b[k] = point_b[k];
+        ocb::Distance found;
+        found.distance = DT_GetClosestPair(first, second, point_a, point_b);
+        if (found.distance > 0) found.points = {vector(point_a), vector(point_b)};
         return found;
     }
 };
 
 } // namespace
 
-ocb::About ocb::about() {
-    return {"solid",
-            "SOLID",
-            "3",
-            "Gino van den Bergen",
-            "LicenseRef-SOLID-QPL-or-GPL",
-            "https://dtecta.com",
-            "van den Bergen: A Fast and Robust GJK Implementation for Collision Detection of Convex Objects, 1999",
-            DISTANCE,
-            sizeof(DT_Scalar) == sizeof(float) ? OCB_CAPABILITY_SINGLE_PRECISION : 0u,
-            {real("accuracy", "Relative error of closest points at which GJK stops; SOLID's own default is 1e-3.", 1e-15, 1, 1e-12)}};
-}
-
-std::unique_ptr<ocb::Algorithm> ocb::make() { return std::make_unique<Solid>(); }
+OCB_PLUGIN(Solid)

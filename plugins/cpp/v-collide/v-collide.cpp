@@ -1,65 +1,77 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
 // V-COLLIDE, built against your own copy: many bodies, of which two at a time are active; between them it is RAPID.
-#include "wrapper.hpp"
+#include <opencollbench/plugin.hpp>
 
 #include <VCollide.H>
 
 namespace {
 
-using namespace ocb;
-
-struct Body : Object {
+struct Body {
     // The same object may be both objects of a query.
-    int as_a = 0, as_b = 0;
+    int as_a, as_b;
 };
 
-class VCollideWrapper : public Algorithm {
+class VCollideWrapper {
   public:
-    std::unique_ptr<Object> load(const Mesh &mesh) override {
-        auto body = std::make_unique<Body>();
-        for (int *id : {&body->as_a, &body->as_b}) {
-            done(bodies.NewObject(id), "NewObject");
-            for (uint32_t i = 0; i < mesh.triangle_count; i++) {
-                Triangle t = mesh.triangle(i);
-                done(bodies.AddTri(t[0].data(), t[1].data(), t[2].data(), static_cast<int>(i)), "AddTri");
-            }
-            done(bodies.EndObject(), "EndObject");
-            done(bodies.DeactivateObject(*id), "DeactivateObject");
-        }
-        return body;
+    static ocb::About about() {
+        return {"v-collide",
+                "V-COLLIDE",
+                "2.01",
+                "Thomas C. Hudson, Ming C. Lin, Jonathan Cohen, Stefan Gottschalk, Dinesh Manocha",
+                "LicenseRef-V-COLLIDE",
+                "http://gamma.cs.unc.edu/V-COLLIDE/",
+                "Hudson et al.: V-COLLIDE: Accelerated Collision Detection for VRML, 1997",
+                // Its sorted lists of boxes follow the movements.
+                OCB_CAPABILITY_COHERENT};
     }
 
-    bool collide(Object &a, Pose pose_a, Object &b, Pose pose_b, Pair &) override {
+    Body load(const ocb::Mesh &mesh) { return {add(mesh), add(mesh)}; }
+
+    using Object = ocb::Placed<Body>;
+
+    ocb::Collision collide(Object a, Object b, ocb::Work &) {
         VCReport report;
-        ask(a, pose_a, b, pose_b, report, VC_FIRST_CONTACT);
-        return report.numObjPairs() > 0;
+        ask(a, b, report, VC_FIRST_CONTACT);
+        return report.numObjPairs() > 0 ? ocb::Collision::somewhere() : ocb::Collision{};
     }
 
-    void contacts(Object &a, Pose pose_a, Object &b, Pose pose_b, Contacts &out) override {
+    void contacts(Object a, Object b, ocb::Contacts &found, ocb::Work &) {
         VCReport report;
-        ask(a, pose_a, b, pose_b, report, VC_ALL_CONTACTS);
+        ask(a, b, report, VC_ALL_CONTACTS);
         for (int pair = 0; pair < report.numObjPairs(); pair++) {
-            const bool in_order = report.obj1ID(pair) == static_cast<Body &>(a).as_a;
+            const bool in_order = report.obj1ID(pair) == a.object.as_a;
             for (int i = 0; i < report.numTriPairs(pair); i++) {
                 const auto first = static_cast<uint32_t>(report.tri1ID(pair, i));
                 const auto second = static_cast<uint32_t>(report.tri2ID(pair, i));
-                in_order ? out.add(first, second) : out.add(second, first);
+                in_order ? found.add(first, second) : found.add(second, first);
             }
         }
     }
 
   private:
-    void ask(Object &a, Pose pose_a, Object &b, Pose pose_b, VCReport &report, int which) {
-        const int first = static_cast<Body &>(a).as_a, second = static_cast<Body &>(b).as_b;
-        place(first, pose_a);
-        place(second, pose_b);
+    int add(const ocb::Mesh &mesh) {
+        int id = 0;
+        done(bodies.NewObject(&id), "NewObject");
+        for (uint32_t i = 0; i < mesh.triangle_count; i++) {
+            ocb::Triangle t = mesh.triangle(i);
+            done(bodies.AddTri(t[0].data(), t[1].data(), t[2].data(), static_cast<int>(i)), "AddTri");
+        }
+        done(bodies.EndObject(), "EndObject");
+        done(bodies.DeactivateObject(id), "DeactivateObject");
+        return id;
+    }
+
+    void ask(Object a, Object b, VCReport &report, int which) {
+        const int first = a.object.as_a, second = b.object.as_b;
+        place(first, a.pose);
+        place(second, b.pose);
         for (int id : {first, second}) done(bodies.ActivateObject(id), "ActivateObject");
         done(bodies.Collide(&report, which), "Collide");
         for (int id : {first, second}) done(bodies.DeactivateObject(id), "DeactivateObject");
     }
 
-    void place(int id, Pose pose) {
+    void place(int id, ocb::Pose pose) {
         double matrix[4][4];
         for (int i = 0; i < 16; i++) matrix[i / 4][i % 4] = pose.m[i];
         done(bodies.UpdateTrans(id, matrix), "UpdateTrans");
@@ -74,18 +86,4 @@ class VCollideWrapper : public Algorithm {
 
 } // namespace
 
-ocb::About ocb::about() {
-    return {"v-collide",
-            "V-COLLIDE",
-            "2.01",
-            "Thomas C. Hudson, Ming C. Lin, Jonathan Cohen, Stefan Gottschalk, Dinesh Manocha",
-            "LicenseRef-V-COLLIDE",
-            "http://gamma.cs.unc.edu/V-COLLIDE/",
-            "Hudson et al.: V-COLLIDE: Accelerated Collision Detection for VRML, 1997",
-            CONTACTS,
-            // Its sorted lists of boxes follow the movements.
-            OCB_CAPABILITY_COHERENT,
-            {}};
-}
-
-std::unique_ptr<ocb::Algorithm> ocb::make() { return std::make_unique<VCollideWrapper>(); }
+OCB_PLUGIN(VCollideWrapper)

@@ -21,6 +21,10 @@ class PQP_Model {
 class PQP_CollideResult {
   public:
     std::vector<std::pair<int, int>> pairs;
+    int tests = 0;
+    // A stand-in has no bounding volumes, so it tests none.
+    int NumBVTests() { return 0; }
+    int NumTriTests() { return tests; }
     int NumPairs() { return static_cast<int>(pairs.size()); }
     int Id1(int i) { return pairs[i].first; }
     int Id2(int i) { return pairs[i].second; }
@@ -29,6 +33,9 @@ class PQP_CollideResult {
 class PQP_DistanceResult {
   public:
     standin::Nearest nearest;
+    int tests = 0;
+    int NumBVTests() { return 0; }
+    int NumTriTests() { return tests; }
     PQP_REAL Distance() { return nearest.distance; }
     const PQP_REAL *P1() { return nearest.own_a.data(); }
     const PQP_REAL *P2() { return nearest.own_b.data(); }
