@@ -120,7 +120,7 @@ async fn another_hardware_class_is_measured_once_and_stands_beside_the_old_one()
     assert_eq!((campaign.state, campaign.runs.done, campaign.runs.failed), (State::Done, 3, 0));
 
     // Side by side stands what the runs themselves say.
-    assert_eq!(campaign.results.len(), 2 * 3 + 1);
+    assert_eq!(campaign.results.len(), 2 * 4 + 1);
     for row in &campaign.results {
         let (old, new) = (row.old.as_ref().unwrap(), row.new.as_ref().unwrap());
         assert!(
@@ -145,7 +145,7 @@ async fn another_hardware_class_is_measured_once_and_stands_beside_the_old_one()
         assert!(told.value == ratio && told.lo <= ratio && ratio <= told.hi);
     }
     let csv = String::from_utf8(ocb_service::campaign_csv(&campaign.results).unwrap()).unwrap();
-    assert!(csv.starts_with("algorithm,question,scene,") && csv.lines().count() == 8, "{csv}");
+    assert!(csv.starts_with("algorithm,question,scene,") && csv.lines().count() == 10, "{csv}");
 
     // The old run is as it was; the new one is its owner's, who is told once.
     let mut now = engine.run(&agreed.id, Some(&ada.owner())).await.unwrap();
@@ -201,11 +201,11 @@ async fn what_another_oracle_judged_is_queued_whole_also_when_the_service_ended_
     assert_eq!(edit(data.path(), "UPDATE campaigns SET queued_us = NULL".into()).await, 1);
     let engine = Engine::open(config(data.path(), "old")).await.unwrap();
     let campaign = ended(&engine, &made.id).await;
-    assert_eq!((campaign.runs.done, campaign.results.len()), (3, 7));
+    assert_eq!((campaign.runs.done, campaign.results.len()), (3, 9));
     let of =
         |side: fn(&ocb_service::model::Compared) -> Option<u32>| campaign.results.iter().map(side).collect::<Vec<_>>();
-    assert_eq!(of(|row| row.old.as_ref()?.oracle), [Some(ocb_core::oracle::VERSION - 1); 7]);
-    assert_eq!(of(|row| row.new.as_ref()?.oracle), [Some(ocb_core::oracle::VERSION); 7]);
+    assert_eq!(of(|row| row.old.as_ref()?.oracle), [Some(ocb_core::oracle::VERSION - 1); 9]);
+    assert_eq!(of(|row| row.new.as_ref()?.oracle), [Some(ocb_core::oracle::VERSION); 9]);
     engine.shutdown().await;
 }
 

@@ -24,11 +24,7 @@ async fn measured(engine: &Engine, query: &str, algorithms: [&str; 2]) -> RunInf
 
 async fn engine() -> (Engine, TempDir) {
     let data = tempfile::tempdir().unwrap();
-    let mut config = common::config(data.path());
-    let single = config.runner.with_file_name("libocb_parry_f32.so");
-    assert!(single.is_file(), "{} is missing: run `cargo build --release` first", single.display());
-    config.plugins.push(single);
-    (Engine::open(config).await.unwrap(), data)
+    (Engine::open(common::config(data.path())).await.unwrap(), data)
 }
 
 fn request(algorithm: &str, measure: Measure) -> HeatmapRequest {

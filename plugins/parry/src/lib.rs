@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
-pub use ocb_methods::parry::double::Parry;
+pub use ocb_methods::parry::double::Parry as Double;
+pub use ocb_methods::parry::single::Parry as Single;
 
-opencollbench_plugin::export!(Parry: distance contacts counts);
+opencollbench_plugin::export!(Double: distance contacts counts, Single: distance contacts counts);

@@ -5,7 +5,7 @@
 #[macro_use]
 mod support;
 
-use ocb_parry::Parry;
+use ocb_parry::Double as Parry;
 use opencollbench_plugin::{Collision, Pose};
 use support::contestant::Terms;
 use support::{Loaded, Scene, known_set};

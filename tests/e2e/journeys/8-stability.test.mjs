@@ -9,7 +9,7 @@ import { built, ocb, startService } from '../service.mjs'
 import { visitor } from '../visitor.mjs'
 
 const METHODS = ['parry-f32', 'box-tree']
-const options = ['libocb_parry_f32.so', 'libocb_box_tree.so'].flatMap((name) => ['--plugins', built(name)])
+const options = ['libocb_parry.so', 'libocb_box_tree.so'].flatMap((name) => ['--plugins', built(name)])
 const data = mkdtempSync(join(tmpdir(), 'ocb-stability-'))
 let service
 

@@ -97,7 +97,7 @@ const METHODS: &str = "ocb-methods";
 const LANES: &str = "ocb-lanes";
 /// The methods of ocb-fast and simdop, which ocb-auto chooses from.
 const WIDE: &str = "ocb-wide";
-const PLUGINS: [&str; 17] = [
+const PLUGINS: [&str; 16] = [
     "ocb-auto",
     "ocb-box-tree",
     "ocb-brute-force",
@@ -109,7 +109,6 @@ const PLUGINS: [&str; 17] = [
     "ocb-inner-spheres",
     "ocb-obb-tree",
     "ocb-parry",
-    "ocb-parry-f32",
     "ocb-restricted-box-tree",
     "ocb-rss-tree",
     "ocb-simdop",

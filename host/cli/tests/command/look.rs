@@ -20,7 +20,7 @@ fn plugins_are_listed_without_touching_the_data_folder() {
 fn our_own_plugins_pass_the_check() {
     let desk = Desk::new();
     let folder = Path::new(env!("CARGO_BIN_EXE_ocb")).parent().expect("a folder");
-    for plugin in ["libocb_box_tree.so", "libocb_brute_force.so", "libocb_parry.so"] {
+    for plugin in ["libocb_box_tree.so", "libocb_brute_force.so", "libocb_fast.so"] {
         let file = folder.join(plugin).display().to_string();
         let report = desk.json(&["plugin", "check", "--quick", &file]);
         assert_eq!(report["passed"], true, "{report:#}");

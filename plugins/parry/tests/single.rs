@@ -3,7 +3,7 @@
 #[path = "../../lib/triangles/tests/support/mod.rs"]
 mod support;
 
-use ocb_parry_f32::Parry;
+use ocb_parry::Single as Parry;
 use opencollbench_plugin::{Algorithm, Capability, Collision, Counts};
 use support::{Dice, Loaded, Scene, Soup};
 
