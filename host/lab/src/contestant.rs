@@ -7,6 +7,7 @@ mod describe;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use ocb_core::query::Query;
 use ocb_sandbox::{Launcher, Policy, Profile, given};
 
 use crate::model::AlgorithmInfo;
@@ -63,6 +64,14 @@ impl Runner {
         let plugin_sha256 = Some(contestant.info.plugin_sha256.clone());
         let trusted = contestant.trusted;
         Launcher::new(self.program.clone(), Policy { trusted, plugin_sha256, profile: self.profile, ..policy })
+    }
+
+    /// The kinds of query that an algorithm answers with its settings: it is asked for them in the jail. What fails there is
+    /// told when it is measured.
+    pub fn queries(&self, contestant: &Contestant) -> Vec<Query> {
+        let launcher = self.launcher(contestant, Policy { threads: contestant.threads, ..Policy::default() });
+        let answered = launcher.queries(&contestant.file, &contestant.algorithm, &contestant.settings);
+        answered.unwrap_or_else(|_| contestant.info.queries.clone())
     }
 
     /// A plugin that lies beside the runner was built and installed with it. Links are followed: a link there is no plugin of ours.

@@ -3,10 +3,12 @@
 pub mod brought;
 pub mod sql;
 
+use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, RwLockReadGuard};
 
+use ocb_core::query::Query;
 use ocb_lab::contestant::{Contestant, Runner, plugin_hash};
 use ocb_sandbox::Profile;
 
@@ -21,11 +23,16 @@ use brought::AllBrought;
 /// takes every algorithm; with thirty installed, that can take an hour.
 const USUAL: [&str; 4] = ["box-tree", "brute-force", "ocb-fast", "parry"];
 
+/// So many algorithms with settings are remembered.
+const MAX_KNOWN: usize = 1000;
+
 /// The known plugins.
 pub struct Registry {
     runner: Runner,
     contestants: Vec<Arc<Contestant>>,
     brought: RwLock<AllBrought>,
+    /// What algorithms answer with their settings, by plugin file and name.
+    queries: Mutex<HashMap<(String, String), Vec<Query>>>,
     problems: Vec<String>,
 }
 
@@ -37,6 +44,7 @@ impl Registry {
             runner: Runner { program: config.runner.clone(), profile: config.profile },
             contestants: Vec::new(),
             brought: RwLock::default(),
+            queries: Mutex::default(),
             problems: Vec::new(),
         };
         if !config.runner.is_file() {
@@ -130,6 +138,26 @@ impl Registry {
             (Some(plain), Some(settings)) => Ok(Some(Arc::new(plain.with_settings(settings)?))),
             (found, _) => Ok(found),
         }
+    }
+
+    /// The kinds of query that an algorithm answers with its settings; a plugin may have to be asked.
+    pub async fn queries(&self, contestant: &Arc<Contestant>) -> Result<Vec<Query>> {
+        if contestant.settings.is_empty() {
+            return Ok(contestant.info.queries.clone());
+        }
+        let name = (contestant.info.plugin_sha256.clone(), contestant.info.id.clone());
+        let known = || -> MutexGuard<'_, _> { self.queries.lock().unwrap_or_else(PoisonError::into_inner) };
+        if let Some(queries) = known().get(&name) {
+            return Ok(queries.clone());
+        }
+        let (runner, asked) = (self.runner.clone(), contestant.clone());
+        let queries = blocking(move || Ok(runner.queries(&asked))).await?;
+        let mut known = known();
+        if known.len() >= MAX_KNOWN {
+            known.clear();
+        }
+        known.insert(name, queries.clone());
+        Ok(queries)
     }
 
     /// The algorithms of the plugin file with this hash that are offered here, to whomever.

@@ -64,7 +64,7 @@ pub async fn check(
         );
     }
     let configurations = set_size(spec, store, blobs).await?;
-    let contestants = contestants(spec, registry, viewer)?;
+    let contestants = contestants(spec, registry, viewer).await?;
     check_partial(spec, contestants.len())?;
     let object_a = objects.info_for(&spec.object_a, viewer).await?;
     let object_b = match &spec.object_b {
@@ -144,7 +144,7 @@ pub async fn set_size(spec: &RunSpec, store: &Store, blobs: &Blobs) -> Result<u6
 const ALL: &str = "all";
 
 /// The named algorithms, each once; without names the usual ones that answer the question.
-fn contestants(spec: &RunSpec, registry: &Registry, viewer: Option<&str>) -> Result<Vec<Arc<Contestant>>> {
+async fn contestants(spec: &RunSpec, registry: &Registry, viewer: Option<&str>) -> Result<Vec<Arc<Contestant>>> {
     if spec.semantics == Semantics::Solid && spec.query == Query::CollisionAll {
         return Err(EngineError::Invalid(
             "All contacts are pairs of intersecting triangles, and an object inside another one has none; for solid \
@@ -170,7 +170,8 @@ fn contestants(spec: &RunSpec, registry: &Registry, viewer: Option<&str>) -> Res
         let contestant = registry.choose(name, viewer)?.ok_or_else(|| {
             EngineError::Invalid(format!("There is no algorithm {name:?}; available for {question}: {}.", there_are()))
         })?;
-        if !answers(&contestant.info, spec) {
+        // With its settings it may answer less than without.
+        if !answers(&contestant.info, spec) || !registry.queries(&contestant).await?.contains(&spec.query) {
             return Err(EngineError::Invalid(format!(
                 "The algorithm {name:?} does not answer {question}; these do: {}.",
                 there_are()
