@@ -38,6 +38,8 @@ choice! {
         BvTests,
         /// Primitive tests per query.
         PrimitiveTests,
+        /// Primitive tests per query in which the triangles of a vertex take part.
+        TriangleTests,
         /// Configurations with their witness point at a vertex.
         Density,
         /// Share of wrong answers.

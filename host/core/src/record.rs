@@ -99,6 +99,15 @@ impl Verdict {
     }
 }
 
+/// In how many primitive tests each triangle took part.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TriangleTests {
+    /// The counted queries.
+    pub queries: u32,
+    /// One number per triangle of A, and of B, over all of them.
+    pub tests: [Vec<u32>; 2],
+}
+
 /// One algorithm on one configuration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {

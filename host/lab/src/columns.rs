@@ -8,6 +8,7 @@ mod csv;
 mod ipc;
 mod records;
 mod sets;
+mod triangle_tests;
 mod truths;
 
 use std::collections::HashMap;
@@ -29,6 +30,7 @@ pub use csv::csv;
 pub use ipc::{Numbers, stream};
 pub use records::{RecordColumns, RecordsOf, read_records, records_parquet};
 pub use sets::{SetOf, read_poses, read_set, set_parquet, set_versions};
+pub use triangle_tests::{read_triangle_tests, triangle_tests_parquet};
 pub use truths::{contacts_parquet, truths_parquet};
 
 /// Version of the columns; grows when a column changes its meaning.

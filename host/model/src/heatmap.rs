@@ -15,6 +15,8 @@ pub enum Measure {
     BvTests,
     /// Primitive tests per query.
     PrimitiveTests,
+    /// In how many primitive tests a triangle takes part, per query; a vertex shows the statistic over its triangles.
+    TriangleTests,
     /// How many configurations have their witness point on a triangle of the vertex.
     Density,
     /// Share of the answers that are wrong.
@@ -43,19 +45,20 @@ impl Measure {
         match self {
             Self::Time => "ns",
             Self::BvTests | Self::PrimitiveTests => "tests",
+            Self::TriangleTests => "tests per query",
             Self::Density => "configurations",
             Self::DistanceError => "u S",
             Self::Wrong | Self::Missed | Self::FalseAlarms | Self::Flips | Self::Disagreement => "share",
         }
     }
 
-    /// The column of a record that it shows; density shows none.
+    /// The column of a record that it shows; density and the tests per triangle show none.
     pub fn column(self) -> Option<Column> {
         Some(match self {
             Self::Time => Column::Time,
             Self::BvTests => Column::BvTests,
             Self::PrimitiveTests => Column::PrimitiveTests,
-            Self::Density => return None,
+            Self::Density | Self::TriangleTests => return None,
             Self::Wrong => Column::Wrong,
             Self::Missed => Column::Missed,
             Self::FalseAlarms => Column::FalseAlarm,
@@ -121,13 +124,13 @@ impl HeatmapRequest {
         }
     }
 
-    /// With what the measure leaves no choice of: a share is a mean, and of failures none is dropped as an outlier.
+    /// With what the measure leaves no choice of: a share is a mean, and of failures and counts none is dropped as an outlier.
     pub fn settled(&self) -> Self {
         let mut settled = self.clone();
         if self.measure.is_share() {
             settled.statistic = Statistic::Mean;
         }
-        if self.measure.is_share() || self.measure == Measure::DistanceError {
+        if self.measure.is_share() || matches!(self.measure, Measure::DistanceError | Measure::TriangleTests) {
             settled.outliers = Outliers::Keep;
         }
         settled
@@ -145,7 +148,7 @@ impl HeatmapRequest {
 pub struct Heatmap {
     /// What is shown: what was asked, but for what the measure leaves no choice of.
     pub request: HeatmapRequest,
-    /// Unit of the values (`ns`, `tests`, `configurations`, `share`, `u S`).
+    /// Unit of the values (`ns`, `tests`, `tests per query`, `configurations`, `share`, `u S`).
     pub unit: String,
     /// One per vertex, in the object's vertex order; null where there is none.
     pub values: Vec<Option<f64>>,

@@ -72,6 +72,9 @@ impl Inner {
 
     /// The map of one algorithm, before anything is subtracted.
     async fn map_of(&self, run: &str, algorithm: &str, request: &HeatmapRequest) -> Result<(Heatmap, Arc<Mesh>)> {
+        if request.measure == Measure::TriangleTests {
+            return self.triangle_map(run, algorithm, request).await;
+        }
         let row = self.run_row(run).await?;
         let set_blob = row.set_blob.clone().ok_or_else(|| not_yet(run))?;
         let (mesh, map) = self.vertex_map(&row, &set_blob, request.side).await?;
@@ -102,6 +105,45 @@ impl Inner {
         })
         .await?;
         Ok((heatmap, mesh))
+    }
+
+    /// The map of the primitive tests of each triangle.
+    async fn triangle_map(&self, run: &str, algorithm: &str, request: &HeatmapRequest) -> Result<(Heatmap, Arc<Mesh>)> {
+        if request.selection.is_some() {
+            let sentence = "Tests per triangle are counted over all configurations; leave out the selection.";
+            return Err(EngineError::Invalid(sentence.into()));
+        }
+        let row = self.run_row(run).await?;
+        let [a, b] = self.both_meshes(&row).await?;
+        let (side, mesh) = if request.side == Side::A { (0, a) } else { (1, b) };
+        let parquet = self.triangle_tests_parquet(run, algorithm).await?;
+        let (request, shown) = (request.clone(), mesh.clone());
+        let heatmap = blocking(move || {
+            let counted = columns::read_triangle_tests(&parquet)?;
+            let queries = f64::from(counted.queries.max(1));
+            let values: Vec<f64> = counted.tests[side].iter().map(|tests| f64::from(*tests) / queries).collect();
+            if values.len() != shown.triangles().len() {
+                return Err(EngineError::fault("Reading tests per triangle failed", "they are of another object"));
+            }
+            // Each triangle assigns its value to its own vertices.
+            let map = VertexMap::new(&shown, &(0..values.len() as u32).collect::<Vec<_>>());
+            let heatmap = aggregate(&map, Some(&values), None, request, 0);
+            Ok(Heatmap { n: counted.queries, ..heatmap })
+        })
+        .await?;
+        Ok((heatmap, mesh))
+    }
+
+    /// In how many primitive tests each triangle took part, as it is stored.
+    pub async fn triangle_tests_parquet(&self, run: &str, algorithm: &str) -> Result<Vec<u8>> {
+        let (stored, _) = self.stored_result(run, algorithm).await?;
+        let blob = stored.triangle_tests.ok_or_else(|| {
+            EngineError::NotFound(format!(
+                "The algorithm {algorithm:?} has no tests per triangle in this run: it does not count them, or the run is \
+                 of a version that did not."
+            ))
+        })?;
+        self.blobs.get(&blob).await
     }
 
     /// Which configurations each vertex hears of.

@@ -99,6 +99,7 @@ fn migrations() -> Migrator {
         one(22, "grants", include_str!("../migrations/0022_grants.sql")),
         one(23, "devices", include_str!("../migrations/0023_devices.sql")),
         one(24, "waiting", include_str!("../migrations/0024_waiting.sql")),
+        one(25, "triangle_tests", include_str!("../migrations/0025_triangle_tests.sql")),
     ])
 }
 

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use ocb_core::configuration::{Class, Method, Separation};
 use ocb_core::statistics::{Outliers, Statistic};
+use ocb_lab::columns::read_triangle_tests;
 use ocb_service::model::{
     ChartKind, ChartRequest, CheckVerdict, Ecdf, HeatmapRequest, Measure, OutcomeName, Page, RunSpec, StageKind, State,
 };
@@ -65,6 +66,20 @@ async fn a_run_goes_from_object_to_heatmap() {
     assert_eq!(longest.range.unwrap()[1], times.iter().copied().fold(0.0, f64::max));
     assert_eq!(longest.values.len(), engine.mesh(&run.spec.object_a).await.unwrap().positions().len());
     assert_eq!((longest.n, longest.unit.as_str()), (set.configurations, "ns"));
+    // Each primitive test counts for one triangle of A and one of B.
+    let counted = read_triangle_tests(&engine.triangle_tests_parquet(&run.id, "box-tree").await.unwrap()).unwrap();
+    let tests_mean = run.results.iter().find(|r| r.algorithm == "box-tree").unwrap().primitive_tests_mean.unwrap();
+    assert_eq!(counted.queries, set.configurations);
+    for of in &counted.tests {
+        let all = of.iter().map(|tests| f64::from(*tests)).sum::<f64>();
+        assert!((all / f64::from(counted.queries) - tests_mean).abs() < 1e-9 * tests_mean, "{all} and {tests_mean}");
+    }
+    let tests = request("box-tree", Measure::TriangleTests, Statistic::Max);
+    let map = engine.heatmap(&run.id, &tests).await.unwrap();
+    let most = f64::from(*counted.tests[0].iter().max().unwrap()) / f64::from(counted.queries);
+    assert_eq!((map.range.unwrap()[1], map.n, map.unit.as_str()), (most, set.configurations, "tests per query"));
+    let selected = HeatmapRequest { selection: Some("time in [0, 1s]".into()), ..tests };
+    assert!(matches!(engine.heatmap(&run.id, &selected).await, Err(EngineError::Invalid(_))));
     let ecdf = engine.ecdf(&run.id, "parry", None).await.unwrap();
     assert_eq!((ecdf.n, ecdf.share.last().copied()), (set.configurations, Some(1.0)));
     a_selection_has_its_own_charts(&engine, &run.id, &ecdf).await;

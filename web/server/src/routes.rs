@@ -96,6 +96,7 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(records::show_ecdf))
         .routes(routes!(records::records_parquet))
         .routes(routes!(records::records_csv))
+        .routes(routes!(records::triangle_tests_parquet))
         .routes(routes!(records::configurations_parquet))
         .routes(routes!(records::repro_zip))
         .routes(routes!(citations::cite_run))

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use ocb_core::colormap::{Colormap, Scale};
 use ocb_core::statistics::{Outliers, Statistic};
-use ocb_service::Engine;
 use ocb_service::model::{AlgorithmResult, HeatmapRequest, Measure, RunInfo};
+use ocb_service::{Engine, EngineError};
 
 use crate::failure::{Failure, Result};
 use crate::output;
@@ -26,6 +26,11 @@ pub async fn write(engine: &Engine, run: &RunInfo, folder: &Path) -> Result<Vec<
     }
     for AlgorithmResult { algorithm, .. } in run.results.iter().filter(|result| result.n > 0) {
         keep(format!("{algorithm}.parquet"), engine.records_parquet(&run.id, algorithm).await?)?;
+        // Not every algorithm counts.
+        match engine.triangle_tests_parquet(&run.id, algorithm).await {
+            Err(EngineError::NotFound(_)) => {}
+            tests => keep(format!("{algorithm}.triangles.parquet"), tests?)?,
+        }
         keep(format!("{algorithm}.csv"), engine.records_csv(&run.id, algorithm).await?)?;
         let request = HeatmapRequest::new(algorithm, Measure::Time, Statistic::Median, Outliers::PerVertex);
         let (colormap, scale) = (Colormap::default(), Scale::default());

@@ -35,7 +35,14 @@ fn a_run_gives_a_table_and_its_files() {
     }
     assert!(ended.stderr.contains("configurations: "), "progress in plain lines: {}", ended.stderr);
 
-    for file in ["configurations.parquet", "box-tree.parquet", "box-tree.csv", "box-tree.glb", "brute-force.ply"] {
+    for file in [
+        "configurations.parquet",
+        "box-tree.parquet",
+        "box-tree.triangles.parquet",
+        "box-tree.csv",
+        "box-tree.glb",
+        "brute-force.ply",
+    ] {
         assert!(out.join(file).metadata().is_ok_and(|facts| facts.len() > 100), "{file}");
     }
     let stored = std::fs::read_to_string(out.join("run.json")).expect("run.json");

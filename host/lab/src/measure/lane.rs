@@ -8,7 +8,7 @@ use ocb_core::configuration::Placed;
 use ocb_core::instance::{AskedAs, Instance};
 use ocb_core::oracle::Pair;
 use ocb_core::query::{Answer, Counters, Query, Semantics};
-use ocb_core::record::{Record, Verdict};
+use ocb_core::record::{Record, TriangleTests, Verdict};
 use ocb_core::statistics::Statistic;
 use ocb_core::units::Tally;
 use ocb_core::validation::{Judged, Precision, Terms, judge};
@@ -38,6 +38,7 @@ pub struct Lane {
     cells: Vec<Cell>,
     own: usize,
     unjudged: Vec<(u32, AskedAs, Answer)>,
+    triangle_tests: Option<TriangleTests>,
     passes: Vec<PassFacts>,
     /// What the process under way was asked undisturbed, with the times.
     asked: Vec<(u32, f64)>,
@@ -111,6 +112,8 @@ pub struct Measured {
     pub contestant: Arc<Contestant>,
     /// In the order of the set; only what was reached.
     pub records: Vec<Record>,
+    /// What it counted for each triangle, where that adds up.
+    pub triangle_tests: Option<TriangleTests>,
     /// Of every control the gravest verdict; absent where it was not asked.
     pub controls: Vec<Option<Verdict>>,
     /// Configurations in the set.
@@ -152,6 +155,7 @@ impl Lane {
             cells: slack.iter().map(|&slack| Cell { slack, ..Cell::default() }).collect(),
             own,
             unjudged: Vec::new(),
+            triangle_tests: None,
             asked: Vec::new(),
             sequences: Vec::new(),
             set_ups: Vec::new(),
@@ -238,6 +242,11 @@ impl Lane {
         self.cells[configuration as usize].counters = counters;
         self.done += 1;
         self.answered(configuration, AskedAs { process: None, instance: Instance::default() }, answer);
+    }
+
+    /// The untimed pass is over: what it counted for each triangle.
+    pub fn end_counting(&mut self, queries: usize, tests: Option<[Vec<u32>; 2]>) {
+        self.triangle_tests = tests.map(|tests| TriangleTests { queries: queries as u32, tests });
     }
 
     /// The answer that was judged in an earlier pass needs no second look; every other one does.
@@ -327,6 +336,7 @@ impl Lane {
         Measured {
             budget_limited: self.outcome.is_none() && self.cut,
             contestant: self.contestant,
+            triangle_tests: self.triangle_tests,
             records,
             controls,
             of,

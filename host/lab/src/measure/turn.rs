@@ -116,7 +116,9 @@ impl Turn<'_> {
         let begun = Instant::now();
         let mut way = UnderWay { begun, reported: begun, done: lane.done, allowance: self.allowance(lane) };
         let (reached, steal) = if self.pass == Pass::Counting {
-            (self.count(&mut session, lane, &order, &mut way), 0.0)
+            let reached = self.count(&mut session, lane, &order, &mut way);
+            lane.end_counting(reached, session.triangle_tests());
+            (reached, 0.0)
         } else {
             self.time(&mut session, lane, &order, &mut way)
         };

@@ -77,6 +77,12 @@ impl Engine {
             let algorithm = &stored.result.algorithm;
             let records = self.records_parquet(id, algorithm).await?;
             packer.add(&format!("{folder}/{}.parquet", plain(algorithm)), &records)?;
+            if let Some(tests) = &stored.triangle_tests {
+                packer.add(
+                    &format!("{folder}/{}.triangles.parquet", plain(algorithm)),
+                    &self.inner.blobs.get(tests).await?,
+                )?;
+            }
         }
         packer.json(&format!("{folder}/run.json"), &run)
     }

@@ -113,6 +113,8 @@ pub(crate) async fn take(connection: &mut AnyConnection, what: &Belongings) -> R
         for text in ["DELETE FROM run_events WHERE run_id = $1", "DELETE FROM run_stages WHERE run_id = $1"] {
             sqlx::query(text).bind(id).execute(&mut *connection).await?;
         }
+        let tests = "UPDATE results SET position = position WHERE run_id = $1 RETURNING triangle_tests";
+        files.extend(column(&mut *connection, tests, id).await?);
         let records = "DELETE FROM results WHERE run_id = $1 RETURNING records";
         files.extend(column(&mut *connection, records, id).await?);
         files.extend(column(&mut *connection, "DELETE FROM runs WHERE id = $1 RETURNING set_blob", id).await?);
@@ -179,15 +181,16 @@ async fn forget(connection: &mut AnyConnection, sha256: &str) -> Result<Option<u
          AND NOT EXISTS (SELECT 1 FROM objects WHERE blob = $2) \
          AND NOT EXISTS (SELECT 1 FROM sets WHERE blob = $3) \
          AND NOT EXISTS (SELECT 1 FROM runs WHERE set_blob = $4 OR spec LIKE $5) \
-         AND NOT EXISTS (SELECT 1 FROM results WHERE records = $6) \
-         AND NOT EXISTS (SELECT 1 FROM submissions WHERE blob = $7) \
-         AND NOT EXISTS (SELECT 1 FROM advice WHERE papers LIKE $8) RETURNING bytes",
+         AND NOT EXISTS (SELECT 1 FROM results WHERE records = $6 OR triangle_tests = $7) \
+         AND NOT EXISTS (SELECT 1 FROM submissions WHERE blob = $8) \
+         AND NOT EXISTS (SELECT 1 FROM advice WHERE papers LIKE $9) RETURNING bytes",
     )
     .bind(sha256)
     .bind(sha256)
     .bind(sha256)
     .bind(sha256)
     .bind(&named)
+    .bind(sha256)
     .bind(sha256)
     .bind(sha256)
     .bind(&named)

@@ -19,6 +19,7 @@ impl Store {
         let mut files = BTreeSet::new();
         for thing in &what.runs {
             files.extend(self.texts("SELECT records FROM results WHERE run_id = $1", &thing.id).await?);
+            files.extend(self.texts("SELECT triangle_tests FROM results WHERE run_id = $1", &thing.id).await?);
             files.extend(self.texts("SELECT set_blob FROM runs WHERE id = $1", &thing.id).await?);
         }
         for thing in &what.objects {
@@ -55,10 +56,11 @@ impl Store {
         let named = format!("%\"{sha256}\"%");
         let users = "SELECT id FROM objects WHERE blob = $1 \
                      UNION SELECT id FROM runs WHERE set_blob = $2 OR spec LIKE $3 \
-                     UNION SELECT run_id FROM results WHERE records = $4 \
-                     UNION SELECT id FROM submissions WHERE blob = $5 \
-                     UNION SELECT id FROM advice WHERE papers LIKE $6";
-        let query = sqlx::query_scalar(users).bind(sha256).bind(sha256).bind(&named).bind(sha256).bind(sha256);
+                     UNION SELECT run_id FROM results WHERE records = $4 OR triangle_tests = $5 \
+                     UNION SELECT id FROM submissions WHERE blob = $6 \
+                     UNION SELECT id FROM advice WHERE papers LIKE $7";
+        let query = sqlx::query_scalar(users).bind(sha256).bind(sha256).bind(&named);
+        let query = query.bind(sha256).bind(sha256).bind(sha256);
         Ok(query.bind(&named).fetch_all(&self.pool).await?)
     }
 

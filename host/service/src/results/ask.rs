@@ -56,6 +56,12 @@ impl Engine {
         self.inner.records_csv(run, algorithm).await
     }
 
+    /// In how many primitive tests of one algorithm each triangle took part, as Parquet.
+    #[boxed]
+    pub async fn triangle_tests_parquet(&self, run: &str, algorithm: &str) -> Result<Vec<u8>> {
+        self.inner.triangle_tests_parquet(run, algorithm).await
+    }
+
     /// The run's configuration set with its truth as Parquet.
     #[boxed]
     pub async fn configurations_parquet(&self, run: &str) -> Result<Vec<u8>> {

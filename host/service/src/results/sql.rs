@@ -12,11 +12,16 @@ pub struct StoredResult {
     pub result: AlgorithmResult,
     /// Blob of its records; absent when nothing was measured.
     pub records: Option<String>,
+    /// Blob of its tests per triangle; absent when they were not counted.
+    pub triangle_tests: Option<String>,
     /// SHA-256 of the plugin file that was measured.
     pub plugin_sha256: String,
     /// Wall seconds of one query with everything around it, for estimates.
     pub seconds_per_query: Option<f64>,
 }
+
+/// Result, records, tests per triangle, plugin file and seconds of a query, as they are stored.
+type ResultRow = (String, Option<String>, Option<String>, String, Option<f64>);
 
 impl Store {
     /// Keeps the result of one algorithm; a repeated attempt replaces the earlier one.
@@ -30,10 +35,10 @@ impl Store {
     ) -> Result<()> {
         sqlx::query(
             "INSERT INTO results (run_id, algorithm, position, plugin_sha256, result, records, \
-             seconds_per_query, triangles, query, created_us) \
-             VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10) \
+             triangle_tests, seconds_per_query, triangles, query, created_us) \
+             VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11) \
              ON CONFLICT (run_id, algorithm) DO UPDATE SET plugin_sha256 = excluded.plugin_sha256, \
-             result = excluded.result, records = excluded.records, \
+             result = excluded.result, records = excluded.records, triangle_tests = excluded.triangle_tests, \
              seconds_per_query = excluded.seconds_per_query, created_us = excluded.created_us",
         )
         .bind(run)
@@ -42,6 +47,7 @@ impl Store {
         .bind(&stored.plugin_sha256)
         .bind(to_json(&stored.result)?)
         .bind(stored.records.as_deref())
+        .bind(stored.triangle_tests.as_deref())
         .bind(stored.seconds_per_query)
         .bind(triangles as i64)
         .bind(to_json(&query)?)
@@ -53,17 +59,17 @@ impl Store {
 
     /// The results of a run in the order of its algorithms.
     pub async fn results(&self, run: &str) -> Result<Vec<StoredResult>> {
-        let rows: Vec<(String, Option<String>, String, Option<f64>)> = sqlx::query_as(
-            "SELECT result, records, plugin_sha256, seconds_per_query FROM results WHERE run_id = $1 \
+        let rows: Vec<ResultRow> = sqlx::query_as(
+            "SELECT result, records, triangle_tests, plugin_sha256, seconds_per_query FROM results WHERE run_id = $1 \
              ORDER BY position",
         )
         .bind(run)
         .fetch_all(&self.pool)
         .await?;
         rows.into_iter()
-            .map(|(result, records, plugin_sha256, seconds_per_query)| {
+            .map(|(result, records, triangle_tests, plugin_sha256, seconds_per_query)| {
                 let result = from_json::<AlgorithmResult>(&result)?.renamed();
-                Ok(StoredResult { result, records, plugin_sha256, seconds_per_query })
+                Ok(StoredResult { result, records, triangle_tests, plugin_sha256, seconds_per_query })
             })
             .collect()
     }

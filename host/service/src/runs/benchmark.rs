@@ -16,7 +16,7 @@ use ocb_core::sampling::controls::{self, Control};
 use ocb_lab::contestant::Contestant;
 use tokio::runtime::Handle;
 
-use crate::columns::{RecordsOf, records_parquet};
+use crate::columns::{RecordsOf, records_parquet, triangle_tests_parquet};
 use crate::configurations::{self, ConfigurationFile, Gauge};
 use crate::engine::Inner;
 use crate::machine::{MakingWay, MeasuringRight};
@@ -370,18 +370,20 @@ impl Bench<'_> {
             set_sha256: &info.sha256,
         };
         let _keeping = self.log.wait(self.inner.blobs.keeping());
-        let records = if measured.records.is_empty() {
-            None
-        } else {
-            let bytes = records_parquet(&of, &measured.records)?;
+        let keep = |bytes: Vec<u8>| -> Result<String> {
             let length = bytes.len();
             let blob = self.log.wait(self.inner.blobs.put(bytes))?;
             self.log.wait(self.inner.store.add_blob(&blob, length, "application/vnd.apache.parquet"))?;
-            Some(blob)
+            Ok(blob)
         };
+        let measured_any = !measured.records.is_empty();
+        let records = measured_any.then(|| keep(records_parquet(&of, &measured.records)?)).transpose()?;
+        let counted = measured.triangle_tests.as_ref().filter(|_| measured_any);
+        let triangle_tests = counted.map(|counted| keep(triangle_tests_parquet(&of, counted)?)).transpose()?;
         let stored = StoredResult {
             result,
             records,
+            triangle_tests,
             plugin_sha256: algorithm.plugin_sha256.clone(),
             seconds_per_query: measured.seconds_per_query,
         };

@@ -49,7 +49,7 @@ export const DEFAULTS: Readonly<ExplorerState> = {
 
 /** Short words in the link for the names of the API. */
 const MEASURES: Record<Measure, string> = {
-  time: 't', bv_tests: 'bv', primitive_tests: 'prim', density: 'n', wrong: 'wrong',
+  time: 't', bv_tests: 'bv', primitive_tests: 'prim', triangle_tests: 'tri', density: 'n', wrong: 'wrong',
   missed: 'fn', false_alarms: 'fp', distance_error: 'err', flips: 'flip', disagreement: 'dis',
 }
 const STATISTICS: Record<Statistic, string> = {

@@ -1,7 +1,7 @@
 import { computed, type ComputedRef } from 'vue'
 import type { Heatmap } from '../api/types'
 import { count, value as withUnit } from '../ui/format'
-import { FAILURE, isShare, MEASURE, STATISTIC } from '../ui/words'
+import { FAILURE, isSampled, isShare, MEASURE, STATISTIC } from '../ui/words'
 import { coverage, type Coverage } from './datum'
 import { histogram, sharedScale, sortedValues, type ColourScale, type ScaleKind } from './scale'
 import { differs, type ExplorerState } from './url-state'
@@ -36,8 +36,7 @@ export function useLegend(maps: ComputedRef<Heatmap[]>, state: ComputedRef<Explo
       n: Math.max(...maps.value.map(({ n }) => n)),
       range: [sorted.value[0] ?? 0, sorted.value.at(-1) ?? 0],
       bars: histogram(sorted.value, scale, BARS),
-      // The counts of a density are its values, and of failures one counts: few of them are no doubt about it.
-      coverage: measure === 'density' || measure in FAILURE ? { ...covered.value, few: 0 } : covered.value,
+      coverage: isSampled(measure) ? covered.value : { ...covered.value, few: 0 },
     }
   })
 }
@@ -55,6 +54,7 @@ export function legendName(state: ExplorerState): string {
   if (measure === 'density') return `Density: configurations with a witness point here${difference}`
   if (isShare(measure)) return `${MEASURE[measure]}, share${difference}`
   const name = STATISTIC[statistic]
+  if (measure === 'triangle_tests') return `Primitive tests per query in which a triangle takes part, ${name} at each vertex${difference}`
   const what =
     { time: 'time', bv_tests: 'BV tests', primitive_tests: 'primitive tests', distance_error: 'distance error' }[measure as string] ??
     MEASURE[measure]

@@ -5,6 +5,7 @@ export const MEASURE: Record<Measure, string> = {
   time: 'Time',
   bv_tests: 'BV tests',
   primitive_tests: 'Primitive tests',
+  triangle_tests: 'Tests per triangle',
   density: 'Density',
   wrong: 'Wrong answers',
   missed: 'Missed collisions',
@@ -52,6 +53,9 @@ export const FAILURE: Partial<Record<Measure, string>> = {
   flips: 'Share of the configurations whose equivalent instances (rotated, renumbered, scaled, swapped) got contradictory answers.',
   disagreement: 'Share of the other algorithms of this run whose answer contradicts this one’s.',
 }
+
+/** Do few values at a vertex make its value doubtful? Counts are exact, and of failures one counts. */
+export const isSampled = (measure: Measure): boolean => !(measure in FAILURE || measure === 'density' || measure === 'triangle_tests')
 
 /** Failures that are shares: a mean of zeros and ones. */
 export const isShare = (measure: Measure): boolean => measure in FAILURE && measure !== 'distance_error'

@@ -68,6 +68,22 @@ pub(crate) async fn records_parquet(
     Ok(download(PARQUET, &format!("{id}-{}.parquet", of.algorithm), bytes))
 }
 
+/// In how many primitive tests of the counted queries each triangle took part, as Parquet.
+#[utoipa::path(get, path = "/runs/{id}/triangles.parquet", tag = "results",
+    params(("id" = String, Path, description = "Run id"), OfAlgorithm),
+    responses(
+        (status = 200, description = "One row per triangle of A, then of B", body = [u8], content_type = "application/vnd.apache.parquet"),
+        (status = 404, description = "No such run, or no tests per triangle of this algorithm"),
+    ))]
+pub(crate) async fn triangle_tests_parquet(
+    State(app): State<App>,
+    Path(id): Path<String>,
+    Query(of): Query<OfAlgorithm>,
+) -> Result<Response> {
+    let bytes = app.engine.triangle_tests_parquet(&id, &of.algorithm).await?;
+    Ok(download(PARQUET, &format!("{id}-{}.triangles.parquet", of.algorithm), bytes))
+}
+
 /// The records of one algorithm as CSV with a header line.
 #[utoipa::path(get, path = "/runs/{id}/records.csv", tag = "results",
     params(("id" = String, Path, description = "Run id"), OfSelection),

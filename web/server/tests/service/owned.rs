@@ -57,8 +57,8 @@ async fn an_object_goes_with_what_was_made_with_it_and_with_no_file_of_others() 
     {
         gone(&owner, &path).await;
     }
-    // The run's set and records are gone, the object of the other and the other run are not.
-    assert_eq!(service.blobs(), before - 2);
+    // The run's set, records and tests per triangle are gone, the object of the other and the other run are not.
+    assert_eq!(service.blobs(), before - 3);
     other.bytes(&format!("/api/v1/objects/{theirs}/mesh.glb")).await;
     owner.bytes(&format!("/api/v1/runs/{unrelated}/records.parquet?algorithm=box-tree")).await;
     remove(&owner, &format!("/api/v1/runs/{unrelated}")).await;

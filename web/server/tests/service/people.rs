@@ -192,6 +192,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "get /runs/{id}/citation",
             "get /runs/{id}/repro.zip",
             "get /runs/{id}/records.csv",
+            "get /runs/{id}/triangles.parquet",
             "get /runs/{id}/records.parquet",
             "get /runs/{id}/selection",
             "get /runs/{id}/vertices/{vertex}",

@@ -88,8 +88,14 @@ async fn a_plugin_is_private_until_a_curator_publishes_it() {
     let run = author.start(&spec).await;
     follow(&author, &run, 0).await;
     assert_eq!(author.json(&format!("/api/v1/runs/{run}")).await["state"], "done");
-    let below =
-        ["", "/events", "/ecdf?algorithm=box-tree", "/records.csv?algorithm=box-tree", "/configurations.parquet"];
+    let below = [
+        "",
+        "/events",
+        "/ecdf?algorithm=box-tree",
+        "/records.csv?algorithm=box-tree",
+        "/triangles.parquet?algorithm=box-tree",
+        "/configurations.parquet",
+    ];
     for nobody in [&stranger, &other, &curator] {
         for rest in below {
             let hidden =

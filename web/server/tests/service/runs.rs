@@ -106,6 +106,12 @@ async fn check_numbers(guest: &Guest, path: &str, configurations: u64) {
     assert_eq!(media_type, "text/csv; charset=utf-8");
     let lines = String::from_utf8(csv).expect("text").lines().count() as u64;
     assert_eq!(lines, configurations + 1);
+
+    let tests = "algorithm=box-tree&measure=triangle_tests&statistic=mean";
+    let tests = guest.json(&format!("{path}/heatmap?{tests}")).await;
+    assert_eq!((&tests["unit"], &tests["n"]), (&"tests per query".into(), &configurations.into()));
+    let (parquet, media_type) = guest.bytes(&format!("{path}/triangles.parquet?algorithm=box-tree")).await;
+    assert!(parquet.starts_with(b"PAR1") && media_type == "application/vnd.apache.parquet");
 }
 
 async fn check_files(guest: &Guest, path: &str) {

@@ -125,6 +125,7 @@ pub(crate) fn result(algorithm: &str, n: u32) -> StoredResult {
             memory_bytes: Some(u64::from(u32::MAX) + 1),
         },
         records: None,
+        triangle_tests: None,
         plugin_sha256: "p".into(),
         seconds_per_query: Some(1e-6),
     }
