@@ -74,8 +74,9 @@ pub fn slice() -> Vec<Run> {
 pub const CYCLE: usize = 64;
 
 /// So many runs, every algorithm in turn under all conditions. The honest ones and those that disturb others are in every run, of
-/// the rest half: a campaign is there to see the honest ones often, and takes half of the time so.
-pub fn soak(runs: usize) -> Vec<Run> {
+/// the rest half: a campaign is there to see the honest ones often, and takes half of the time so. Of `only` these forgers all are
+/// in every run, so that their medians are known sooner.
+pub fn campaign(runs: usize, only: Option<&str>) -> Vec<Run> {
     let parts = [
         (Class::Us20, Question::Collision),
         (Class::Ns300, Question::Collision),
@@ -90,7 +91,11 @@ pub fn soak(runs: usize) -> Vec<Run> {
         let (part, turn) = (i % parts.len(), i / parts.len());
         let (class, question) = parts[part];
         let condition = Condition { one_cpu: turn % 2 == 1, busy: turn / 2 % 2 == 1 };
-        let algorithms = if class == Class::Ms7 { slow_ones() } else { half(turn / 4 % 2) };
+        let algorithms = match only {
+            Some(names) => chosen(names),
+            None if class == Class::Ms7 => slow_ones(),
+            None => half(turn / 4 % 2),
+        };
         Run {
             classes: vec![class],
             algorithms,
@@ -111,6 +116,14 @@ fn half(which: usize) -> Vec<&'static str> {
     chosen.map(|(_, name)| name).collect()
 }
 
+/// The honest ones and the forgers of a list with commas.
+fn chosen(names: &str) -> Vec<&'static str> {
+    let names: Vec<&str> = names.split(',').collect();
+    let unknown: Vec<_> = names.iter().filter(|name| !kit::all().contains(name)).collect();
+    assert!(unknown.is_empty(), "OCB_FORGERS_ONLY names no forgers: {unknown:?}");
+    kit::all().into_iter().filter(|name| kit::is_honest(name) || names.contains(name)).collect()
+}
+
 /// Enough of each kind where every question takes milliseconds.
 fn slow_ones() -> Vec<&'static str> {
     let some =
@@ -122,7 +135,7 @@ fn slow_ones() -> Vec<&'static str> {
 
 #[test]
 fn a_soak_reaches_every_algorithm_under_all_conditions() {
-    let runs = soak(CYCLE);
+    let runs = campaign(CYCLE, None);
     for name in kit::all() {
         for (one_cpu, busy) in [(false, false), (false, true), (true, false), (true, true)] {
             let condition = Condition { one_cpu, busy };
