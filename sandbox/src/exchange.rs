@@ -75,6 +75,7 @@ enum Shown<'a> {
 }
 
 /// The words of one question: 16 numbers for each pose, and whether B stands first.
+#[derive(Clone)]
 pub(crate) struct Poses([u64; 32], bool);
 
 impl From<&Presented> for Poses {
