@@ -16,7 +16,7 @@ use ocb_core::instance::{Instance, OTHER_UNITS, Presentation};
 use ocb_core::mesh::Mesh;
 use ocb_core::numbers::Numbers;
 use ocb_core::pose::Pose;
-use ocb_core::query::{Answer, Query, Semantics};
+use ocb_core::query::{Answer, Query};
 use ocb_core::statistics::quantile;
 use ocb_sandbox::{Launcher, PassFacts, PassPlan, Policy, Session, Trial, integrity};
 
@@ -69,8 +69,7 @@ type Process = (Vec<f64>, PassFacts);
 
 impl Bench {
     fn start(&self, plugin: &Path, algorithm: &str, mesh: &Mesh) -> Session {
-        let trial =
-            Trial { plugin, algorithm, mesh_a: mesh, mesh_b: None, parameters: &[], semantics: Semantics::Surface };
+        let trial = Trial::new(plugin, algorithm, mesh, None);
         self.launcher.start(&trial).expect("an honest plugin starts")
     }
 

@@ -7,7 +7,6 @@ use std::time::Instant;
 
 use nalgebra::Point3;
 use ocb_core::mesh::Mesh;
-use ocb_core::query::Semantics;
 use ocb_sandbox::{Launcher, Policy, Session, Trial};
 
 fn main() {
@@ -39,8 +38,7 @@ fn main() {
 fn begin(launcher: &Launcher, plugin: &Path, algorithm: &str) -> Session {
     let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.5]].map(Point3::from);
     let mesh = Mesh::new(corners.to_vec(), vec![[0, 1, 2], [2, 1, 3]]).expect("two triangles");
-    let trial =
-        Trial { plugin, algorithm, mesh_a: &mesh, mesh_b: None, parameters: &[], semantics: Semantics::Surface };
+    let trial = Trial::new(plugin, algorithm, &mesh, None);
     launcher.start(&trial).expect("it starts")
 }
 

@@ -47,6 +47,13 @@ pub struct Trial<'a> {
     pub semantics: Semantics,
 }
 
+impl<'a> Trial<'a> {
+    /// Surfaces, and every parameter at its default.
+    pub fn new(plugin: &'a Path, algorithm: &'a str, mesh_a: &'a Mesh, mesh_b: Option<&'a Mesh>) -> Self {
+        Self { plugin, algorithm, mesh_a, mesh_b, parameters: &[], semantics: Semantics::Surface }
+    }
+}
+
 impl Launcher {
     /// `runner` is the path of the `ocb-runner` binary.
     pub fn new(runner: PathBuf, policy: Policy) -> Self {

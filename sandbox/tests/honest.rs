@@ -4,7 +4,7 @@ mod common;
 
 use common::{apart, fixture, launcher, launcher_with, mesh, one_question, policy, start};
 use nalgebra::Point3;
-use ocb_core::query::{Answer, Counters, Query, Semantics};
+use ocb_core::query::{Answer, Counters, Query};
 use ocb_sandbox::{ClockChoice, ClockKind, Outcome, Policy, Trial};
 
 #[test]
@@ -42,14 +42,7 @@ fn answers_every_kind_of_question() {
 fn counts_in_a_pass_of_its_own_and_takes_parameters() {
     let (mesh, plugin) = (mesh(), fixture(&[]));
     let parameters = [("knob".to_string(), 42.0)];
-    let trial = Trial {
-        plugin: &plugin,
-        algorithm: "fixture",
-        mesh_a: &mesh,
-        mesh_b: Some(&mesh),
-        parameters: &parameters,
-        semantics: Semantics::Surface,
-    };
+    let trial = Trial { parameters: &parameters, ..Trial::new(&plugin, "fixture", &mesh, Some(&mesh)) };
     let mut session = launcher().start(&trial).unwrap();
     let (answer, counters) = session.count(Query::CollisionFirst, &apart(0.5)).unwrap();
     assert_eq!(answer, Answer::Collision { hit: true, pair: Some([0, 1]) });
@@ -154,14 +147,7 @@ fn the_floating_point_state_is_put_back() {
 fn unknown_names_are_load_errors_that_name_what_there_is() {
     let (mesh, plugin) = (mesh(), fixture(&[]));
     let start = |algorithm: &str, parameters: &[(String, f64)]| {
-        let trial = Trial {
-            plugin: &plugin,
-            algorithm,
-            mesh_a: &mesh,
-            mesh_b: None,
-            parameters,
-            semantics: Semantics::Surface,
-        };
+        let trial = Trial { parameters, ..Trial::new(&plugin, algorithm, &mesh, None) };
         launcher().start(&trial).err().unwrap()
     };
     let ending = start("other", &[]);

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use common::{apart, fixture, groups_of, launcher, mesh, start};
-use ocb_core::query::{Query, Semantics};
+use ocb_core::query::Query;
 use ocb_sandbox::{Killer, Outcome, Trial};
 
 fn trials() -> usize {
@@ -59,14 +59,7 @@ fn end_at_any_step(plugin: &std::path::Path, step: usize) {
         })
     };
     let begun = Instant::now();
-    let trial = Trial {
-        plugin,
-        algorithm: "fixture",
-        mesh_a: &mesh,
-        mesh_b: None,
-        parameters: &[],
-        semantics: Semantics::Surface,
-    };
+    let trial = Trial::new(plugin, "fixture", &mesh, None);
     let outcome = match launcher().start_with(&trial, &killer) {
         Ok(mut session) => {
             let asked = (0..50).find_map(|_| session.query(Query::CollisionFirst, &apart(0.5)).err());

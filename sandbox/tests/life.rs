@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use common::{alive, apart, fixture, groups_of, launcher, launcher_with, mesh, policy, start};
-use ocb_core::query::{Query, Semantics};
+use ocb_core::query::Query;
 use ocb_sandbox::{Killer, Launcher, Outcome, Phase, Policy, Trial};
 
 #[test]
@@ -51,14 +51,7 @@ fn a_build_can_be_cancelled() {
         })
     };
     let (mesh, plugin) = (mesh(), fixture(&["ATTACK=loop", "IN_BUILD"]));
-    let trial = Trial {
-        plugin: &plugin,
-        algorithm: "fixture",
-        mesh_a: &mesh,
-        mesh_b: None,
-        parameters: &[],
-        semantics: Semantics::Surface,
-    };
+    let trial = Trial::new(&plugin, "fixture", &mesh, None);
     let launcher = launcher_with(Policy { build_seconds: 60.0, ..policy() });
     let ending = launcher.start_with(&trial, &killer).err().unwrap();
     assert_eq!(ending.outcome, Outcome::Cancelled);

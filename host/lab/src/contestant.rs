@@ -7,8 +7,9 @@ mod describe;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use ocb_core::query::Query;
-use ocb_sandbox::{Launcher, Policy, Profile, given};
+use ocb_core::mesh::Mesh;
+use ocb_core::query::{Query, Semantics};
+use ocb_sandbox::{Launcher, Policy, Profile, Trial, given};
 
 use crate::model::AlgorithmInfo;
 use crate::{LabError, Result, sha256_hex};
@@ -45,6 +46,12 @@ impl Contestant {
     /// the declared order.
     pub fn with_settings(&self, settings: &str) -> Result<Self> {
         choice::with_settings(self, settings)
+    }
+
+    /// What a process is started for: this algorithm with its settings, on these objects; one object against itself when there
+    /// is no second.
+    pub fn trial<'a>(&'a self, a: &'a Mesh, b: Option<&'a Mesh>, semantics: Semantics) -> Trial<'a> {
+        Trial { parameters: &self.settings, semantics, ..Trial::new(&self.file, &self.algorithm, a, b) }
     }
 }
 

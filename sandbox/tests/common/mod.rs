@@ -68,14 +68,7 @@ pub fn upright(x: f64) -> Configuration {
 
 pub fn start(launcher: &Launcher, plugin: &Path) -> Result<Session, Ending> {
     let mesh = mesh();
-    launcher.start(&Trial {
-        plugin,
-        algorithm: "fixture",
-        mesh_a: &mesh,
-        mesh_b: None,
-        parameters: &[],
-        semantics: Semantics::Surface,
-    })
+    launcher.start(&Trial::new(plugin, "fixture", &mesh, None))
 }
 
 /// Starts the fixture, asks one question and ends it.

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use ocb_core::instance::Presented;
-use ocb_core::query::{Answer, Counters, Query, Semantics};
+use ocb_core::query::{Answer, Counters, Query};
 use ocb_sandbox::{Ending, Killer, Launcher, Outcome, PassPlan, Session, Trial, integrity};
 
 use super::Checking;
@@ -42,14 +42,7 @@ impl Checking<'_> {
         let Some(&query) = algorithm.queries.first().filter(|_| !self.is_stopped()) else { return Ok(()) };
         let scene = &suite()?.scenes[0];
         let id = &algorithm.id;
-        let trial = Trial {
-            plugin: file,
-            algorithm: id,
-            mesh_a: &scene.mesh_a,
-            mesh_b: None,
-            parameters: &[],
-            semantics: Semantics::Surface,
-        };
+        let trial = Trial::new(file, id, &scene.mesh_a, None);
         let mut heard = Vec::new();
         for i in 0..2 {
             match hear(launcher, &trial, query, scene, &self.term.killer(share(until, PARTS - i))) {

@@ -103,14 +103,7 @@ impl Checking<'_> {
                 seed,
                 process,
             );
-            let trial = Trial {
-                plugin: file,
-                algorithm: &algorithm.id,
-                mesh_a: shown.first(),
-                mesh_b: shown.second(),
-                parameters: &[],
-                semantics: Semantics::Surface,
-            };
+            let trial = Trial::new(file, &algorithm.id, shown.first(), shown.second());
             let mut session = match launcher.start_with(&trial, &self.term.killer(until)) {
                 Ok(session) => session,
                 Err(ending) if ending.outcome.ours() => return Err(LabError::Fault(ending.to_string())),

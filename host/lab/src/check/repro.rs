@@ -136,14 +136,7 @@ fn ask_once(
     [a, b]: [&Mesh; 2],
     configuration: &Configuration,
 ) -> Result<Option<Asked>> {
-    let trial = Trial {
-        plugin: file,
-        algorithm: &algorithm.id,
-        mesh_a: a,
-        mesh_b: Some(b),
-        parameters: &[],
-        semantics: Semantics::Surface,
-    };
+    let trial = Trial::new(file, &algorithm.id, a, Some(b));
     let fault = |outcome: &Outcome| LabError::Fault(outcome.to_string());
     let placed = truth(a, b, *configuration);
     // A plugin that dies of this question answers nothing, and it is another failure than the one that is looked for.

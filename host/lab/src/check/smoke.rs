@@ -72,14 +72,7 @@ impl Checking<'_> {
             Semantics::Surface => Smoke::surfaces()?,
             Semantics::Solid => Smoke::solids()?,
         };
-        let trial = Trial {
-            plugin: file,
-            algorithm: &algorithm.id,
-            mesh_a: &smoke.mesh_a,
-            mesh_b: smoke.mesh_b.as_deref(),
-            parameters: &[],
-            semantics,
-        };
+        let trial = Trial { semantics, ..Trial::new(file, &algorithm.id, &smoke.mesh_a, smoke.mesh_b.as_deref()) };
         let all = smoke.placed.len();
         let mut session = match launcher.start_with(&trial, &self.term.killer(until)) {
             Ok(session) => session,

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use ocb_core::instance::{Instance, Presentation};
 use ocb_core::oracle::Pair;
-use ocb_sandbox::{Killer, Observation, Outcome, PassPlan, Policy, Session, Trial};
+use ocb_sandbox::{Killer, Observation, Outcome, PassPlan, Policy, Session};
 
 use super::pace::Pace;
 use super::weave::{self, Piece, Reach};
@@ -210,14 +210,7 @@ impl Turn<'_> {
             trial_seconds: 4.0 * self.task.budget.as_secs_f64() + Policy::default().trial_seconds,
             ..Policy::default()
         };
-        let trial = Trial {
-            plugin: &contestant.file,
-            algorithm: &contestant.algorithm,
-            mesh_a: self.shown.first(),
-            mesh_b: self.shown.second(),
-            parameters: &contestant.settings,
-            semantics: self.task.semantics,
-        };
+        let trial = contestant.trial(self.shown.first(), self.shown.second(), self.task.semantics);
         let launcher = self.runner.launcher(contestant, policy);
         launcher.start_with(&trial, killer).map_err(|ending| outcome_info(&ending.outcome))
     }

@@ -6,7 +6,7 @@ use ocb_core::configuration::Configuration;
 use ocb_core::instance::Presentation;
 use ocb_core::mesh::Mesh;
 use ocb_core::query::Query;
-use ocb_sandbox::{Ending, MAX_BATCH, Outcome, Policy, Session, Trial};
+use ocb_sandbox::{Ending, MAX_BATCH, Outcome, Policy, Session};
 
 use crate::columns::{AnswerRow, Flat};
 use crate::contestant::{Contestant, Runner};
@@ -61,14 +61,7 @@ impl Questions<'_> {
                 measure::shown(self.mesh_a, self.mesh_b, self.poses.iter(), coherent, *seed, process)
             }
         };
-        let trial = Trial {
-            plugin: &contestant.file,
-            algorithm: &contestant.algorithm,
-            mesh_a: shown.first(),
-            mesh_b: shown.second(),
-            parameters: &contestant.settings,
-            semantics: spec.semantics,
-        };
+        let trial = contestant.trial(shown.first(), shown.second(), spec.semantics);
         let policy = Policy { threads: contestant.threads, rough_clock: true, ..Policy::default() };
         let mut session = self.runner.launcher(contestant, policy).start(&trial)?;
         let whole = self.compare(&mut session, &shown, rows, replayed);
