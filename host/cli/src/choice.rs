@@ -4,7 +4,10 @@ use clap::ValueEnum;
 
 /// A choice of the command line that is an enum of the domain: the same variants, named as clap names them.
 macro_rules! choice {
-    ($(#[$doc:meta])* $name:ident => $domain:ty { $($(#[$variant_doc:meta])* $variant:ident),+ $(,)? }) => {
+    (
+        $(#[$doc:meta])* $name:ident => $domain:ty { $($(#[$variant_doc:meta])* $variant:ident),+ $(,)? }
+        $(without $($left_out:ident),+)?
+    ) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
         pub enum $name { $($(#[$variant_doc])* $variant),+ }
@@ -14,6 +17,11 @@ macro_rules! choice {
                 match choice { $($name::$variant => Self::$variant),+ }
             }
         }
+
+        // Each value there is has a word here or is left out on purpose, or this does not compile.
+        const _: fn($domain) = |value| match value {
+            $(<$domain>::$variant)|+ $($(| <$domain>::$left_out)+)? => {}
+        };
     };
 }
 
@@ -111,7 +119,7 @@ choice! {
         Viridis,
         /// Reads the same with colour vision deficiency.
         Cividis,
-    }
+    } without PurpleOrange
 }
 choice! {
     /// How values are spread over the colours.
