@@ -14,6 +14,8 @@ const EXPONENTS: [i32; UNITS] = [0, -3, 3];
 
 /// Mean times nearer to each other than this are within the spread of an empty round trip, nanoseconds.
 const LEAST_NS: f64 = 500.0;
+/// And by a smaller factor it may be the reference algorithm that another program slowed down, in one unit and not in the other.
+const LEAST_FACTOR: f64 = 1.5;
 
 /// Of many configurations an eighth is asked in each other unit, so that a run of five rounds becomes a twentieth longer.
 const SHARE: usize = 8;
@@ -45,7 +47,10 @@ pub struct Found {
 
 impl Found {
     fn is_apart(&self, other: &Self) -> bool {
-        let apart = |(here, there): (Estimated, Estimated)| (here.value - there.value).abs() >= LEAST_NS;
+        let apart = |(here, there): (Estimated, Estimated)| {
+            let [less, more] = [here.value.min(there.value), here.value.max(there.value)];
+            more - less >= LEAST_NS && more >= LEAST_FACTOR * less
+        };
         self.mean_ns.zip(other.mean_ns).is_some_and(apart)
     }
 
@@ -189,6 +194,14 @@ mod tests {
         assert_eq!(dependence(&three([(0, 0.6), (2, 0.6)], 0)), None, "within the spread of the clock");
         assert_eq!(dependence(&three(SAME, 1)), None, "one wrong answer may be chance");
         assert_eq!(dependence(&[]), None);
+        // Four times as quick beside the reference algorithm, and hardly quicker by itself: it was the reference's bad moment.
+        let mut beside = three([(0, 0.25), (2, 0.25)], 0);
+        for (unit, mean_ns) in [(0, 28_000.0), (1, 20_000.0)] {
+            beside[unit].mean_ns = Some(Estimated { value: mean_ns, lo: mean_ns, hi: mean_ns });
+        }
+        assert_eq!(dependence(&beside), None);
+        beside[1].mean_ns = Some(Estimated { value: 7_000.0, lo: 7_000.0, hi: 7_000.0 });
+        assert!(dependence(&beside).is_some());
         // What was asked in another unit alone has nothing to be compared with.
         assert_eq!(dependence(&three([(0, 9.0), (2, 9.0)], 9)[1..]), None);
     }
