@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use ocb_core::mesh::obj;
+use ocb_core::mesh::{MAX_BYTES, obj};
 use ocb_core::stock;
 use ocb_service::Engine;
 use ocb_service::model::{ObjectId, stock_id};
@@ -64,7 +64,7 @@ fn object(named: &str) -> Result<Object> {
     if !path.exists() && named.len() == 36 && named.bytes().all(|c| c.is_ascii_hexdigit() || c == b'-') {
         return Ok(Object::Known(named.to_owned()));
     }
-    let bytes = read_bounded(path, obj::MAX_BYTES)?;
+    let bytes = read_bounded(path, MAX_BYTES)?;
     let name = path.file_name().map_or_else(|| named.to_owned(), |name| name.to_string_lossy().into_owned());
     Ok(Object::File { name, bytes })
 }

@@ -2,6 +2,7 @@
 
 mod aabb;
 pub mod obj;
+pub mod read;
 
 use std::collections::HashMap;
 
@@ -9,6 +10,7 @@ use nalgebra::{Point3, Vector3};
 use sha2::{Digest, Sha256};
 
 pub use aabb::Aabb;
+pub use read::limits::MAX_BYTES;
 
 /// Largest magnitude of a coordinate. Squared lengths stay finite up to here even in single precision, which is what
 /// some algorithms compute in.

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use nalgebra::Point3;
-use ocb_core::mesh::{Mesh, obj};
+use ocb_core::mesh::{MAX_BYTES, Mesh, obj};
 use ocb_core::stock;
 use ocb_sandbox::given;
 use tokio::sync::Semaphore;
@@ -228,7 +228,7 @@ const MAX_TERMS_BYTES: u64 = 64 << 10;
 fn read_shipped(id: &str, name: &str, file: &std::path::Path) -> Result<(Mesh, ObjectInfo)> {
     let fault =
         |e: &dyn std::fmt::Display| EngineError::Fault(format!("The stock file {name}.obj cannot be used: {e}."));
-    let bytes = given::read(file, obj::MAX_BYTES as u64).map_err(|e| fault(&e))?;
+    let bytes = given::read(file, MAX_BYTES as u64).map_err(|e| fault(&e))?;
     let read = obj::read(&bytes).map_err(|e| fault(&e))?;
     let mesh = read.mesh.to_f32_representable().map_err(|e| fault(&e))?;
     let terms = given::read(&file.with_extension("terms"), MAX_TERMS_BYTES)

@@ -21,7 +21,7 @@ use crate::limits::ADD_MEBIBYTES;
 use crate::problem::{Problem, Result};
 
 /// The most that an uploaded file may have.
-pub(crate) const MAX_BYTES: usize = ocb_core::mesh::obj::MAX_BYTES;
+pub(crate) const MAX_BYTES: usize = ocb_core::mesh::MAX_BYTES;
 
 /// The most that a body with such a file may have: boundaries, names and headers come on top.
 pub(crate) const MAX_BODY_BYTES: u64 = MAX_BYTES as u64 + (1 << 20);

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use ocb_advisor::{Doubt, Paper};
-use ocb_core::mesh::obj;
+use ocb_core::mesh::{MAX_BYTES, obj};
 use serde_json::json;
 
 use super::work;
@@ -16,9 +16,9 @@ use crate::{output, truth};
 /// Checks a certificate against the object that it names, or that stands there now.
 pub async fn verify(store: &Store, file: &Path, object: Option<&str>, json: bool) -> Result<ExitCode> {
     let bad = |e: &dyn std::fmt::Display| Failure::Input(format!("{} is not a certificate: {e}.", file.display()));
-    let paper: Paper = serde_json::from_slice(&read_bounded(file, obj::MAX_BYTES)?).map_err(|e| bad(&e))?;
+    let paper: Paper = serde_json::from_slice(&read_bounded(file, MAX_BYTES)?).map_err(|e| bad(&e))?;
     let reduced = file.with_file_name(&paper.file);
-    let read = obj::read(&read_bounded(&reduced, obj::MAX_BYTES)?);
+    let read = obj::read(&read_bounded(&reduced, MAX_BYTES)?);
     let reduced = read.map_err(|e| Failure::Input(format!("{} cannot be used: {e}.", reduced.display())))?.mesh;
     let object = truth::object(store, object.unwrap_or(&paper.object_file)).await?;
     let triangles = reduced.triangles().len();

@@ -2,9 +2,8 @@
 //!
 //! tobj parses the numbers and builds the faces. In front of it stands a pre-pass of ours (`prepass.rs`), because tobj
 //! alone names no line in its errors, accepts NaN, drops a vertex behind a byte-order mark, renumbers vertices per
-//! group and sets no limits. Behind it, faces of more than three corners are cut by ear clipping (`polygon.rs`).
+//! group and sets no limits. Behind it, faces of more than three corners are cut by ear clipping (`read/polygon.rs`).
 
-mod polygon;
 mod prepass;
 #[cfg(test)]
 mod tests;
@@ -14,18 +13,9 @@ use std::io::{BufRead, Read};
 
 use nalgebra::Point3;
 
+use super::read::limits::MAX_BYTES;
+use super::read::{Fault, surface::Surface};
 use super::{Mesh, MeshError};
-
-/// Longest file that is read, in bytes.
-pub const MAX_BYTES: usize = 256 << 20;
-/// Most vertices in a file.
-pub const MAX_VERTICES: usize = 5_000_000;
-/// Most triangles in a file, after its polygons are cut.
-pub const MAX_TRIANGLES: usize = 10_000_000;
-/// Longest line in bytes, continuation lines included.
-pub const MAX_LINE_BYTES: usize = 1 << 20;
-/// Most corners of one face.
-pub const MAX_CORNERS: usize = 10_000;
 
 /// A mesh and what was noticed while reading it.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,30 +61,12 @@ pub enum LineFault {
     /// A NUL byte.
     #[error("this is not text (it holds a NUL byte); an OBJ file is plain text in UTF-8 or Latin-1")]
     Binary,
-    /// Longer than [`MAX_LINE_BYTES`].
-    #[error("longer than {MAX_LINE_BYTES} bytes (1 MiB); break it into several lines")]
-    LineTooLong,
-    /// More than [`MAX_VERTICES`].
-    #[error("more than {MAX_VERTICES} vertices; reduce the object")]
-    TooManyVertices,
-    /// More than [`MAX_TRIANGLES`].
-    #[error("more than {MAX_TRIANGLES} triangles; reduce the object")]
-    TooManyTriangles,
-    /// More than [`MAX_CORNERS`].
-    #[error("a face with {0} corners, but at most {MAX_CORNERS} are read; cut it into smaller faces")]
-    TooManyCorners(usize),
+    /// What may be wrong in a file of any format.
+    #[error(transparent)]
+    Shared(#[from] Fault),
     /// A `v` line with the wrong number of numbers.
     #[error("a vertex needs 3 coordinates, and may have a weight or a colour after them, but here are {0} numbers")]
     CoordinateCount(usize),
-    /// A coordinate or weight that is no number.
-    #[error("'{0}' is not a number; write coordinates like -1.25 or 3e-4")]
-    NotANumber(String),
-    /// NaN or infinite.
-    #[error("'{0}' is not a finite number; remove or repair that vertex")]
-    NotFinite(String),
-    /// Beyond [`super::MAX_COORDINATE`].
-    #[error("'{0}' is larger than {max:e}; scale the object down", max = super::MAX_COORDINATE)]
-    TooFar(String),
     /// The weight of a vertex makes its place infinite.
     #[error("the weight '{0}' puts this vertex at infinity; use a weight that is not 0")]
     Weight(String),
@@ -139,38 +111,14 @@ pub fn read(bytes: &[u8]) -> Result<ReadObj, ObjError> {
     let text = clean.vertices.as_bytes().chain(points.as_bytes()).chain(clean.faces.as_bytes());
     let (positions, corners, arities) = parse(text, vertices)?;
 
-    let mut triangles = Vec::with_capacity(clean.triangle_count);
-    let mut cutter = polygon::Cutter::new();
+    let mut surface = Surface::over(positions);
     let mut rest = &corners[..];
-    let mut unclean = 0;
     for arity in arities {
         let (face, tail) = rest.split_at(arity as usize);
         rest = tail;
-        if !cutter.cut(&positions, face, &mut triangles) {
-            unclean += 1;
-        }
+        surface.face(face).map_err(|e| ObjError::Parser(e.to_string()))?;
     }
-    if unclean > 0 {
-        warnings.push(format!(
-            "{unclean} face(s) with more than 3 corners cross or fold over themselves; their cut into triangles is a guess."
-        ));
-    }
-
-    let mut used = vec![false; vertices];
-    triangles.iter().flatten().for_each(|&i: &u32| used[i as usize] = true);
-    let unused = used.iter().filter(|&&u| !u).count();
-    if unused > 0 {
-        warnings.push(format!("{unused} of {vertices} vertices are not used by any face; they keep their numbers."));
-    }
-    let mesh = Mesh::new(positions, triangles)?;
-    if mesh.degenerate_triangles() > 0 {
-        warnings.push(format!(
-            "{} of {} triangles have zero area; they are kept.",
-            mesh.degenerate_triangles(),
-            mesh.triangles().len()
-        ));
-    }
-    Ok(ReadObj { mesh, warnings })
+    Ok(ReadObj { mesh: surface.finish(&mut warnings)?, warnings })
 }
 
 /// Positions, then the corners of all faces and the number of corners of each, point elements left out.

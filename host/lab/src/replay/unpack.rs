@@ -7,7 +7,7 @@ use std::path::Path;
 
 use ocb_core::configuration::Configuration;
 use ocb_core::instance;
-use ocb_core::mesh::obj;
+use ocb_core::mesh::MAX_BYTES;
 use ocb_sandbox::given;
 use zip::ZipArchive;
 
@@ -21,7 +21,7 @@ use crate::{LabError, Result};
 const MOST_FILES: usize = 500;
 /// Bytes of the recipe, of a file and of all of them.
 const MOST_RECIPE: u64 = 4 << 20;
-const MOST_FILE: u64 = obj::MAX_BYTES as u64;
+const MOST_FILE: u64 = MAX_BYTES as u64;
 const MOST_BYTES: u64 = 2 << 30;
 
 /// An archive, read as a whole: every file is what the recipe says.

@@ -3,11 +3,11 @@
 
 use std::borrow::Cow;
 use std::fmt::Write;
-use std::iter::Enumerate;
-use std::slice::Split;
 
-use super::{LineFault, MAX_BYTES, MAX_CORNERS, MAX_LINE_BYTES, MAX_TRIANGLES, MAX_VERTICES, ObjError};
-use crate::mesh::MAX_COORDINATE;
+use super::{LineFault, ObjError};
+use crate::mesh::read::limits::{MAX_BYTES, MAX_CORNERS, MAX_LINE_BYTES, MAX_TRIANGLES, MAX_VERTICES};
+use crate::mesh::read::words::{bounded, shown};
+use crate::mesh::read::{Fault, lines};
 
 /// What is left of a file for the parser.
 #[derive(Default)]
@@ -50,28 +50,21 @@ pub fn run(bytes: &[u8]) -> Result<Clean, ObjError> {
 /// The logical lines of a file: numbered from 1 by their first physical line, continuation lines joined, comments and
 /// line ends cut off.
 struct Lines<'a> {
-    physical: Enumerate<Split<'a, u8, IsLineEnd>>,
+    physical: lines::Lines<'a>,
 }
-
-type IsLineEnd = fn(&u8) -> bool;
 
 impl<'a> Lines<'a> {
     fn new(bytes: &'a [u8]) -> Self {
-        // Files of old Macintosh programs end their lines by CR alone.
-        let end: IsLineEnd = if bytes.contains(&b'\n') { |&b| b == b'\n' } else { |&b| b == b'\r' };
-        Self { physical: bytes.split(end).enumerate() }
+        Self { physical: lines::Lines::new(bytes) }
     }
 
     fn next_physical(&mut self) -> Option<(usize, Result<&'a [u8], LineFault>)> {
-        let (i, line) = self.physical.next()?;
-        let checked = if line.len() > MAX_LINE_BYTES {
-            Err(LineFault::LineTooLong)
-        } else if line.contains(&0) {
-            Err(LineFault::Binary)
-        } else {
-            Ok(line.strip_suffix(b"\r").unwrap_or(line))
-        };
-        Some((i + 1, checked))
+        let (number, line) = self.physical.next()?;
+        let line = line.map_err(|fault| match fault {
+            Fault::Binary => LineFault::Binary,
+            fault => LineFault::Shared(fault),
+        });
+        Some((number, line))
     }
 }
 
@@ -97,7 +90,7 @@ impl<'a> Iterator for Lines<'a> {
                 }
             }
             if joined.len() > MAX_LINE_BYTES {
-                return Some(Err(at(number)(LineFault::LineTooLong)));
+                return Some(Err(at(number)(Fault::LineTooLong.into())));
             }
             line = Cow::Owned(joined);
         }
@@ -146,7 +139,7 @@ impl Pass {
 
     fn vertex<'a>(&mut self, words: impl Iterator<Item = &'a str> + Clone) -> Result<(), LineFault> {
         if self.clean.vertex_count == MAX_VERTICES {
-            return Err(LineFault::TooManyVertices);
+            return Err(Fault::TooManyVertices.into());
         }
         let count = words.clone().count();
         // 4 is x y z w; 6 and 7 are x y z and a colour, which is no geometry and is not looked at.
@@ -157,9 +150,9 @@ impl Pass {
         let taken = if count == 4 { 4 } else { 3 };
         self.clean.vertices.push('v');
         for (number, word) in numbers.iter_mut().zip(words.clone().take(taken)) {
-            *number = word.parse::<f64>().map_err(|_| LineFault::NotANumber(shown(word)))?;
+            *number = word.parse::<f64>().map_err(|_| Fault::NotANumber(shown(word)))?;
             if !number.is_finite() {
-                return Err(LineFault::NotFinite(shown(word)));
+                return Err(Fault::NotFinite(shown(word)).into());
             }
             let _ = write!(self.clean.vertices, " {word}");
         }
@@ -169,9 +162,7 @@ impl Pass {
             if !(coordinate / w).is_finite() {
                 return Err(LineFault::Weight(words.clone().nth(3).map(shown).unwrap_or_default()));
             }
-            if (coordinate / w).abs() > MAX_COORDINATE {
-                return Err(LineFault::TooFar(shown(word)));
-            }
+            bounded(coordinate / w, || shown(word))?;
         }
         self.clean.vertex_count += 1;
         Ok(())
@@ -203,7 +194,7 @@ impl Pass {
         }
         let n = self.corners.len();
         if n > MAX_CORNERS {
-            return Err(LineFault::TooManyCorners(n));
+            return Err(Fault::TooManyCorners(n).into());
         }
         if n < 3 {
             self.flat = (self.flat.0 + 1, if self.flat.0 == 0 { line } else { self.flat.1 });
@@ -211,7 +202,7 @@ impl Pass {
         }
         self.clean.triangle_count += n - 2;
         if self.clean.triangle_count > MAX_TRIANGLES {
-            return Err(LineFault::TooManyTriangles);
+            return Err(Fault::TooManyTriangles.into());
         }
         self.clean.faces.push('f');
         for i in &self.corners {
@@ -260,13 +251,4 @@ impl Pass {
         }
         Ok(self.clean)
     }
-}
-
-/// A word of the file, fit for a message: short, no control characters.
-fn shown(word: &str) -> String {
-    let mut short: String = word.chars().take(24).flat_map(char::escape_debug).collect();
-    if word.chars().nth(24).is_some() {
-        short.push_str("...");
-    }
-    short
 }

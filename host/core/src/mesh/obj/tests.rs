@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::mesh::read::limits::{MAX_CORNERS, MAX_LINE_BYTES, MAX_VERTICES};
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 

@@ -5,6 +5,7 @@ use earcut::utils3d::project3d_to_2d;
 use nalgebra::Point3;
 
 /// Cuts faces into triangles, reusing its buffers.
+#[derive(Default)]
 pub struct Cutter {
     earcut: Earcut<f64>,
     spatial: Vec<[f64; 3]>,
@@ -17,10 +18,6 @@ pub struct Cutter {
 const AREA_TOLERANCE: f64 = 1e-6;
 
 impl Cutter {
-    pub fn new() -> Self {
-        Self { earcut: Earcut::new(), spatial: vec![], planar: vec![], ears: vec![], kept: vec![] }
-    }
-
     /// Appends the n-2 triangles of a face with n >= 3 corners, wound as the face is. False when the face is no simple
     /// polygon and the triangles are only a guess.
     pub fn cut(&mut self, positions: &[Point3<f64>], face: &[u32], triangles: &mut Vec<[u32; 3]>) -> bool {
