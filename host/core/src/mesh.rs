@@ -1,8 +1,13 @@
 //! Triangles over shared vertices: parsed at the door, never checked again.
 
 mod aabb;
+mod collada;
+mod gltf;
 pub mod obj;
+mod off;
+mod ply;
 pub mod read;
+mod stl;
 
 use std::collections::HashMap;
 
@@ -11,6 +16,7 @@ use sha2::{Digest, Sha256};
 
 pub use aabb::Aabb;
 pub use read::limits::MAX_BYTES;
+pub use read::{FORMATS, FileFormat, LengthUnit, ReadError, ReadMesh, read};
 
 /// Largest magnitude of a coordinate. Squared lengths stay finite up to here even in single precision, which is what
 /// some algorithms compute in.

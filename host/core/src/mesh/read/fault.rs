@@ -1,7 +1,69 @@
 //! Why a file is no object.
 
-use super::limits::{MAX_CORNERS, MAX_LINE_BYTES, MAX_TRIANGLES, MAX_VERTICES};
-use crate::mesh::MAX_COORDINATE;
+use std::fmt;
+
+use super::limits::{MAX_BYTES, MAX_CORNERS, MAX_LINE_BYTES, MAX_TRIANGLES, MAX_VERTICES};
+use crate::mesh::obj::ObjError;
+use crate::mesh::{MAX_COORDINATE, MeshError};
+
+/// Why a file is no object. Displays as one sentence: the place, what is wrong, how to mend it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ReadError {
+    /// Longer than [`MAX_BYTES`].
+    #[error("the file has {0} bytes, but at most {MAX_BYTES} (256 MiB) are read; reduce the object")]
+    TooLong(usize),
+    /// No bytes, or only white space.
+    #[error("the file is empty; export the object again")]
+    Empty,
+    /// The content is of none of the formats.
+    #[error("the content is in no format that is read ({}); export the object in one of them", super::FORMATS)]
+    Unknown,
+    /// An OBJ file at fault.
+    #[error(transparent)]
+    Obj(#[from] ObjError),
+    /// One place in a file of another format is at fault.
+    #[error("{place}: {fault}")]
+    At {
+        /// Where.
+        place: Place,
+        /// What is wrong there.
+        fault: Fault,
+    },
+    /// No single place is at fault; the sentence says what the file lacks.
+    #[error("{0}")]
+    Whole(Fault),
+    /// The places are fine, but the whole is no mesh.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+}
+
+/// A place in a file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Place {
+    /// A line of a text, from 1.
+    Line(usize),
+    /// A byte of a binary file, from 0.
+    Byte(usize),
+    /// An entry of a glTF document, such as `nodes[3]`: the list's name in the document and the number from 0.
+    Entry(String),
+}
+
+impl Place {
+    /// The error of this fault here.
+    pub(in crate::mesh) fn has(self, fault: impl Into<Fault>) -> ReadError {
+        ReadError::At { place: self, fault: fault.into() }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Line(line) => write!(f, "line {line}"),
+            Self::Byte(byte) => write!(f, "byte {byte}"),
+            Self::Entry(entry) => f.write_str(entry),
+        }
+    }
+}
 
 /// What is wrong at a place, and how to mend it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
