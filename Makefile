@@ -71,7 +71,7 @@ bench: build ## every contestant side by side (OBJECTS=files), the clock, findin
 	cargo bench --workspace --bench overhead -- $(firstword $(abspath $(OBJECTS)) $(abspath target/stock/dragon.obj))
 	npm --prefix tests/e2e ci --no-audit --no-fund && node tests/e2e/fluent.mjs
 
-soak: build ## fuzz the jail's readers, try ten million pairs, then kill and restart the service for MINUTES (10)
+soak: build ## fuzz the jail's readers and those of objects, try ten million pairs, then kill and restart the service for MINUTES (10)
 	tests/setup/soak.sh $(or $(MINUTES),10)
 
 clean: ## remove what was built; keeps data/ and .tools/

@@ -92,6 +92,17 @@ fn geometry_keeps_the_order_of_vertices_and_triangles() {
 }
 
 #[test]
+fn what_is_exported_is_read_as_the_same_object() {
+    for file in [
+        glb::geometry(&mesh()),
+        glb::heatmap(&mesh(), &values(), &legend()),
+        ply::heatmap(&mesh(), &values(), &legend()),
+    ] {
+        assert_eq!(crate::mesh::read(&file).unwrap().mesh, mesh());
+    }
+}
+
+#[test]
 fn heatmap_holds_linear_colors_raw_values_and_the_legend() {
     let (root, bytes) = open(&glb::heatmap(&mesh(), &values(), &legend()));
     let (accessor, colors) = data(&root, &bytes, "COLOR_0");
