@@ -19,6 +19,17 @@ fn bad_files() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         ("range.obj", format!("{triangle}f 1 2 4\n").into_bytes(), "line 4"),
         ("points.obj", triangle.as_bytes().to_vec(), "face"),
         ("flat.obj", b"v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n".to_vec(), "area"),
+        ("note.txt", b"No format that is read.\n".to_vec(), "collada"),
+        ("cut.stl", b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n".to_vec(), "endsolid"),
+        ("count.off", b"OFF\n4000000000 1 0\n".to_vec(), "line 2"),
+        ("points.ply", b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n".to_vec(), "faces"),
+        (
+            "outside.gltf",
+            br#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":1,"uri":"/etc/passwd"}]}"#.to_vec(),
+            "another file",
+        ),
+        ("cut.glb", b"glTF\x02\0\0\0\0\x01\0\0".to_vec(), "byte 8"),
+        ("cut.dae", b"<?xml version=\"1.0\"?>\n<COLLADA>\n<asset>".to_vec(), "line 3"),
     ]
 }
 

@@ -235,7 +235,7 @@ fn minutes() -> clap::builder::RangedI64ValueParser<u32> {
 /// `ocb bench`
 #[derive(Debug, Args)]
 pub struct BenchArgs {
-    /// Object A (fixed): an OBJ file, or a stock object such as `stock:castle@5000`.
+    /// Object A (fixed): a file (OBJ, STL, PLY, OFF, glTF, GLB, COLLADA), or a stock object such as `stock:castle@5000`.
     pub a: String,
     /// Object B (moving) [default: the same as A].
     pub b: Option<String>,
@@ -294,7 +294,7 @@ fn share(text: &str) -> Result<f64, String> {
 /// `ocb generate`
 #[derive(Debug, Args)]
 pub struct GenerateArgs {
-    /// Object A (fixed): an OBJ file, or a stock object such as `stock:castle@5000`.
+    /// Object A (fixed): a file (OBJ, STL, PLY, OFF, glTF, GLB, COLLADA), or a stock object such as `stock:castle@5000`.
     pub a: String,
     /// Object B (moving) [default: the same as A].
     pub b: Option<String>,
@@ -308,8 +308,8 @@ pub struct GenerateArgs {
 /// `ocb advise`
 #[derive(Debug, Args)]
 pub struct AdviseArgs {
-    /// Object A (fixed): an OBJ file, or a stock object such as `stock:castle@5000`; with --verify, the file of
-    /// the certificate's object [default: the file that the certificate names].
+    /// Object A (fixed): a file (OBJ, STL, PLY, OFF, glTF, GLB, COLLADA), or a stock object such as `stock:castle@5000`; with
+    /// --verify, the file of the certificate's object [default: the file that the certificate names].
     #[arg(required_unless_present = "verify")]
     pub a: Option<String>,
     /// Object B (moving) [default: the same as A].
@@ -359,7 +359,7 @@ pub enum Unit {
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true)]
 pub struct TruthArgs {
-    /// Object A: an OBJ file, or a stock object such as `stock:castle@5000`.
+    /// Object A: a file (OBJ, STL, PLY, OFF, glTF, GLB, COLLADA), or a stock object such as `stock:castle@5000`.
     pub a: Option<String>,
     /// Object B [default: the same as A].
     pub b: Option<String>,

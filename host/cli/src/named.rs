@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use ocb_core::mesh::{MAX_BYTES, obj};
+use ocb_core::mesh::{self, MAX_BYTES};
 use ocb_core::stock;
 use ocb_service::Engine;
 use ocb_service::model::{ObjectId, stock_id};
@@ -29,7 +29,7 @@ impl Object {
         match self {
             Self::Known(_) => Ok(()),
             Self::File { name, bytes } => {
-                obj::read(bytes).map(|_| ()).map_err(|e| Failure::Input(format!("{name}: {e}.")))
+                mesh::read(bytes).map(|_| ()).map_err(|e| Failure::Input(format!("{name}: {e}.")))
             }
         }
     }

@@ -22,13 +22,21 @@ pub async fn object(store: &Store, command: &ObjectCommand, json: bool) -> Resul
     } else {
         let row = |o: &ObjectInfo| {
             let closed = if o.closed { "closed" } else { "open" }.to_owned();
-            vec![o.id.clone(), o.name.clone(), o.triangles.to_string(), o.vertices.to_string(), closed, o.terms.clone()]
+            let (id, name, terms) = (o.id.clone(), o.name.clone(), o.terms.clone());
+            vec![id, name, o.triangles.to_string(), o.vertices.to_string(), closed, file(o), terms]
         };
-        let headings = ["id", "name", "triangles", "vertices", "surface", "terms"];
+        let headings = ["id", "name", "triangles", "vertices", "surface", "file", "terms"];
         output::print(&output::table(&headings, objects.iter().map(row).collect(), &[2, 3]))?;
         output::print("Procedural objects take any number of triangles after @, e.g. stock:castle@20000.")?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Format and unit of the file, as far as they are known.
+fn file(object: &ObjectInfo) -> String {
+    let format = object.format.map(|format| format.to_string());
+    let unit = object.unit.as_ref().map(|unit| format!("in {}", unit.name));
+    format.into_iter().chain(unit).collect::<Vec<_>>().join(", ")
 }
 
 async fn all(engine: &Engine) -> Result<Vec<ObjectInfo>> {

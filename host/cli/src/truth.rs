@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use ocb_core::mesh::{MAX_BYTES, Mesh, obj};
+use ocb_core::mesh::{self, MAX_BYTES, Mesh};
 use ocb_core::oracle::Shape;
 use ocb_service::model::{ObjectId, TruthRow};
 use ocb_service::truth::{self, Depth};
@@ -96,7 +96,7 @@ pub async fn object(store: &Store, named: &str) -> Result<Arc<Mesh>> {
     }
     let bytes = read_bounded(Path::new(named), MAX_BYTES)?;
     let bad = |e: &dyn std::fmt::Display| Failure::Input(format!("{named} cannot be used: {e}."));
-    let read = obj::read(&bytes).map_err(|e| bad(&e))?;
+    let read = mesh::read(&bytes).map_err(|e| bad(&e))?;
     for warning in &read.warnings {
         eprintln!("ocb: {named}: {warning}");
     }

@@ -1,5 +1,6 @@
 //! Objects.
 
+use ocb_core::mesh::{FileFormat, LengthUnit};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -26,6 +27,12 @@ pub struct ObjectInfo {
     pub stock: bool,
     /// Every edge has exactly two triangles.
     pub closed: bool,
+    /// Format of the file that it was read from; absent for generated objects, and for those added before it was recorded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub format: Option<FileFormat>,
+    /// Unit of the coordinates, where the file states one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<LengthUnit>,
     /// What was noticed and mended while reading (one sentence each).
     pub warnings: Vec<String>,
     /// When it was added.

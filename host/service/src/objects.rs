@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use nalgebra::Point3;
-use ocb_core::mesh::{MAX_BYTES, Mesh, obj};
+use ocb_core::mesh::{self, FileFormat, MAX_BYTES, Mesh, obj};
 use ocb_core::stock;
 use ocb_sandbox::given;
 use tokio::sync::Semaphore;
@@ -151,13 +151,13 @@ impl Objects {
         Ok((self.meshes.put(id, mesh), info))
     }
 
-    /// Reads an OBJ file and keeps its mesh. Everything is checked before anything is kept.
+    /// Reads a file in any of [`mesh::FORMATS`] and keeps its mesh. Everything is checked before anything is kept.
     pub async fn add(&self, name: &str, bytes: Vec<u8>, owner: Option<&str>) -> Result<ObjectInfo> {
         let name = clean_name(name);
         let shown = name.clone();
-        let (mesh, warnings) = blocking(move || {
+        let (mesh, warnings, format, unit) = blocking(move || {
             let bad = |e: &dyn std::fmt::Display| EngineError::Invalid(format!("{shown:?} cannot be used: {e}."));
-            let read = obj::read(&bytes).map_err(|e| bad(&e))?;
+            let read = mesh::read(&bytes).map_err(|e| bad(&e))?;
             let mut warnings = read.warnings;
             let exact = read.mesh.clone();
             let mesh = read.mesh.to_f32_representable().map_err(|e| bad(&e))?;
@@ -168,11 +168,11 @@ impl Objects {
                         .into(),
                 );
             }
-            Ok((mesh, warnings))
+            Ok((mesh, warnings, read.format, read.unit))
         })
         .await?;
         let mut info = describe(&mesh, &uuid::Uuid::now_v7().to_string(), &name, "Added by its owner.", warnings);
-        info.created_us = now_us();
+        (info.created_us, info.format, info.unit) = (now_us(), Some(format), unit);
         if let Some(known) = self.store.object_with_mesh(&info.sha256, owner).await? {
             return Ok(known.shown_to(owner));
         }
@@ -235,7 +235,7 @@ fn read_shipped(id: &str, name: &str, file: &std::path::Path) -> Result<(Mesh, O
         .map_err(|e| fault(&format!("its .terms file: {e}")))?;
     let terms = String::from_utf8_lossy(&terms);
     let mut info = describe(&mesh, id, name, terms.trim(), read.warnings);
-    (info.stock, info.visibility) = (true, Visibility::Public);
+    (info.stock, info.visibility, info.format) = (true, Visibility::Public, Some(FileFormat::Obj));
     Ok((mesh, info))
 }
 
@@ -252,6 +252,8 @@ fn describe(mesh: &Mesh, id: &str, name: &str, terms: &str, warnings: Vec<String
         terms: terms.to_owned(),
         stock: false,
         closed: mesh.is_closed(),
+        format: None,
+        unit: None,
         warnings,
         created_us: 0,
         visibility: Visibility::default(),
@@ -259,11 +261,16 @@ fn describe(mesh: &Mesh, id: &str, name: &str, terms: &str, warnings: Vec<String
     }
 }
 
+/// Endings that names of objects lose; which format a file has, its content says.
+const ENDINGS: [&str; 7] = ["obj", "stl", "ply", "off", "gltf", "glb", "dae"];
+
 /// The file's name without folder, ending and control characters.
 fn clean_name(name: &str) -> String {
     let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
-    let lower = base.to_ascii_lowercase();
-    let stem = if lower.ends_with(".obj") { &base[..base.len() - 4] } else { base };
+    let stem = match base.rsplit_once('.') {
+        Some((stem, ending)) if ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known)) => stem,
+        _ => base,
+    };
     let clean: String = stem.chars().filter(|c| !c.is_control()).take(MAX_NAME).collect();
     if clean.trim().is_empty() { "object".into() } else { clean.trim().into() }
 }
@@ -317,5 +324,7 @@ mod tests {
         assert_eq!(clean_name("C:\\a\u{7}b.obj"), "ab");
         assert_eq!(clean_name(".obj"), "object");
         assert_eq!(clean_name("ü.obj"), "ü");
+        assert_eq!(clean_name("part.v2.STL"), "part.v2");
+        assert_eq!(clean_name("part.v2"), "part.v2");
     }
 }

@@ -3,6 +3,8 @@
 mod common;
 
 use ocb_core::configuration::{Method, Sampling, Separation};
+use ocb_core::export::glb;
+use ocb_core::mesh::FileFormat;
 use ocb_service::model::{Page, RunSpec};
 use ocb_service::{Engine, EngineError};
 
@@ -29,7 +31,7 @@ async fn no_bad_object_leaves_a_trace() {
     let cases: [(&[u8], &str); 9] = [
         (b"", "empty"),
         (b"  \n\n", "empty"),
-        (b"\x7fELF\x00\x01\x02\x03 binary junk \x00\xff", "not text"),
+        (b"\x7fELF\x00\x01\x02\x03 binary junk \x00\xff", "OBJ, STL, PLY"),
         (&huge, "bytes"),
         (b"v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "line 2"),
         (b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "line 4"),
@@ -62,6 +64,26 @@ async fn a_good_object_is_kept_once() {
     assert_eq!(engine.object(&info.id, Some("guest")).await.unwrap(), info);
     let listed = engine.objects(Some("guest"), &Page::default()).await.unwrap().entries;
     assert_eq!(listed.iter().filter(|o| !o.stock).collect::<Vec<_>>(), [&info]);
+    engine.shutdown().await;
+}
+
+#[tokio::test]
+async fn the_content_decides_the_format_and_the_unit_is_kept() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(common::idle_config(data.path())).await.unwrap();
+    let facet = |z: u8| {
+        format!("facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 {z}\nendloop\nendfacet\n")
+    };
+    let stl = format!("solid two\n{}{}endsolid two\n", facet(0), facet(1)).into_bytes();
+    let info = engine.add_object("named.glb", stl, Some("guest")).await.unwrap();
+    assert_eq!((info.name.as_str(), info.format, &info.unit), ("named", Some(FileFormat::Stl), &None));
+    assert!(info.warnings[0].starts_with("6 vertices of the triangles were merged into 4"), "{:?}", info.warnings);
+
+    let mesh = engine.mesh(&info.id).await.unwrap();
+    let info = engine.add_object("cube.glb", glb::geometry(&mesh), Some("somebody else")).await.unwrap();
+    assert_eq!((info.format, info.unit.as_ref().unwrap().metres), (Some(FileFormat::Glb), 1.0));
+    assert_eq!(engine.mesh(&info.id).await.unwrap(), mesh);
+    assert_eq!(engine.object(&info.id, None).await.unwrap().unit, info.unit);
     engine.shutdown().await;
 }
 

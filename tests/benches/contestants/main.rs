@@ -1,7 +1,7 @@
 //! All contestants, interleaved in one run per object and workload: the tables that show who is how fast at what.
 //!
-//! `cargo bench --bench contestants -- [--seconds S] [--count N] [--algorithm ID]... OBJECT...`; an object is an OBJ file or
-//! a stock object. Workloads: W1 almost touching (1e-4 of the longest side apart), W2 a tenth apart, W3 crossing by 5e-4 of
+//! `cargo bench --bench contestants -- [--seconds S] [--count N] [--algorithm ID]... OBJECT...`; an object is a file or a stock
+//! object. Workloads: W1 almost touching (1e-4 of the longest side apart), W2 a tenth apart, W3 crossing by 5e-4 of
 //! the scene's size; poses beside an OBJ file, `NAME.W1.f64`, are taken in their place. Each is a run of the service like
 //! any other: in the jail, judged against certified truth. `target/contestants/` then holds the tables as Markdown and
 //! Parquet and a chart as SVG.

@@ -38,20 +38,21 @@ pub(crate) async fn list_objects(
 #[derive(ToSchema)]
 #[expect(dead_code, reason = "only described; the upload is read as a stream")]
 struct UploadForm {
-    /// An OBJ file of at most 256 MiB.
+    /// A file in OBJ, STL, PLY, OFF, glTF, GLB or COLLADA, of at most 256 MiB.
     #[schema(value_type = String, format = Binary)]
     file: Vec<u8>,
 }
 
-/// Uploads an OBJ file; the same mesh twice is one. Whoever has its id may look at it, and only its owner sees it in the list, until that decides
-/// otherwise.
+/// Uploads an object in OBJ, STL, PLY, OFF, glTF, GLB or COLLADA. The content decides which format it is, not the name; nodes
+/// and instances of a scene are flattened, and no other file is opened. The same mesh uploaded twice is one object. Anyone
+/// with its id can see it; only its owner sees it in the list, until the owner changes its visibility.
 #[utoipa::path(post, path = "/objects", tag = "objects",
     request_body(content = inline(UploadForm), content_type = "multipart/form-data"), params(IdempotencyKey),
     responses(
         (status = 201, description = "The object", body = ObjectInfo),
         (status = 400, description = "The upload is not well-formed"),
         (status = 413, description = "Larger than 256 MiB"),
-        (status = 422, description = "Not a usable OBJ file; the message has line and reason"),
+        (status = 422, description = "Not a usable object; the message has the place (line or byte), the reason and the remedy"),
         (status = 429, description = "Too many uploads; `Retry-After` says when to try again"),
     ))]
 pub(crate) async fn add_object(

@@ -55,7 +55,7 @@ async fn own_objects(guest: &Guest) -> Vec<String> {
 async fn bad_files_get_a_sentence_and_leave_nothing() {
     let service = Service::start().await;
     let guest = service.guest();
-    let cases: [(&str, Vec<u8>, &str); 7] = [
+    let cases: [(&str, Vec<u8>, &str); 9] = [
         ("empty.obj", Vec::new(), "empty"),
         ("junk.obj", (0..4096u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect(), ""),
         ("nan.obj", TETRAHEDRON.replace("v 1 0 0", "v nan 0 0").into(), "line 2"),
@@ -63,6 +63,8 @@ async fn bad_files_get_a_sentence_and_leave_nothing() {
         ("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n".into(), "face"),
         ("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n".into(), "area"),
         ("huge.obj", TETRAHEDRON.replace("v 1 0 0", "v 1e300 0 0").into(), "line 2"),
+        ("note.txt", "No format that is read.\n".into(), "OBJ, STL, PLY, OFF, glTF, GLB, COLLADA"),
+        ("cut.ply", "ply\nformat ascii 1.0\nelement vertex 8\n".into(), "line 4"),
     ];
     for (name, bytes, expected) in cases {
         let detail = problem(guest.upload(name, bytes).await, 422).await;

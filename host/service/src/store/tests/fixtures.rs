@@ -1,6 +1,7 @@
 //! Rows to store, all fields set.
 
 use ocb_core::configuration::Class;
+use ocb_core::mesh::{FileFormat, LengthUnit};
 
 use super::super::*;
 use super::rows::*;
@@ -21,6 +22,8 @@ pub(crate) fn object(id: &str) -> ObjectInfo {
         terms: String::new(),
         stock: false,
         closed: true,
+        format: Some(FileFormat::Collada),
+        unit: Some(LengthUnit { name: "inch".into(), metres: 0.0254 }),
         warnings: vec!["one".into()],
         created_us: now_us(),
         visibility: Visibility::Unlisted,
