@@ -1,4 +1,4 @@
-// A visitor's own OBJ file, good and bad.
+// A visitor's own file, good and bad.
 import assert from 'node:assert/strict'
 import { test } from 'node:test'
 import { runId, until, visitor } from '../visitor.mjs'
