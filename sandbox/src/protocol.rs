@@ -264,6 +264,11 @@ pub fn parse_counters(words: &[u64; SLOT_WORDS]) -> Option<Counters> {
     })
 }
 
+/// Whether the tests per triangle beside an answer are to be read.
+pub fn counts_per_triangle(words: &[u64; SLOT_WORDS]) -> bool {
+    words[slot::COUNTS] & 4 != 0
+}
+
 /// Reads what the gate has found. The reader of foreign bytes is our own code, and yet it is only believed as far as this.
 pub fn parse_inspection(text: &[u8]) -> Result<Inspection, String> {
     let inspection: Inspection =

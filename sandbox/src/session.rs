@@ -13,7 +13,7 @@ use crate::exchange::{Exchange, Poses, Resting, Timed};
 use crate::launch::Killer;
 use crate::outcome::{Ending, Outcome, Phase};
 use crate::policy::Policy;
-use crate::protocol::{Command, parse_answer, parse_counters};
+use crate::protocol::{Command, counts_per_triangle, parse_answer, parse_counters};
 use crate::speed;
 use crate::usage::Usage;
 
@@ -30,8 +30,8 @@ pub struct Session {
     set_up: SetUp,
     clock: ClockFacts,
     waits: Waits,
-    /// Of all counted queries.
-    primitive_tests: u64,
+    /// Primitive tests of all counted queries; nothing once one of them was not counted per triangle.
+    primitive_tests: Option<u64>,
     /// The runner is to sleep since then.
     resting: Option<Resting>,
     ended: Option<Outcome>,
@@ -109,7 +109,7 @@ impl Session {
             set_up,
             clock,
             waits,
-            primitive_tests: 0,
+            primitive_tests: Some(0),
             resting: Some(resting),
             ended: None,
             pinned,
@@ -177,17 +177,18 @@ impl Session {
     ) -> Result<(Answer, Option<Counters>), Outcome> {
         let question = Presented { configuration: *configuration, swapped: false };
         let (answer, counters) = self.ask(query, &[Poses::from(&question)], true)?.1.remove(0);
-        let tests = counters.and_then(|counters| counters.primitive_tests).unwrap_or(0);
-        self.primitive_tests = self.primitive_tests.saturating_add(tests);
+        let tests = counters.and_then(|counters| counters.primitive_tests);
+        let tests = tests.filter(|_| counts_per_triangle(&self.exchange.slots()[0]));
+        self.primitive_tests = self.primitive_tests.zip(tests).and_then(|(all, tests)| all.checked_add(tests));
         Ok((answer, counters))
     }
 
     /// In how many primitive tests of the counted queries so far each triangle of A and of B took part, as the plugin says;
-    /// absent when that does not add up to the primitive tests that it counted.
+    /// absent when it did not count that in each of them, or when it does not add up to its primitive tests.
     pub fn triangle_tests(&self) -> Option<[Vec<u32>; 2]> {
+        let all = self.primitive_tests?;
         let tests = self.exchange.jail.triangle_tests();
-        let sums = |of: &[u32]| of.iter().map(|tests| u64::from(*tests)).sum::<u64>();
-        tests.iter().all(|of| sums(of) == self.primitive_tests).then_some(tests)
+        tests.iter().all(|of| of.iter().map(|tests| u64::from(*tests)).sum::<u64>() == all).then_some(tests)
     }
 
     /// From now on the runner is to sleep, until the next question.

@@ -47,12 +47,13 @@ fn counts_in_a_pass_of_its_own_and_takes_parameters() {
     let (answer, counters) = session.count(Query::CollisionFirst, &apart(0.5)).unwrap();
     assert_eq!(answer, Answer::Collision { hit: true, pair: Some([0, 1]) });
     assert_eq!(counters, Some(Counters { bv_tests: Some(11), primitive_tests: Some(42) }));
-    // A query that counts nothing is answered all the same.
-    assert!(matches!(session.count(Query::Proximity, &apart(0.5)), Ok((Answer::Distance { .. }, None))));
     session.count(Query::CollisionFirst, &apart(2.0)).unwrap();
     // A timed query adds nothing.
     session.query(Query::CollisionFirst, &apart(0.5)).unwrap();
     assert_eq!(session.triangle_tests(), Some([vec![84, 0], vec![0, 84]]));
+    // A query that counts nothing is answered all the same, and then the sums are not those of all queries.
+    assert!(matches!(session.count(Query::Proximity, &apart(0.5)), Ok((Answer::Distance { .. }, None))));
+    assert_eq!(session.triangle_tests(), None);
 }
 
 #[test]
@@ -60,6 +61,18 @@ fn tests_per_triangle_that_do_not_add_up_are_not_taken() {
     let mut session = start(&launcher(), &fixture(&["FAULT_MISCOUNT"])).unwrap();
     let (_, counters) = session.count(Query::CollisionFirst, &apart(0.5)).unwrap();
     assert_eq!(counters, Some(Counters { bv_tests: Some(11), primitive_tests: Some(1) }));
+    assert_eq!(session.triangle_tests(), None);
+}
+
+/// Zeros of somebody who did not count are no map of zeros.
+#[test]
+fn tests_per_triangle_that_were_not_counted_are_not_taken() {
+    let (mesh, plugin) = (mesh(), fixture(&["TOTALS_ALONE"]));
+    let parameters = [("knob".to_string(), 0.0)];
+    let trial = Trial { parameters: &parameters, ..Trial::new(&plugin, "fixture", &mesh, None) };
+    let mut session = launcher().start(&trial).unwrap();
+    let (_, counters) = session.count(Query::CollisionFirst, &apart(0.5)).unwrap();
+    assert_eq!(counters, Some(Counters { bv_tests: Some(11), primitive_tests: Some(0) }));
     assert_eq!(session.triangle_tests(), None);
 }
 
