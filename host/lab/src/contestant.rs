@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use ocb_core::mesh::Mesh;
 use ocb_core::query::{Query, Semantics};
-use ocb_sandbox::{Launcher, Policy, Profile, Trial, given};
+use ocb_sandbox::{Ending, Launcher, Policy, Profile, Trial, given};
 
 use crate::model::AlgorithmInfo;
 use crate::{LabError, Result, sha256_hex};
@@ -73,12 +73,10 @@ impl Runner {
         Launcher::new(self.program.clone(), Policy { trusted, plugin_sha256, profile: self.profile, ..policy })
     }
 
-    /// The kinds of query that an algorithm answers with its settings: it is asked for them in the jail. What fails there is
-    /// told when it is measured.
-    pub fn queries(&self, contestant: &Contestant) -> Vec<Query> {
+    /// The kinds of query that an algorithm answers with its settings: it is asked for them in the jail.
+    pub fn queries(&self, contestant: &Contestant) -> std::result::Result<Vec<Query>, Ending> {
         let launcher = self.launcher(contestant, Policy { threads: contestant.threads, ..Policy::default() });
-        let answered = launcher.queries(&contestant.file, &contestant.algorithm, &contestant.settings);
-        answered.unwrap_or_else(|_| contestant.info.queries.clone())
+        launcher.queries(&contestant.file, &contestant.algorithm, &contestant.settings)
     }
 
     /// A plugin that lies beside the runner was built and installed with it. Links are followed: a link there is no plugin of ours.

@@ -151,7 +151,10 @@ impl Registry {
             return Ok(queries.clone());
         }
         let (runner, asked) = (self.runner.clone(), contestant.clone());
-        let queries = blocking(move || Ok(runner.queries(&asked))).await?;
+        // How an algorithm ends that ends here is told, with its outcome, when it is measured.
+        let Ok(queries) = blocking(move || Ok(runner.queries(&asked))).await? else {
+            return Ok(contestant.info.queries.clone());
+        };
         let mut known = known();
         if known.len() >= MAX_KNOWN {
             known.clear();
