@@ -113,10 +113,10 @@ pub(crate) async fn take(connection: &mut AnyConnection, what: &Belongings) -> R
         for text in ["DELETE FROM run_events WHERE run_id = $1", "DELETE FROM run_stages WHERE run_id = $1"] {
             sqlx::query(text).bind(id).execute(&mut *connection).await?;
         }
-        let tests = "UPDATE results SET position = position WHERE run_id = $1 RETURNING triangle_tests";
-        files.extend(column(&mut *connection, tests, id).await?);
-        let records = "DELETE FROM results WHERE run_id = $1 RETURNING records";
-        files.extend(column(&mut *connection, records, id).await?);
+        let results = "DELETE FROM results WHERE run_id = $1 RETURNING records, triangle_tests";
+        let gone: Vec<(Option<String>, Option<String>)> =
+            sqlx::query_as(results).bind(id).fetch_all(&mut *connection).await?;
+        files.extend(gone.into_iter().flat_map(|(records, tests)| records.into_iter().chain(tests)));
         files.extend(column(&mut *connection, "DELETE FROM runs WHERE id = $1 RETURNING set_blob", id).await?);
     }
     for OwnedItem { id, .. } in &what.objects {
