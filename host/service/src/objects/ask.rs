@@ -22,7 +22,8 @@ impl Engine {
         self.inner.objects.info_for(id, viewer).await
     }
 
-    /// Reads a file in any of [`ocb_core::mesh::FORMATS`] and keeps its mesh; the same mesh of the same owner is kept once. Nothing is kept on error.
+    /// Reads a file in any of [`ocb_core::mesh::FORMATS`] and keeps its mesh; the same mesh of the same owner is kept once.
+    /// Nothing is kept on error.
     #[boxed]
     pub async fn add_object(&self, name: &str, bytes: Vec<u8>, owner: Option<&str>) -> Result<ObjectInfo> {
         self.has_room_for_an_object(owner, bytes.len()).await?;
