@@ -77,10 +77,9 @@ export function questionText({ spec, names: [a, b] }: AdviceInfo): string {
     : `${pair}: further apart than ${percent(question.clearance)} of A’s longest side?`
 }
 
-/** The same question on the command line; `name` is what an uploaded object is called. */
-export function commandLine({ object_a: a, object_b: b, question }: AdviceSpec, name: (id: string) => string): string {
-  const file = (id: string) => quote(id.startsWith('stock:') ? id : name(id))
+/** The same question on the command line; `file` is what the command names for an object. */
+export function commandLine({ object_a: a, object_b: b, question }: AdviceSpec, file: (id: string) => string): string {
   const share = (part: number) => `${Number((100 * part).toPrecision(12))}%`
   const asked = question.kind === 'distance' ? `--tolerance ${share(question.tolerance)}` : `--question clearance=${share(question.clearance)}`
-  return `ocb advise ${[a, ...(b && b !== a ? [b] : [])].map(file).join(' ')} ${asked}`
+  return `ocb advise ${[a, ...(b && b !== a ? [b] : [])].map((id) => quote(file(id))).join(' ')} ${asked}`
 }

@@ -1,5 +1,6 @@
 import type { ObjectInfo } from '../api/types'
 import { significant } from '../ui/format'
+import { find } from './objects'
 
 type Format = NonNullable<ObjectInfo['format']>
 
@@ -24,6 +25,11 @@ export const ACCEPTED = [...Object.values(FORMATS).map(({ ending }) => ending), 
 export function objectFile({ name, format }: Pick<ObjectInfo, 'name' | 'format'>): string {
   const { ending } = FORMATS[format ?? 'obj']
   return name.toLowerCase().endsWith(ending) ? name : name + ending
+}
+
+/** What a command names for an object: the id of a stock object, or the file of an uploaded one. `name`: where it is not listed. */
+export function commandFile(objects: readonly ObjectInfo[], id: string, name = 'object'): string {
+  return id.startsWith('stock:') ? id : objectFile(find(objects, id) ?? { name })
 }
 
 /** Format and unit of the file of an object: "COLLADA, in inch (0.0254 m)"; empty where neither is known. */
