@@ -16,6 +16,8 @@ export interface ExplorerState {
   shown: [number, number]
   /** Algorithms on the screen, at most four; empty: the first four of the run. */
   algorithms: string[]
+  /** Every measured algorithm at once, instead of those. */
+  wall: boolean
   /** Camera relative to the object, six numbers; empty: the starting view. */
   camera: number[]
   /** The vertex that is read. */
@@ -40,6 +42,7 @@ export const DEFAULTS: Readonly<ExplorerState> = {
   range: 'p2-98',
   shown: [0, 1],
   algorithms: [],
+  wall: false,
   camera: [],
   vertex: null,
   against: '',
@@ -80,6 +83,7 @@ export function writeState(state: ExplorerState): Query {
   put('k', RANGES[state.range], RANGES[DEFAULTS.range])
   put('rg', state.shown.join(','), DEFAULTS.shown.join(','))
   put('a', state.algorithms.join(','), '')
+  put('w', state.wall ? '1' : '0', '0')
   put('cam', state.camera.join(','), '')
   put('v', state.vertex === null ? '' : String(state.vertex), '')
   put('vs', state.against, '')
@@ -113,7 +117,9 @@ function readKey(state: ExplorerState, key: string, raw: string): boolean {
     case 'c':
       return assign(state, 'colormap', COLORMAPS.find((name) => name === raw))
     case 'l':
-      return assign(state, 'log', raw === '1' ? true : raw === '0' ? false : undefined)
+      return assign(state, 'log', flag(raw))
+    case 'w':
+      return assign(state, 'wall', flag(raw))
     case 'rg':
       return assign(state, 'shown', shownRange(numbers(raw)))
     case 'cam': {
@@ -144,6 +150,8 @@ function assign<K extends keyof ExplorerState>(state: ExplorerState, key: K, val
 function nameOf<T extends string>(names: Record<T, string>, short: string): T | undefined {
   return (Object.keys(names) as T[]).find((name) => names[name] === short)
 }
+
+const flag = (raw: string): boolean | undefined => (raw === '1' ? true : raw === '0' ? false : undefined)
 
 function numbers(raw: string): number[] | undefined {
   const all = raw.split(',').map((part) => (part.trim() === '' ? Number.NaN : Number(part)))

@@ -19,11 +19,17 @@ export function measured(run: RunInfo): { id: string; name: string }[] {
   return run.results.filter((result) => result.n > 0).map(({ algorithm, name }) => ({ id: algorithm, name }))
 }
 
-/** The algorithms on the screen: those of the link that exist, else the first four. */
+/** Fastest first; what has no time comes last. */
+function byTime(run: RunInfo): { id: string; name: string }[] {
+  const median = new Map(run.results.map(({ algorithm, time }) => [algorithm, time?.median_ns.value ?? Number.MAX_VALUE]))
+  return measured(run).toSorted((a, b) => (median.get(a.id) ?? 0) - (median.get(b.id) ?? 0))
+}
+
+/** The algorithms on the screen: all on the wall, else those of the link that exist, else the first four. */
 export function visibleAlgorithms(run: RunInfo, state: ExplorerState): { id: string; name: string }[] {
   const all = measured(run)
   const chosen = all.filter(({ id }) => state.algorithms.includes(id))
-  const shown = (chosen.length > 0 ? chosen : all).slice(0, MAX_PANES)
+  const shown = state.wall ? byTime(run) : (chosen.length > 0 ? chosen : all).slice(0, MAX_PANES)
   // Density counts configurations: it is the same for every algorithm.
   if (state.measure === 'density') return shown.slice(0, 1)
   // Nothing differs from itself.
