@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Packs what was built, then installs each package in an empty namespace and waits for its first heatmap. Each journey says its
+# own counts, which tests/setup/test.sh adds up.
+set -uo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo -n "$@"; fi; }
+failed=0
+result() { # result NAME STATUS
+  if [ "$2" = 0 ]; then echo "$1: ok"; echo "test result: ok. 1 passed; 0 failed"
+  else echo "$1: FAILED"; echo "test result: FAILED. 0 passed; 1 failed"; failed=1; fi
+}
+python3 "$here/pack.py" "$out/one"
+result "packing" $?
+python3 "$here/pack.py" "$out/two" >/dev/null && diff -r "$out/one" "$out/two"
+result "packing again gives the same bytes" $?
+for kind in archive wheel deb; do
+  package=$(echo "$out"/one/*"$(case $kind in archive) echo .tar.gz ;; wheel) echo .whl ;; deb) echo .deb ;; esac)")
+  as_root timeout 180 unshare --mount --pid --net --ipc --uts --fork --kill-child "$here/empty.sh" "$kind" "$package"
+  result "$kind, from nothing to a heatmap" $?
+done
+exit $failed
