@@ -2,7 +2,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help serve build pages stock plugins-cpp plugins-native check check-oracle test bench soak clean tools
+.PHONY: help serve build dist pages stock plugins-cpp plugins-native check check-oracle test bench soak clean tools
 
 PORT ?= 8080
 DATA ?= data
@@ -23,6 +23,9 @@ serve: tools pages stock ## build what serves one machine, then serve on 127.0.0
 build: tools pages stock ## build all of it: also PostgreSQL, S3, mail, pictures as PNG, the client for services elsewhere
 	cargo build --release
 	@$(MAKE) --silent --keep-going plugins-cpp || echo "make: going on without the wrappers that were not built"
+
+dist: build ## pack an archive, a wheel and a Debian package into target/dist
+	host/dist/pack.py $(TARGET)/dist
 
 plugins-cpp: ## build the wrappers of the C++ libraries that are installed, and say how to get the others
 	@$(MAKE) --no-print-directory --jobs=$(shell nproc) -C plugins/cpp

@@ -28,21 +28,21 @@ export PATH=/usr/sbin:/usr/bin HOME=/srv/visitor
 # Loopback, without a tool for it.
 /usr/bin/python3 -c 'import fcntl, socket, struct
 fcntl.ioctl(socket.socket(), 0x8914, struct.pack("16sh14x", b"lo", 1))'
-as() { # as USER GROUP COMMAND...: as the unit does, without a way to more rights
+as() { # as USER GROUP COMMAND...: as the unit does, without a way to more rights; replaces the shell that it runs in
   local user=$1 group=$2
   shift 2
-  setpriv --reuid "$user" --regid "$group" --clear-groups --no-new-privs --bounding-set=-all env -i "PATH=$PATH" "HOME=$HOME" "$@"
+  exec setpriv --reuid "$user" --regid "$group" --clear-groups --no-new-privs --bounding-set=-all env -i "PATH=$PATH" "HOME=$HOME" "$@"
 }
 cd "$HOME"
 started=$(date +%s%N)
 case $kind in
   archive)
-    as 1000 1000 tar xzf "$package"
+    (as 1000 1000 tar xzf "$package")
     as 1000 1000 sh -c 'exec ./opencollbench-*/ocb serve' &
     ;;
   wheel)
-    as 1000 1000 /usr/bin/python3 -m venv env
-    as 1000 1000 env/bin/pip install --quiet --disable-pip-version-check --no-index "$package"
+    (as 1000 1000 /usr/bin/python3 -m venv env)
+    (as 1000 1000 env/bin/pip install --quiet --disable-pip-version-check --no-index "$package")
     as 1000 1000 env/bin/ocb serve &
     ;;
   deb)

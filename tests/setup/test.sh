@@ -33,6 +33,7 @@ step build bash -c 'make -s pages stock && cargo build --release --workspace && 
 step vitest npm --prefix web/app run test
 start_services || broken+=(services)
 step rust cargo test --release --workspace --no-fail-fast
+step dist host/dist/test.sh
 step faults tests/oracle-check/faults.py quick
 # What only compiles goes beside the browser, which mostly waits.
 make -s check > "$logs/beside.log" 2>&1 &
@@ -54,7 +55,7 @@ not_run=$(awk '{ n += $1 } END { print n + 0 }' <<< "$reasons")
 lacking=$(sed -n 's/^not run: /1 not run: /p' "$logs/check.log" 2>/dev/null)
 
 # Each test program says its own counts; a step that broke without a counted failure counts as one.
-read -r passed failed < <({ cat "$logs"/{rust,vitest,browser}.log; grep '^deny: ' "$logs/check.log"; } 2>/dev/null | sed 's/\x1b\[[0-9;]*m//g' | awk '
+read -r passed failed < <({ cat "$logs"/{rust,vitest,browser,dist}.log; grep '^deny: ' "$logs/check.log"; } 2>/dev/null | sed 's/\x1b\[[0-9;]*m//g' | awk '
   /^test result:/          { p += $4; f += $6 }
   /^deny: /                { p += $2; f += $4 }
   /^ *Tests  /             { for (i = 2; i <= NF; i++) { if ($i ~ /^passed/) p += $(i - 1); if ($i ~ /^failed/) f += $(i - 1) } }
