@@ -35,7 +35,7 @@ export class CameraRig {
   ) {
     this.controls = new OrbitControls(camera, element)
     this.controls.enableDamping = false
-    // A vertical swipe over the picture still scrolls the page.
+    // A vertical swipe over the picture still scrolls the page, until the reader has chosen the picture by a tap.
     element.style.touchAction = 'pan-y'
     this.controls.addEventListener('change', events.moved)
     this.controls.addEventListener('end', () => this.rested())
@@ -43,6 +43,8 @@ export class CameraRig {
     element.addEventListener('keydown', (event) => this.key(event), { signal })
     // The wheel belongs to the page until the reader has chosen the picture.
     element.addEventListener('wheel', () => this.wheel(), { signal, capture: true, passive: true })
+    element.addEventListener('focusin', () => (element.style.touchAction = 'none'), { signal })
+    element.addEventListener('focusout', () => (element.style.touchAction = 'pan-y'), { signal })
     element.addEventListener('pointerdown', (event) => (this.down = [event.clientX, event.clientY]), { signal })
     element.addEventListener('pointerup', (event) => this.up(event), { signal })
   }

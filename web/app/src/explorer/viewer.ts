@@ -21,6 +21,8 @@ export interface ViewerEvents {
   pick?: (hit: Hit, pane: number) => void
   /** The reader chose a region around a place: a double click, or B. */
   region?: (vertex: number) => void
+  /** The reader chose a picture of the wall. */
+  open?: (pane: number) => void
   /** The camera came to rest. */
   camera?: (view: number[]) => void
 }
@@ -29,11 +31,13 @@ export interface ViewerEvents {
 const SETTLE_MS = 150
 
 /**
- * Draws one object in up to four panes of one canvas. One camera serves all panes, which is what keeps them in step;
+ * Draws one object in any number of panes of one canvas. One camera serves all panes, which is what keeps them in step;
  * positions, normals and triangles are on the graphics card once. Draws on demand only.
  */
 export class HeatmapViewer {
   readonly rig: CameraRig
+  /** On the wall a click opens a picture; else it reads a value. */
+  wall = false
   private readonly renderer: WebGLRenderer
   private readonly scene = new Scene()
   private readonly camera = new PerspectiveCamera(30, 1, 0.01, 100)
@@ -268,16 +272,22 @@ export class HeatmapViewer {
   }
 
   private pickAt(clientX: number, clientY: number): void {
+    const pane = this.wall ? this.paneAt(clientX, clientY) : -1
+    if (pane >= 0) return this.events.open?.(pane)
     const found = this.hitAt(clientX, clientY)
     if (found) this.events.pick?.(found.hit, found.pane)
   }
 
-  private hitAt(clientX: number, clientY: number): { hit: Hit; pane: number } | null {
-    if (!this.bvh) return null
-    const pane = this.panes.findIndex(({ element }) => {
+  private paneAt(clientX: number, clientY: number): number {
+    return this.panes.findIndex(({ element }) => {
       const box = element.getBoundingClientRect()
       return clientX >= box.left && clientX < box.right && clientY >= box.top && clientY < box.bottom
     })
+  }
+
+  private hitAt(clientX: number, clientY: number): { hit: Hit; pane: number } | null {
+    if (!this.bvh) return null
+    const pane = this.paneAt(clientX, clientY)
     const box = this.panes[pane]?.element.getBoundingClientRect()
     if (!box) return null
     this.rig.aspect(box.width / box.height)
