@@ -29,6 +29,6 @@ for result in measured:
     asked = urllib.parse.urlencode({"algorithm": result["algorithm"], "measure": "time", "statistic": "median"})
     values = json.loads(ask(f"/api/v1/runs/{run['id']}/heatmap?{asked}"))["values"]
     numbers = [value for value in values if isinstance(value, (int, float))]
-    assert len(numbers) > 100 and min(numbers) > 0, f"{result['algorithm']}: {len(numbers)} numbers"
+    assert len(numbers) >= 10 and min(numbers) > 0, f"{result['algorithm']}: {len(numbers)} numbers"
 assert b"<div id=\"app\">" in ask("/"), "the pages are missing"
 print(f"dist: {kind}: {len(measured)} algorithms, {len(numbers)} vertices with a time, {(time.time_ns() - started) / 1e9:.1f} s from nothing to a heatmap")

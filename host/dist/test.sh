@@ -25,8 +25,12 @@ journey wheel
 result "wheel, from nothing to a heatmap" $?
 journey archive > "$out/archive.log" 2>&1 &
 archive=$!
-journey deb
-result "deb, from nothing to a heatmap" $?
+if command -v dpkg-deb >/dev/null; then
+  journey deb
+  result "deb, from nothing to a heatmap" $?
+else
+  echo "not run: there is no dpkg on this machine"
+fi
 wait "$archive"
 status=$?
 cat "$out/archive.log"
