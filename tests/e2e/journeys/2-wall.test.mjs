@@ -35,4 +35,33 @@ test('the wall shows every algorithm, turns by keys, opens one alone and fills t
   await until('the wall again', async () => (await tiles.count()) === shown.length)
   await v.page.goBack()
   await until('the step before', async () => (await tiles.count()) === 1)
+
+  // The cloud of closest points: coloured by itself, in the link, and Enter selects what lies near the middle.
+  await v.at('viewer-0').focus()
+  await v.page.keyboard.press('p')
+  await v.page.waitForURL(/pt=1/)
+  await v.page.getByText(/^[\d,]+ closest points, colour: points within 0\.05/).waitFor()
+  await until('coloured points', async () => (await v.colours(v.at('viewer-0'))).hues >= 2)
+  await v.picture('closest-points')
+  await v.at('viewer-0').focus()
+  await v.page.keyboard.press('Enter')
+  const where = await v.at('selection').locator('li code').textContent()
+  assert.match(where, /^near\(vertex \d+, 0\.05\)$/)
+  const { n } = await v.api(`/runs/${run.id}/selection?${new URLSearchParams({ algorithm: second, where })}`)
+  await until('the same configurations as the API', async () => (await v.value('selection-count')) === n)
+  // Shift and drag draws another ball in its place, and leaves the camera alone.
+  const link = new URL(v.page.url()).searchParams
+  const box = await v.at('viewer-0').boundingBox()
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2]
+  await v.page.keyboard.down('Shift')
+  await v.page.mouse.move(x, y)
+  await v.page.mouse.down()
+  await v.page.mouse.move(x + 70, y, { steps: 3 })
+  await v.page.mouse.up()
+  await v.page.keyboard.up('Shift')
+  await until('a larger ball', async () => (await v.value('selection-count')) > n)
+  assert.match(await v.at('selection').locator('li code').textContent(), /^near\(vertex \d+, 0\.[1-9]\d*\)$/)
+  assert.equal(new URL(v.page.url()).searchParams.get('cam'), link.get('cam'))
+  await v.accessible('the closest points', ['.picture'])
+  await v.picture('closest-points-selected')
 })

@@ -6,7 +6,7 @@ import { legendTicks } from './ticks'
 /** What the picture says of itself. */
 export interface PngLegend {
   title: string
-  /** One line: what was measured, on how many configurations, where. */
+  /** One line: on how many configurations, where, and what has no colour. */
   facts: string
   name: string
   unit: string
@@ -61,7 +61,7 @@ function drawLegend(context: CanvasRenderingContext2D, legend: PngLegend, width:
   })
   context.textAlign = 'left'
   write(context, legend.title, PAD, top + 80, 600, 11.5)
-  write(context, `${legend.facts} · grey: no data, hatched: all values dropped`, PAD, top + 96, 400, 11, span)
+  write(context, legend.facts, PAD, top + 96, 400, 11, span)
 }
 
 function write(

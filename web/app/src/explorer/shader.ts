@@ -75,17 +75,13 @@ void main() {
 
 /** The surface material; colours are sRGB bytes straight to the screen, so that they equal the legend's. */
 export function heatmapMaterial(): ShaderMaterial {
-  const texture = new DataTexture(lut('turbo'), LUT_SIZE, 1, RGBAFormat)
-  texture.minFilter = LinearFilter
-  texture.magFilter = LinearFilter
-  texture.needsUpdate = true
   return new ShaderMaterial({
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
     side: DoubleSide,
     toneMapped: false,
     uniforms: {
-      map: { value: texture },
+      map: { value: lutTexture() },
       ends: { value: new Vector2(0, 1) },
       shown: { value: new Vector2(0, 1) },
       logarithmic: { value: false },
@@ -96,6 +92,15 @@ export function heatmapMaterial(): ShaderMaterial {
       selecting: { value: false },
     },
   })
+}
+
+/** A colour map for a shader; `setColormap` puts another one in its place. */
+export function lutTexture(): DataTexture {
+  const texture = new DataTexture(lut('turbo'), LUT_SIZE, 1, RGBAFormat)
+  texture.minFilter = LinearFilter
+  texture.magFilter = LinearFilter
+  texture.needsUpdate = true
+  return texture
 }
 
 export function setColormap(material: ShaderMaterial, name: Colormap): void {
@@ -117,8 +122,8 @@ export function setSelecting(material: ShaderMaterial, selecting: boolean): void
   setUniform(material, 'selecting', selecting)
 }
 
-/** `colours` are CSS colours of the theme in force. */
-export function setNeutrals(material: ShaderMaterial, colours: { noData: string; outside: string; hatch: string }): void {
+/** `colours` are CSS colours of the theme in force, by their uniforms. */
+export function setNeutrals(material: ShaderMaterial, colours: Readonly<Record<string, string>>): void {
   for (const [name, css] of Object.entries(colours)) {
     const [r, g, b] = cssBytes(css)
     // Past three's colour management on purpose: the shader writes display values.

@@ -12,6 +12,7 @@ const unusual: ExplorerState = {
   shown: [0.25, 0.9],
   algorithms: ['box-tree', 'parry'],
   wall: true,
+  points: true,
   camera: [0.6, -0.5, 4.1, 0, 0.01, 0],
   vertex: 8367,
   against: 'parry',
@@ -41,7 +42,7 @@ describe('the link', () => {
 
   it.each([
     ['cam', '1,2,3'], ['cam', '1,2,3,4,5,x'], ['rg', '0.9,0.1'], ['rg', '-1,2'], ['v', '-3'], ['v', '1.5'], ['a', 'a,b,c,d,e'], ['a', ''],
-    ['vs', ''], ['vsrun', 'latest'], ['w', 'yes'], ['sel', 'slow'],
+    ['vs', ''], ['vsrun', 'latest'], ['w', 'yes'], ['pt', 'yes'], ['sel', 'slow'],
   ])('refuses %s=%s', (key, value) => {
     expect(readState({ [key]: value })).toEqual({ state: DEFAULTS, ignored: [key] })
   })

@@ -18,6 +18,8 @@ export interface ExplorerState {
   algorithms: string[]
   /** Every measured algorithm at once, instead of those. */
   wall: boolean
+  /** The closest points over the surface, instead of a heatmap. */
+  points: boolean
   /** Camera relative to the object, six numbers; empty: the starting view. */
   camera: number[]
   /** The vertex that is read. */
@@ -43,6 +45,7 @@ export const DEFAULTS: Readonly<ExplorerState> = {
   shown: [0, 1],
   algorithms: [],
   wall: false,
+  points: false,
   camera: [],
   vertex: null,
   against: '',
@@ -84,6 +87,7 @@ export function writeState(state: ExplorerState): Query {
   put('rg', state.shown.join(','), DEFAULTS.shown.join(','))
   put('a', state.algorithms.join(','), '')
   put('w', state.wall ? '1' : '0', '0')
+  put('pt', state.points ? '1' : '0', '0')
   put('cam', state.camera.join(','), '')
   put('v', state.vertex === null ? '' : String(state.vertex), '')
   put('vs', state.against, '')
@@ -120,6 +124,8 @@ function readKey(state: ExplorerState, key: string, raw: string): boolean {
       return assign(state, 'log', flag(raw))
     case 'w':
       return assign(state, 'wall', flag(raw))
+    case 'pt':
+      return assign(state, 'points', flag(raw))
     case 'rg':
       return assign(state, 'shown', shownRange(numbers(raw)))
     case 'cam': {

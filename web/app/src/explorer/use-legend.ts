@@ -17,7 +17,7 @@ export interface LegendData {
   coverage: Coverage
 }
 
-const BARS = 72
+export const LEGEND_BARS = 72
 
 /** One scale and one legend for all maps on the screen; null until one of them has a value. */
 export function useLegend(maps: ComputedRef<Heatmap[]>, state: ComputedRef<ExplorerState>): ComputedRef<LegendData | null> {
@@ -35,7 +35,7 @@ export function useLegend(maps: ComputedRef<Heatmap[]>, state: ComputedRef<Explo
       name: legendName(state.value),
       n: Math.max(...maps.value.map(({ n }) => n)),
       range: [sorted.value[0] ?? 0, sorted.value.at(-1) ?? 0],
-      bars: histogram(sorted.value, scale, BARS),
+      bars: histogram(sorted.value, scale, LEGEND_BARS),
       coverage: isSampled(measure) ? covered.value : { ...covered.value, few: 0 },
     }
   })

@@ -29,9 +29,9 @@ function byTime(run: RunInfo): { id: string; name: string }[] {
 export function visibleAlgorithms(run: RunInfo, state: ExplorerState): { id: string; name: string }[] {
   const all = measured(run)
   const chosen = all.filter(({ id }) => state.algorithms.includes(id))
-  const shown = state.wall ? byTime(run) : (chosen.length > 0 ? chosen : all).slice(0, MAX_PANES)
-  // Density counts configurations: it is the same for every algorithm.
-  if (state.measure === 'density') return shown.slice(0, 1)
+  const shown = state.wall && !state.points ? byTime(run) : (chosen.length > 0 ? chosen : all).slice(0, MAX_PANES)
+  // Density counts configurations, and closest points are theirs: the same for every algorithm.
+  if (state.measure === 'density' || state.points) return shown.slice(0, 1)
   // Nothing differs from itself.
   const others = shown.filter(({ id }) => state.againstRun !== '' || id !== state.against)
   return others.length > 0 ? others : all.filter(({ id }) => id !== state.against).slice(0, 1)

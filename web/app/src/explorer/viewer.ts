@@ -1,9 +1,11 @@
 import {
-  BufferAttribute, BufferGeometry, Color, Mesh, PerspectiveCamera, Points, PointsMaterial, Scene, Sphere, CanvasTexture, Vector2, Vector3,
+  BufferAttribute, BufferGeometry, Color, Mesh, PerspectiveCamera, Plane, Points, PointsMaterial, Scene, Sphere, CanvasTexture, Vector2, Vector3,
   WebGLRenderer, Raycaster, SRGBColorSpace,
 } from 'three'
 import type { MeshBVH } from 'three-mesh-bvh'
 import { CameraRig } from './camera'
+import { PointCloud, type DrawnCloud } from './cloud/point-cloud'
+import { strokes } from './cloud/stroke'
 import type { Colormap } from './colormap'
 import { buildBvh, pick, type Hit } from './picking'
 import type { ColourScale } from './scale'
@@ -21,6 +23,8 @@ export interface ViewerEvents {
   pick?: (hit: Hit, pane: number) => void
   /** The reader chose a region around a place: a double click, or B. */
   region?: (vertex: number) => void
+  /** The reader drew a ball around a vertex over the points; the radius as a share of the longest side. */
+  stroke?: (vertex: number, radius: number) => void
   /** The reader chose a picture of the wall. */
   open?: (pane: number) => void
   /** The camera came to rest. */
@@ -47,6 +51,10 @@ export class HeatmapViewer {
     new PointsMaterial({ size: 10, sizeAttenuation: false, depthTest: false, transparent: true, map: disc() }),
   )
   private readonly halo = new Points(this.marker.geometry, this.marker.material.clone())
+  private readonly cloud = new PointCloud()
+  /** The ball that is being drawn. */
+  private stroke: { vertex: number; centre: Vector3; radius: number; pane: number } | null = null
+  private readonly unstroke: () => void
   private base: BufferGeometry | null = null
   /** Per vertex: in the selection or not; shared by all panes. */
   private lit = new BufferAttribute(new Float32Array(0), 1)
@@ -69,13 +77,18 @@ export class HeatmapViewer {
     this.halo.renderOrder = 2
     this.halo.material.size = 16
     this.marker.visible = this.halo.visible = false
-    this.scene.add(this.halo, this.marker)
+    this.scene.add(this.cloud.object, this.halo, this.marker)
     this.rig = new CameraRig(this.camera, stage, {
       moved: () => this.move(),
       rested: (view) => this.events.camera?.(view),
       clicked: (x, y) => this.pickAt(x, y),
     })
     stage.addEventListener('dblclick', this.regionAt)
+    this.unstroke = strokes(stage, {
+      begin: (x, y) => this.beginStroke(x, y),
+      grow: (x, y) => this.growStroke(x, y),
+      end: (kept) => this.endStroke(kept),
+    })
     this.resize = new ResizeObserver(() => this.invalidate())
     this.resize.observe(stage)
     this.theme()
@@ -87,6 +100,7 @@ export class HeatmapViewer {
     this.base?.dispose()
     if (!geometry.getAttribute('normal')) geometry.computeVertexNormals()
     geometry.computeBoundingSphere()
+    geometry.computeBoundingBox()
     this.base = geometry
     this.bvh = buildBvh(geometry)
     this.lit = new BufferAttribute(new Float32Array(this.vertices), 1)
@@ -136,8 +150,15 @@ export class HeatmapViewer {
     this.invalidate()
   }
 
+  /** Points over the surface; null: none. */
+  setCloud(cloud: DrawnCloud | null): void {
+    this.cloud.show(cloud)
+    this.theme()
+  }
+
   setColormap(name: Colormap): void {
     setColormap(this.material, name)
+    this.cloud.colormap(name)
     this.invalidate()
   }
 
@@ -153,7 +174,9 @@ export class HeatmapViewer {
       probe.remove()
       return color
     }
-    setNeutrals(this.material, { noData: resolve('--no-data'), outside: resolve('--outside'), hatch: resolve('--ink-3') })
+    // Under points the surface steps back.
+    setNeutrals(this.material, { noData: resolve(this.cloud.object.visible ? '--outside' : '--no-data'), outside: resolve('--outside'), hatch: resolve('--ink-3') })
+    this.cloud.outside(resolve('--ink-3'))
     const colour = (css: string) => cssBytes(css).map((byte) => byte / 255) as [number, number, number]
     this.marker.material.color.setRGB(...colour(style.color))
     this.halo.material.color.setRGB(...colour(resolve('--sheet')))
@@ -209,7 +232,9 @@ export class HeatmapViewer {
     clearTimeout(this.settle)
     this.resize.disconnect()
     this.stage.removeEventListener('dblclick', this.regionAt)
+    this.unstroke()
     this.rig.dispose()
+    this.cloud.dispose()
     this.clearPanes(true)
     this.base?.dispose()
     this.material.uniforms.map?.value.dispose()
@@ -249,6 +274,7 @@ export class HeatmapViewer {
     const ratio = software ? (this.moving ? 0.5 : 1) : Math.min(2, window.devicePixelRatio)
     const size = this.renderer.getSize(new Vector2())
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio)
+    this.cloud.ratio(ratio)
     if (size.x !== stage.width || size.y !== stage.height) this.renderer.setSize(stage.width, stage.height, false)
     this.renderer.setViewport(0, 0, stage.width, stage.height)
     this.renderer.setScissor(0, 0, stage.width, stage.height)
@@ -286,8 +312,14 @@ export class HeatmapViewer {
   }
 
   private hitAt(clientX: number, clientY: number): { hit: Hit; pane: number } | null {
-    if (!this.bvh) return null
     const pane = this.paneAt(clientX, clientY)
+    const ray = this.rayAt(clientX, clientY, pane)
+    const hit = this.bvh && ray && pick(this.bvh, ray.ray)
+    return hit && { hit, pane }
+  }
+
+  /** From the eye through a place of a pane. */
+  private rayAt(clientX: number, clientY: number, pane: number): Raycaster | null {
     const box = this.panes[pane]?.element.getBoundingClientRect()
     if (!box) return null
     this.rig.aspect(box.width / box.height)
@@ -296,8 +328,39 @@ export class HeatmapViewer {
       new Vector2(((clientX - box.left) / box.width) * 2 - 1, 1 - ((clientY - box.top) / box.height) * 2),
       this.camera,
     )
-    const hit = pick(this.bvh, ray.ray)
-    return hit && { hit, pane }
+    return ray
+  }
+
+  private beginStroke(x: number, y: number): boolean {
+    const positions = this.base?.getAttribute('position')
+    const found = this.cloud.object.visible ? this.hitAt(x, y) : null
+    if (!found || !positions) return false
+    const { vertex } = found.hit
+    this.stroke = { vertex, centre: new Vector3().fromBufferAttribute(positions, vertex), radius: 0, pane: found.pane }
+    return true
+  }
+
+  /** The ball reaches to the pointer, across the view. */
+  private growStroke(x: number, y: number): void {
+    const ray = this.stroke && this.rayAt(x, y, this.stroke.pane)
+    if (!this.stroke || !ray) return
+    const plane = new Plane().setFromNormalAndCoplanarPoint(this.camera.getWorldDirection(new Vector3()), this.stroke.centre)
+    this.stroke.radius = ray.ray.intersectPlane(plane, new Vector3())?.distanceTo(this.stroke.centre) ?? this.stroke.radius
+    this.cloud.ball(this.stroke.centre, this.stroke.radius)
+    this.invalidate()
+  }
+
+  private endStroke(kept: boolean): void {
+    const { stroke } = this
+    this.stroke = null
+    this.cloud.ball(new Vector3(), 0)
+    this.invalidate()
+    const sides = this.base?.boundingBox?.getSize(new Vector3()).toArray() ?? [1]
+    const share = stroke ? stroke.radius / Math.max(...sides) : 0
+    if (!kept || !stroke) return
+    // Hardly moved, it is a click.
+    if (share < 0.005) this.events.region?.(stroke.vertex)
+    else this.events.stroke?.(stroke.vertex, share)
   }
 }
 

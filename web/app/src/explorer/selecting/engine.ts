@@ -1,4 +1,5 @@
 import { tableFromIPC } from '@uwdata/flechette'
+import { RADIUS, thinned, within, type Cloud } from '../cloud/density'
 import { apply, ascending, axis, counted, litVertices, places, sortedChosen, type Axis, type Columns } from './apply'
 import { algorithms, parse, type Column } from './language'
 
@@ -17,6 +18,8 @@ export interface Question {
   /** The algorithm of the chart, whose columns are meant when none is named. */
   lookedAt: string
   side: 'a' | 'b'
+  /** Whether the closest points are shown. */
+  points: boolean
   /** The column across the time, or the first that can be had. */
   y: Column | null
   cells: [number, number]
@@ -47,6 +50,10 @@ export interface Answer {
   /** Columns that may stand across the time. */
   columns: Column[]
   rows: SelectedTimes[]
+  /** The closest points on the object, when they are asked for. */
+  cloud: Cloud | null
+  /** Per point of the cloud, whether its configuration is selected; null without a selection. */
+  cloudChosen: Uint8Array | null
 }
 
 const ACROSS: readonly Column[] = ['bv', 'primitives', 'error', 'distance']
@@ -61,6 +68,7 @@ export class Selecting {
   private readonly loaded = new Map<string, Numbers>()
   /** What stays the same from question to question: who is where in the chart, who is how fast among all. */
   private chartOfAll: ChartOfAll | null = null
+  private readonly clouds = new Map<string, Cloud>()
   private readonly orders = new Map<string, Uint32Array>()
 
   constructor(
@@ -89,6 +97,7 @@ export class Selecting {
     const chosen = masks.length > 0 ? masks.reduce((x, y) => x.map((is, i) => is & (y[i] ?? 0))) : null
     const surface = this.surfaces[question.side]
     const triangles = this.known('')[`triangle_${question.side}`]
+    const cloud = question.points ? this.cloud(question.side) : null
     const across = ACROSS.filter((column) => column === 'distance' || column in this.known(question.lookedAt))
     return {
       of,
@@ -98,6 +107,8 @@ export class Selecting {
       chart: this.chart(question, across, columns, chosen),
       columns: across,
       rows: chosen ? rows.map((algorithm) => this.times(algorithm, columns.column('time', algorithm), chosen)) : [],
+      cloud,
+      cloudChosen: cloud && chosen ? Uint8Array.from(cloud.records, (record) => chosen[record] ?? 0) : null,
     }
   }
 
@@ -113,6 +124,22 @@ export class Selecting {
     const { x, y, at } = this.chartOfAll
     const count = (which: Uint8Array | null) => counted(at, x.cells * y.cells, which)
     return { x, y, column, all: count(null), lit: chosen ? count(chosen) : new Uint32Array(x.cells * y.cells) }
+  }
+
+  private cloud(side: 'a' | 'b'): Cloud {
+    const known = this.clouds.get(side)
+    if (known) return known
+    const [x, y, z] = this.points(side)
+    const points = thinned(x, y, z)
+    const cloud = { side, ...points, near: within(points.positions, RADIUS * this.surfaces[side].longest) }
+    this.clouds.set(side, cloud)
+    return cloud
+  }
+
+  /** The witness points on an object, by axes. */
+  private points(side: 'a' | 'b'): [ArrayLike<number>, ArrayLike<number>, ArrayLike<number>] {
+    const along = (axisName: string) => this.known('')[`${side}_${axisName}`] ?? []
+    return [along('x'), along('y'), along('z')]
   }
 
   private times(algorithm: string, values: ArrayLike<number>, chosen: Uint8Array): SelectedTimes {
@@ -131,13 +158,13 @@ export class Selecting {
       fromVertex: (body, vertex) => {
         const { positions, longest } = this.surfaces[body]
         if (3 * vertex >= positions.length) throw new Error(`Object ${body.toUpperCase()} has no vertex ${vertex}.`)
-        const [x, y, z] = ['x', 'y', 'z'].map((axisName) => this.known('')[`${body}_${axisName}`] ?? [])
+        const [x, y, z] = this.points(body)
         const [cx = 0, cy = 0, cz = 0] = positions.subarray(3 * vertex, 3 * vertex + 3)
-        const distances = new Float64Array(x?.length ?? 0)
+        const distances = new Float64Array(x.length)
         for (let i = 0; i < distances.length; i++) {
-          const dx = (x?.[i] ?? 0) - cx
-          const dy = (y?.[i] ?? 0) - cy
-          const dz = (z?.[i] ?? 0) - cz
+          const dx = (x[i] ?? 0) - cx
+          const dy = (y[i] ?? 0) - cy
+          const dz = (z[i] ?? 0) - cz
           distances[i] = Math.sqrt(dx * dx + dy * dy + dz * dz) / longest
         }
         return distances

@@ -31,6 +31,15 @@ export function tidy(name: string): string {
   return name.replace(/[:;]/g, ' ').replace(/^-+/, '').trim().slice(0, LONGEST_NAME)
 }
 
+const PLACE = 'Place'
+
+/** The list with this place; a place that was brushed before gives way, since few points lie near both. */
+export function placed(list: readonly NamedSelection[], where: string): NamedSelection[] {
+  const place = { name: PLACE, where, on: true }
+  if (list.some(({ name }) => name === PLACE)) return list.map((one) => (one.name === PLACE ? place : one))
+  return list.length < MOST_SELECTIONS ? [...list, place] : [...list]
+}
+
 /** A name that no selection of the list has. */
 export function freshName(list: readonly NamedSelection[], what: string): string {
   const taken = new Set(list.map(({ name }) => name))

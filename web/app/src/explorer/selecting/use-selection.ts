@@ -46,6 +46,7 @@ export function useSelection(run: ComputedRef<RunInfo>, state: ComputedRef<Explo
           where: state.value.selections.filter(({ on }) => on).map(({ where }) => where),
           lookedAt: lookedAt.value,
           side: state.value.side,
+          points: state.value.points,
           y: across.value,
           cells: cells(run.value.set?.configurations ?? 0),
           algorithms: measured(run.value).map(({ id }) => id),
