@@ -9,6 +9,9 @@ pub enum LabError {
     /// Not now: another process holds what is needed.
     #[error("{0}")]
     Busy(String),
+    /// Whoever asked for it ended it; nothing is wrong.
+    #[error("Stopped before its end; what was not finished was discarded.")]
+    Stopped,
     /// Ours or the machine's fault.
     #[error("{0}")]
     Fault(String),

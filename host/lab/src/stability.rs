@@ -123,20 +123,15 @@ fn policy() -> Policy {
     }
 }
 
-/// Tries everything selected on one algorithm; says what it is at. Blocks, so it wants a thread of its own.
-pub fn run(
-    runner: &Runner,
-    contestant: &Contestant,
-    selection: &Selection,
-    stop: &Stop,
-    at: &dyn Fn(&str),
-) -> Result<Stability> {
-    let launcher = runner.launcher(contestant, Policy { threads: contestant.threads, ..policy() });
-    selection.check()?;
-    let begun = Instant::now();
+/// The parts that are selected, in the order in which they are tried.
+pub fn parts(selection: &Selection) -> Vec<&'static str> {
+    names().filter(|name| selection.wants(name)).collect()
+}
+
+/// What is known of an algorithm before anything was tried; not complete.
+pub fn begin(contestant: &Contestant, selection: &Selection) -> Stability {
     let info = &contestant.info;
-    let mut asker = Asker::new(&launcher, contestant, precision(info), stop);
-    let mut found = Stability {
+    Stability {
         algorithm: info.id.clone(),
         name: info.name.clone(),
         version: info.version.clone(),
@@ -144,7 +139,7 @@ pub fn run(
         single_precision: info.single_precision,
         seeds: selection.seeds().len() as u32,
         created_us: now_us(),
-        complete: true,
+        complete: false,
         families: Vec::new(),
         relations: Vec::new(),
         failures: Vec::new(),
@@ -152,26 +147,58 @@ pub fn run(
         search: None,
         unit_safe: None,
         offset_safe: None,
-    };
-    for name in names().filter(|name| selection.wants(name)) {
-        if selection.budget.is_some_and(|budget| begun.elapsed() > budget) {
-            found.complete = false;
-            break;
-        }
-        at(name);
-        if let Some(family) = catalogue::by_id(name) {
-            found.families.push(families::family(&mut asker, family, selection)?);
-        } else if name == REPORTED {
-            found.failures = reported::failures(&mut asker)?;
-        } else if name == TESSELLATIONS {
-            found.tessellations = tessellations::tessellations(&mut asker)?;
-        } else if name == SEARCH {
-            found.search = search::search(&mut asker)?;
-        } else if let Some(relation) = Relation::ALL.into_iter().find(|r| r.words()[0] == name) {
-            found.relations.push(relations::relation(&mut asker, relation, selection)?);
-        }
+    }
+}
+
+/// Tries one part on the algorithm and adds what it finds. Blocks, so it wants a thread of its own. Times are taken, so the
+/// caller holds the right to measure.
+///
+/// # Errors
+/// `Stopped` when it was; then nothing is added.
+pub fn part(
+    runner: &Runner,
+    contestant: &Contestant,
+    selection: &Selection,
+    name: &str,
+    found: &mut Stability,
+    stop: &Stop,
+) -> Result<()> {
+    let launcher = runner.launcher(contestant, Policy { threads: contestant.threads, ..policy() });
+    let mut asker = Asker::new(&launcher, contestant, precision(&contestant.info), stop);
+    if let Some(family) = catalogue::by_id(name) {
+        found.families.push(families::family(&mut asker, family, selection)?);
+    } else if name == REPORTED {
+        found.failures = reported::failures(&mut asker)?;
+    } else if name == TESSELLATIONS {
+        found.tessellations = tessellations::tessellations(&mut asker)?;
+    } else if name == SEARCH {
+        found.search = search::search(&mut asker)?;
+    } else if let Some(relation) = Relation::ALL.into_iter().find(|r| r.words()[0] == name) {
+        found.relations.push(relations::relation(&mut asker, relation, selection)?);
     }
     found.unit_safe = relations::unit_safe(&found.relations);
     found.offset_safe = families::offset_safe(&found.families);
+    Ok(())
+}
+
+/// Tries everything selected on one algorithm; says what it is at. As [`part`] it blocks and takes times.
+pub fn run(
+    runner: &Runner,
+    contestant: &Contestant,
+    selection: &Selection,
+    stop: &Stop,
+    at: &dyn Fn(&str),
+) -> Result<Stability> {
+    selection.check()?;
+    let begun = Instant::now();
+    let mut found = begin(contestant, selection);
+    for name in parts(selection) {
+        if selection.budget.is_some_and(|budget| begun.elapsed() > budget) {
+            return Ok(found);
+        }
+        at(name);
+        part(runner, contestant, selection, name, &mut found, stop)?;
+    }
+    found.complete = true;
     Ok(found)
 }

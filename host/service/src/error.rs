@@ -54,6 +54,7 @@ impl From<ocb_lab::LabError> for EngineError {
         match e {
             ocb_lab::LabError::Invalid(sentence) => Self::Invalid(sentence),
             ocb_lab::LabError::Busy(sentence) => Self::Busy(sentence),
+            ocb_lab::LabError::Stopped => Self::Busy(e.to_string()),
             ocb_lab::LabError::Fault(sentence) => Self::Fault(sentence),
         }
     }

@@ -42,7 +42,7 @@ pub struct Asker<'a> {
     launcher: &'a Launcher,
     pub contestant: &'a Contestant,
     pub precision: Precision,
-    stop: &'a Stop,
+    pub stop: &'a Stop,
 }
 
 impl<'a> Asker<'a> {
@@ -68,7 +68,7 @@ impl<'a> Asker<'a> {
         let mut deaths = 0;
         while all.len() < questions.len() {
             if self.stop.asked() {
-                return Err(LabError::Invalid("The stability run was stopped; its results were discarded.".into()));
+                return Err(LabError::Stopped);
             }
             let ending = match self.process(a, b, semantics, &questions[all.len()..], &mut all) {
                 Ok(()) => continue,
@@ -99,6 +99,9 @@ impl<'a> Asker<'a> {
         let trial = Trial { plugin: file, algorithm, mesh_a: a, mesh_b: Some(b), parameters: settings, semantics };
         let mut session = self.launcher.start(&trial)?;
         for (query, configuration) in questions {
+            if self.stop.asked() {
+                break;
+            }
             match session.query(*query, configuration) {
                 Ok(sample) => all.push(Got::Answer(sample.answer, sample.time_ns)),
                 Err(_) => return Err(session.finish()),
@@ -131,7 +134,7 @@ impl<'a> Asker<'a> {
             Err(outcome) => came(&outcome),
         });
         session.finish();
-        Ok(())
+        if self.stop.asked() { Err(LabError::Stopped) } else { Ok(()) }
     }
 
     /// The shortest time of some askings of one question, each in a new process; `None` when it does not answer.

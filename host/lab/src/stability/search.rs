@@ -35,9 +35,13 @@ pub fn search(asker: &mut Asker) -> Result<Option<SearchResult>> {
     let posed = |c: &Configuration| Posed { configuration: *c, ..Posed::new(&mesh, &mesh, c.pose_b) };
     let mut last = None;
     let mut run = |asker: &mut Asker, search: Search, goal: Goal| -> Result<Option<Found>> {
-        let (mut found, precision) = (None, asker.precision);
+        let (mut found, precision, stop) = (None, asker.precision, asker.stop);
         asker.converse(&mesh, &mesh, |ask| {
             let mut heard = |c: &Configuration| {
+                // A failure ends the search.
+                if stop.asked() {
+                    return Heard { failed: true, cost: 0.0 };
+                }
                 let got = ask(query, c);
                 let failed = goal == Goal::Failure
                     && Known::of(&posed(c)).tally(&got, query, false, Rule::Judged, precision, None).failed();
