@@ -31,6 +31,7 @@ mod preview;
 mod replay;
 mod selecting;
 mod stability;
+mod stability_run;
 mod submission;
 mod suite;
 mod timing;
@@ -79,6 +80,7 @@ pub use stability::{
     CellState, FailingCase, FailureInfo, FailureResult, FamilyInfo, FamilyResult, RelationInfo, RelationResult,
     RelationStep, SearchResult, Stability, StabilityTable, StepResult, Tally, TessellationResult, ThresholdInfo,
 };
+pub use stability_run::{StabilityRunInfo, StabilitySpec};
 pub use submission::{Action, Decision, Manifest, PluginInfo, PluginState};
 pub use suite::{BoardSuite, SuiteInfo, SuiteProgress};
 pub use timing::{Draw, Reference, Timing, TimingCheck};

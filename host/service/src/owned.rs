@@ -82,6 +82,9 @@ impl Engine {
                 return Err(EngineError::Busy("One of these runs is just ending; try again in a moment.".to_owned()));
             }
         }
+        for run in &what.stability {
+            self.inner.end_stability(run).await?;
+        }
         for advice in &what.advice {
             self.cancel_advice(advice, Some(owner)).await?;
         }

@@ -33,6 +33,8 @@ pub enum Made {
     Invitation,
     /// A campaign.
     Campaign,
+    /// A stability run.
+    StabilityRun,
 }
 
 impl Engine {
@@ -75,6 +77,7 @@ impl Made {
             Self::Token => "token",
             Self::Invitation => "invitation",
             Self::Campaign => "campaign",
+            Self::StabilityRun => "stability run",
         }
     }
 }

@@ -1,14 +1,18 @@
 //! Where methods fail.
 
+mod runs;
+mod runs_sql;
 pub mod sql;
+pub mod work;
 
 use std::sync::Arc;
 
 use crate::boxed;
-use crate::engine::Engine;
+use crate::engine::{Engine, Inner};
 use crate::measure::Stop;
 use crate::model::{Stability, StabilityTable};
 use crate::{EngineError, Result};
+use ocb_lab::contestant::Contestant;
 use ocb_lab::stability::{self, Selection};
 
 impl Engine {
@@ -27,23 +31,32 @@ impl Engine {
         at: impl Fn(&str) + Send + 'static,
     ) -> Result<Stability> {
         selection.check()?;
-        let unknown = || {
-            let known: Vec<String> = self.algorithms(None).into_iter().map(|a| a.id).collect();
-            EngineError::Invalid(format!("There is no algorithm {algorithm:?}; available: {}.", known.join(", ")))
-        };
-        let contestant = self.inner.registry.choose(algorithm, None)?.ok_or_else(unknown)?;
+        let contestant = self.inner.stability_contestant(algorithm, None)?;
         let whole = selection.parts.is_empty() && selection.at.is_none() && selection.seed.is_none();
         let inner = Arc::clone(&self.inner);
         // A thread of its own: a jail ends with the thread that started it.
         let (sender, found) = tokio::sync::oneshot::channel();
         std::thread::spawn(move || {
+            let tried = work::right_to_measure(&stop)
+                .and_then(|_right| stability::run(inner.registry.runner(), &contestant, &selection, &stop, &at));
             // Who asked may have gone.
-            drop(sender.send(stability::run(inner.registry.runner(), &contestant, &selection, &stop, &at)));
+            drop(sender.send(tried));
         });
         let found = found.await.map_err(|_| EngineError::Fault("The stability run failed.".into()))??;
         if whole {
             self.inner.store.keep_stability(&found).await?;
         }
         Ok(found)
+    }
+}
+
+impl Inner {
+    /// The algorithm of this name, with settings, that the viewer may use.
+    pub(crate) fn stability_contestant(&self, algorithm: &str, viewer: Option<&str>) -> Result<Arc<Contestant>> {
+        let unknown = || {
+            let known: Vec<String> = self.registry.algorithms(viewer).into_iter().map(|a| a.id).collect();
+            EngineError::Invalid(format!("There is no algorithm {algorithm:?}; available: {}.", known.join(", ")))
+        };
+        self.registry.choose(algorithm, viewer)?.ok_or_else(unknown)
     }
 }

@@ -17,6 +17,7 @@ enum Named {
     Run(String),
     Object(String),
     Advice(String),
+    StabilityRun(String),
 }
 
 /// Answers as if there were no such thing when it is somebody else's private one, in the path or as what another is compared
@@ -29,6 +30,7 @@ pub(crate) async fn hide_private_things(State(app): State<App>, request: Request
             Named::Run(id) => app.engine.run_is_for(id, guest.as_deref()).await,
             Named::Object(id) => app.engine.object_is_for(id, guest.as_deref()).await,
             Named::Advice(id) => app.engine.advice_is_for(id, guest.as_deref()).await,
+            Named::StabilityRun(id) => app.engine.stability_run_is_for(id, guest.as_deref()).await,
         };
         if let Err(e) = there {
             return Problem::from(e).into_response();
@@ -47,6 +49,7 @@ fn named(uri: &Uri) -> Vec<Named> {
         "runs" => Some(Named::Run(id)),
         "objects" => Some(Named::Object(id)),
         "advice" => Some(Named::Advice(id)),
+        "stability-runs" => Some(Named::StabilityRun(id)),
         _ => None,
     };
     let Query(pairs) = Query::<Vec<(String, String)>>::try_from_uri(uri).unwrap_or_default();

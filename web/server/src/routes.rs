@@ -20,6 +20,7 @@ mod runs;
 mod selecting;
 mod service;
 mod stability;
+mod stability_runs;
 mod suite;
 
 use axum::Router;
@@ -144,6 +145,9 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(invitations::revoke_invitation))
         .routes(routes!(invitations::accept_invitation))
         .routes(routes!(stability::show_stability))
+        .routes(routes!(stability_runs::start_stability, stability_runs::list_stability_runs))
+        .routes(routes!(stability_runs::show_stability_run, stability_runs::remove_stability))
+        .routes(routes!(stability_runs::cancel_stability))
         .routes(routes!(suite::show_suite))
         .routes(routes!(campaigns::create_campaign, campaigns::list_campaigns))
         .routes(routes!(campaigns::preview_campaign))

@@ -77,7 +77,10 @@ impl Inner {
     /// public or were.
     async fn parted(&self, account: &AccountInfo) -> Result<(Belongings, Belongings)> {
         let all = self.store.belongings(&account.owner(), None).await?;
-        let (mut goes, mut stays) = (Belongings { advice: all.advice, ..Belongings::default() }, Belongings::default());
+        let (mut goes, mut stays) = (
+            Belongings { advice: all.advice, stability: all.stability, ..Belongings::default() },
+            Belongings::default(),
+        );
         for run in all.runs {
             let row = self.run_row(&run.id).await?;
             let ended = !matches!(row.state, State::Queued | State::Running);

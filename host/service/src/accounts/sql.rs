@@ -203,6 +203,7 @@ impl Store {
             "UPDATE runs SET owner = $1 WHERE owner = $2",
             "UPDATE objects SET owner = $1 WHERE owner = $2",
             "UPDATE advice SET owner = $1 WHERE owner = $2",
+            "UPDATE stability_runs SET owner = $1 WHERE owner = $2",
             "UPDATE requests SET owner = $1 WHERE owner = $2 AND (resource, request_key) NOT IN \
              (SELECT resource, request_key FROM requests WHERE owner = $1)",
         ] {

@@ -56,6 +56,9 @@ impl Engine {
                 self.pack_advice(&mut packer, id).await?;
             }
         }
+        for id in &all.stability {
+            packer.json(&format!("stability/{id}.json"), &self.stability_run(id, Some(owner)).await?)?;
+        }
         if let Some(account) = self.account_of(owner).await? {
             if contents.account {
                 self.pack_account(&mut packer, &account).await?;

@@ -16,6 +16,8 @@ pub struct Belongings {
     pub objects: Vec<OwnedItem>,
     /// Their ids.
     pub advice: Vec<String>,
+    /// Ids of stability runs.
+    pub stability: Vec<String>,
     /// Theirs, too; only an account that is deleted takes plugins along.
     pub plugins: Vec<String>,
 }
@@ -54,6 +56,14 @@ impl Store {
             .bind(&named)
             .fetch_all(&self.pool)
             .await?;
+        // They name no object.
+        let stability: Vec<String> = match object {
+            Some(_) => Vec::new(),
+            None => {
+                let text = "SELECT id FROM stability_runs WHERE owner = $1 ORDER BY created_us DESC, id DESC";
+                sqlx::query_scalar(text).bind(owner).fetch_all(&self.pool).await?
+            }
+        };
         let run = |(id, a, b): (String, String, String)| OwnedItem { id, name: format!("{a} x {b}") };
         let object = |(id, info): (String, String)| {
             Ok(OwnedItem { id, name: from_json::<crate::model::ObjectInfo>(&info)?.name })
@@ -62,6 +72,7 @@ impl Store {
             runs: runs.into_iter().map(run).collect(),
             objects: objects.into_iter().map(object).collect::<Result<_>>()?,
             advice,
+            stability,
             plugins: Vec::new(),
         })
     }
@@ -78,9 +89,10 @@ impl Store {
     pub async fn last_wanted(&self, owner: &str) -> Result<Option<i64>> {
         let text = "SELECT MAX(us) FROM (SELECT MAX(created_us) AS us FROM runs WHERE owner = $1 \
                     UNION ALL SELECT MAX(created_us) FROM objects WHERE owner = $2 \
-                    UNION ALL SELECT MAX(created_us) FROM advice WHERE owner = $3) AS made";
+                    UNION ALL SELECT MAX(created_us) FROM advice WHERE owner = $3 \
+                    UNION ALL SELECT MAX(created_us) FROM stability_runs WHERE owner = $4) AS made";
         let made: Option<i64> =
-            sqlx::query_scalar(text).bind(owner).bind(owner).bind(owner).fetch_one(&self.pool).await?;
+            sqlx::query_scalar(text).bind(owner).bind(owner).bind(owner).bind(owner).fetch_one(&self.pool).await?;
         let asked: Option<i64> = sqlx::query_scalar("SELECT asked_us FROM kept WHERE owner = $1")
             .bind(owner)
             .fetch_optional(&self.pool)
@@ -99,7 +111,8 @@ impl Store {
     /// Whoever has something.
     pub async fn owners(&self) -> Result<Vec<String>> {
         let text = "SELECT owner FROM runs WHERE owner IS NOT NULL UNION SELECT owner FROM objects WHERE owner IS NOT NULL \
-                    UNION SELECT owner FROM advice WHERE owner IS NOT NULL";
+                    UNION SELECT owner FROM advice WHERE owner IS NOT NULL \
+                    UNION SELECT owner FROM stability_runs WHERE owner IS NOT NULL";
         Ok(sqlx::query_scalar(text).fetch_all(&self.pool).await?)
     }
 }
@@ -128,6 +141,9 @@ pub(crate) async fn take(connection: &mut AnyConnection, what: &Belongings) -> R
             let papers: [Vec<StoredPaper>; 2] = from_json(&papers)?;
             files.extend(papers.into_iter().flatten().flat_map(|paper| [paper.mesh, paper.certificate]));
         }
+    }
+    for id in &what.stability {
+        sqlx::query("DELETE FROM stability_runs WHERE id = $1").bind(id).execute(&mut *connection).await?;
     }
     for id in &what.plugins {
         // One that was made public meanwhile stays.

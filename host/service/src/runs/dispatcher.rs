@@ -12,6 +12,7 @@ use crate::plugins::checks;
 use crate::runs::benchmark;
 use crate::runs::benchmark::End;
 use crate::runs::log::plain_event;
+use crate::stability::work::next_part;
 use crate::{EngineError, Result};
 
 /// A run that was started this often is not tried again: it may be what ends the service.
@@ -52,6 +53,16 @@ pub async fn work(inner: Arc<Inner>) {
                 }
             }
         }
+        let tried = next_part(&inner, |id, stop| inner.set_current(Some((id.to_owned(), stop.clone())))).await;
+        inner.set_current(None);
+        let tried = match tried {
+            Ok(tried) => tried,
+            Err(e) => {
+                tracing::error!("a stability run: {e}");
+                tokio::time::sleep(BACK_OFF).await;
+                false
+            }
+        };
         match inner.store.claim().await {
             Ok(Some(id)) => {
                 if let Err(e) = carry_out(&inner, &id).await {
@@ -59,7 +70,7 @@ pub async fn work(inner: Arc<Inner>) {
                     tokio::time::sleep(BACK_OFF).await;
                 }
             }
-            Ok(None) if checked => {}
+            Ok(None) if checked || tried => {}
             Ok(None) => {
                 let idle = if faults > 0 { next_check.saturating_duration_since(Instant::now()) } else { IDLE };
                 let _ = tokio::time::timeout(idle, inner.wake.notified()).await;

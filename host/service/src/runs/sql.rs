@@ -374,7 +374,7 @@ pub(crate) fn read_run(row: &AnyRow) -> Result<RunRow> {
     })
 }
 
-fn state_name(state: State) -> &'static str {
+pub(crate) fn state_name(state: State) -> &'static str {
     match state {
         State::Queued => "queued",
         State::Running => "running",

@@ -1,0 +1,165 @@
+//! Stability runs in the queue.
+
+use crate::Result;
+use crate::model::{Cursor, Stability, StabilitySpec, State};
+use crate::runs::sql::{named_state, state_name};
+use crate::store::{Store, from_json, now_us, to_json};
+
+/// One stability run.
+#[derive(Clone, Debug)]
+pub struct StabilityRow {
+    pub id: String,
+    pub owner: Option<String>,
+    /// Whose turn it takes.
+    pub turn: String,
+    /// Its plugin was not public when it was asked for: only its owner sees it.
+    pub private: bool,
+    pub state: State,
+    /// How often the part that is next was begun.
+    pub attempts: i64,
+    pub message: Option<String>,
+    /// The algorithm's.
+    pub name: String,
+    pub spec: StabilitySpec,
+    /// Parts that are done.
+    pub done: Vec<String>,
+    pub created_us: i64,
+    pub finished_us: Option<i64>,
+}
+
+type Columns =
+    (String, Option<String>, String, i64, String, i64, Option<String>, String, String, String, i64, Option<i64>);
+
+macro_rules! select {
+    ($rest:literal) => {
+        concat!(
+            "SELECT id, owner, turn, private, state, attempts, message, name, spec, done, created_us, finished_us ",
+            "FROM stability_runs ",
+            $rest
+        )
+    };
+}
+
+impl Store {
+    /// Queues one; false when there is one with its id.
+    pub async fn add_stability_run(&self, row: &StabilityRow) -> Result<bool> {
+        let added = sqlx::query(
+            "INSERT INTO stability_runs (id, owner, turn, private, state, attempts, name, spec, done, created_us) \
+             VALUES ($1, $2, $3, $4, 'queued', 0, $5, $6, '[]', $7) ON CONFLICT (id) DO NOTHING",
+        )
+        .bind(&row.id)
+        .bind(&row.owner)
+        .bind(&row.turn)
+        .bind(i64::from(row.private))
+        .bind(&row.name)
+        .bind(to_json(&row.spec)?)
+        .bind(row.created_us)
+        .execute(&self.pool)
+        .await?;
+        Ok(added.rows_affected() == 1)
+    }
+
+    /// The one whose next part is to be tried, and counts the attempt: what is begun first, then whose turn was longest ago.
+    pub async fn claim_stability(&self) -> Result<Option<StabilityRow>> {
+        let id: Option<String> = sqlx::query_scalar(
+            "UPDATE stability_runs SET state = 'running', attempts = attempts + 1 \
+             WHERE state IN ('queued', 'running') AND id = ( \
+                 SELECT r.id FROM stability_runs r LEFT JOIN served s ON s.owner = r.turn \
+                 WHERE r.state IN ('queued', 'running') \
+                 ORDER BY CASE r.state WHEN 'running' THEN 0 ELSE 1 END, COALESCE(s.served_us, 0), r.created_us, r.id \
+                 LIMIT 1) \
+             RETURNING id",
+        )
+        .fetch_optional(&self.pool)
+        .await?;
+        let Some(id) = id else { return Ok(None) };
+        let row = self.stability_run(&id).await?;
+        if let Some(row) = &row {
+            let text = "INSERT INTO served (owner, served_us) VALUES ($1, $2) \
+                        ON CONFLICT (owner) DO UPDATE SET served_us = excluded.served_us";
+            sqlx::query(text).bind(&row.turn).bind(now_us()).execute(&self.pool).await?;
+        }
+        Ok(row)
+    }
+
+    /// Keeps what the parts found that are done; one that was cancelled meanwhile stays as it is.
+    pub async fn keep_parts(&self, id: &str, done: &[String], found: &Stability) -> Result<()> {
+        let text = "UPDATE stability_runs SET attempts = 0, done = $1, found = $2 WHERE id = $3 AND state = 'running'";
+        sqlx::query(text).bind(to_json(&done)?).bind(to_json(found)?).bind(id).execute(&self.pool).await?;
+        Ok(())
+    }
+
+    /// The part under way was not finished, and by no fault of its own: the attempt does not count.
+    pub async fn put_back_part(&self, id: &str) -> Result<()> {
+        let text = "UPDATE stability_runs SET attempts = attempts - 1 WHERE id = $1 AND state = 'running'";
+        sqlx::query(text).bind(id).execute(&self.pool).await?;
+        Ok(())
+    }
+
+    /// Ends one that has not ended; false when it had.
+    pub async fn end_stability(&self, id: &str, state: State, message: Option<&str>) -> Result<bool> {
+        let text = "UPDATE stability_runs SET state = $1, message = $2, finished_us = $3 \
+                    WHERE id = $4 AND state IN ('queued', 'running')";
+        let query = sqlx::query(text).bind(state_name(state)).bind(message).bind(now_us()).bind(id);
+        Ok(query.execute(&self.pool).await?.rows_affected() == 1)
+    }
+
+    /// One by its id.
+    pub async fn stability_run(&self, id: &str) -> Result<Option<StabilityRow>> {
+        let row: Option<Columns> = sqlx::query_as(select!("WHERE id = $1")).bind(id).fetch_optional(&self.pool).await?;
+        row.map(read).transpose()
+    }
+
+    /// What one found so far.
+    pub async fn stability_found(&self, id: &str) -> Result<Option<Stability>> {
+        let text = "SELECT found FROM stability_runs WHERE id = $1";
+        let found: Option<Option<String>> = sqlx::query_scalar(text).bind(id).fetch_optional(&self.pool).await?;
+        found.flatten().map(|text| from_json(&text)).transpose()
+    }
+
+    /// Those of an owner, newest first, behind a place in the list.
+    pub async fn stability_runs_of(&self, owner: &str, from: &Cursor, limit: usize) -> Result<Vec<StabilityRow>> {
+        let rows: Vec<Columns> = sqlx::query_as(select!(
+            "WHERE owner = $1 AND (created_us, id) < ($2, $3) ORDER BY created_us DESC, id DESC LIMIT $4"
+        ))
+        .bind(owner)
+        .bind(from.created_us)
+        .bind(&from.id)
+        .bind(limit as i64)
+        .fetch_all(&self.pool)
+        .await?;
+        rows.into_iter().map(read).collect()
+    }
+
+    /// How many have not ended: all, and those of this turn.
+    pub async fn open_stability(&self, turn: &str) -> Result<[i64; 2]> {
+        let text = "SELECT COUNT(*), COUNT(CASE WHEN turn = $1 THEN 1 END) FROM stability_runs \
+                    WHERE state IN ('queued', 'running')";
+        let (all, own): (i64, i64) = sqlx::query_as(text).bind(turn).fetch_one(&self.pool).await?;
+        Ok([all, own])
+    }
+
+    /// Takes one away.
+    pub async fn remove_stability(&self, id: &str) -> Result<()> {
+        sqlx::query("DELETE FROM stability_runs WHERE id = $1").bind(id).execute(&self.pool).await?;
+        Ok(())
+    }
+}
+
+fn read(columns: Columns) -> Result<StabilityRow> {
+    let (id, owner, turn, private, state, attempts, message, name, spec, done, created_us, finished_us) = columns;
+    Ok(StabilityRow {
+        id,
+        owner,
+        turn,
+        private: private != 0,
+        state: named_state(&state)?,
+        attempts,
+        message,
+        name,
+        spec: from_json(&spec)?,
+        done: from_json(&done)?,
+        created_us,
+        finished_us,
+    })
+}

@@ -1,0 +1,117 @@
+//! Stability runs at work: one part at a time, so that runs and checks come between, and a restart goes on behind the last part.
+
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+
+use ocb_lab::LabError;
+use ocb_lab::contestant::Contestant;
+use ocb_lab::stability;
+
+use super::runs::selection;
+use super::runs_sql::StabilityRow;
+use crate::engine::Inner;
+use crate::machine::MeasuringRight;
+use crate::measure::Stop;
+use crate::model::{Stability, State};
+use crate::{EngineError, Result};
+
+/// A part that was begun this often is not begun again: it may be what ends the service.
+const MAX_ATTEMPTS: i64 = 3;
+/// How often the right to measure is asked for.
+const TICK: Duration = Duration::from_millis(200);
+
+/// Tries the next part of the run whose turn it is, which `begun` hears; false when none waits.
+pub async fn next_part(inner: &Arc<Inner>, begun: impl FnOnce(&str, &Stop)) -> Result<bool> {
+    let Some(row) = inner.store.claim_stability().await? else { return Ok(false) };
+    if row.attempts > MAX_ATTEMPTS {
+        let message =
+            format!("The service ended {MAX_ATTEMPTS} times in the middle of this run, so it is not tried again.");
+        inner.store.end_stability(&row.id, State::Failed, Some(&message)).await?;
+        return Ok(true);
+    }
+    let stop = Stop::default();
+    begun(&row.id, &stop);
+    // Who ended it between the claim and the line above found nothing to stop.
+    let open = inner.store.stability_run(&row.id).await?.is_some_and(|now| now.state == State::Running);
+    if inner.closing() || !open {
+        stop.stop();
+    }
+    match one_part(inner, &row, &stop).await {
+        Ok(()) => {}
+        Err(LabError::Stopped) => inner.store.put_back_part(&row.id).await?,
+        Err(e) => {
+            tracing::warn!("stability run {}: {e}", row.id);
+            let message = EngineError::from(e).for_visitors().to_string();
+            inner.store.end_stability(&row.id, State::Failed, Some(&message)).await?;
+        }
+    }
+    Ok(true)
+}
+
+async fn one_part(inner: &Arc<Inner>, row: &StabilityRow, stop: &Stop) -> std::result::Result<(), LabError> {
+    let fault = |e: EngineError| LabError::Fault(e.to_string());
+    let contestant = inner
+        .stability_contestant(&row.spec.algorithm, row.owner.as_deref())
+        .map_err(|e| LabError::Invalid(e.to_string()))?;
+    let selection = selection(&row.spec);
+    let kept = inner.store.stability_found(&row.id).await.map_err(fault)?;
+    // What another file found is no part of this result.
+    let kept = kept.filter(|found| found.plugin_sha256 == contestant.info.plugin_sha256);
+    let mut done = if kept.is_some() { row.done.clone() } else { Vec::new() };
+    let mut found = kept.unwrap_or_else(|| stability::begin(&contestant, &selection));
+    let parts = stability::parts(&selection);
+    if let Some(part) = parts.iter().find(|part| done.iter().all(|done| done != *part)) {
+        found = tried(inner, &contestant, row, part, found, stop).await?;
+        done.push((*part).to_owned());
+    }
+    found.complete = done.len() == parts.len();
+    inner.store.keep_parts(&row.id, &done, &found).await.map_err(fault)?;
+    if found.complete && inner.store.end_stability(&row.id, State::Done, None).await.map_err(fault)? {
+        inner.publish(row, &contestant, &found).await.map_err(fault)?;
+    }
+    Ok(())
+}
+
+/// Tries a part on a thread of its own: a jail ends with the thread that started it.
+async fn tried(
+    inner: &Arc<Inner>,
+    contestant: &Arc<Contestant>,
+    row: &StabilityRow,
+    part: &'static str,
+    mut found: Stability,
+    stop: &Stop,
+) -> std::result::Result<Stability, LabError> {
+    let (inner, contestant, stop, selection) = (inner.clone(), contestant.clone(), stop.clone(), selection(&row.spec));
+    let (sender, ended) = tokio::sync::oneshot::channel();
+    let work = move || {
+        let _right = right_to_measure(&stop)?;
+        stability::part(inner.registry.runner(), &contestant, &selection, part, &mut found, &stop)?;
+        Ok(found)
+    };
+    let thread = thread::Builder::new().name("stability".into()).spawn(move || drop(sender.send(work())));
+    thread.map_err(|e| LabError::fault("Starting the stability run's thread failed", e))?;
+    ended.await.unwrap_or_else(|_| Err(LabError::Fault("The stability run failed; see the log.".into())))
+}
+
+/// Waits until nobody measures on this machine.
+pub(super) fn right_to_measure(stop: &Stop) -> std::result::Result<MeasuringRight, LabError> {
+    loop {
+        if stop.asked() {
+            return Err(LabError::Stopped);
+        }
+        match MeasuringRight::try_take()? {
+            Some(right) => return Ok(right),
+            None => thread::sleep(TICK),
+        }
+    }
+}
+
+impl Inner {
+    /// A whole run of a public algorithm as it is usually used takes its place in the table that everybody sees.
+    async fn publish(&self, row: &StabilityRow, contestant: &Contestant, found: &Stability) -> Result<()> {
+        let usual = row.spec.parts.is_empty() && row.spec.seeds.is_none() && contestant.settings.is_empty();
+        let public = !row.private && self.public().iter().any(|public| public.id == found.algorithm);
+        if usual && public { self.store.keep_stability(found).await } else { Ok(()) }
+    }
+}
