@@ -23,7 +23,7 @@ pub struct StabilitySpec {
 /// A stability run and how far it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct StabilityRunInfo {
-    /// Id; whoever knows it may look, unless the plugin is not public.
+    /// Id; only the owner may look.
     pub id: String,
     /// What was asked.
     pub spec: StabilitySpec,
@@ -39,8 +39,6 @@ pub struct StabilityRunInfo {
     pub total: u32,
     /// Why it failed, one sentence.
     pub message: Option<String>,
-    /// Made by the caller, who may cancel and delete it.
-    pub mine: bool,
     /// When it was asked for.
     pub created_us: i64,
     /// When it ended.

@@ -3,7 +3,6 @@ CREATE TABLE stability_runs (
     id TEXT PRIMARY KEY,
     owner TEXT,
     turn TEXT NOT NULL,
-    private BIGINT NOT NULL,
     state TEXT NOT NULL,
     attempts BIGINT NOT NULL,
     message TEXT,

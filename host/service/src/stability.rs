@@ -1,7 +1,7 @@
 //! Where methods fail.
 
 mod runs;
-mod runs_sql;
+pub mod runs_sql;
 pub mod sql;
 pub mod work;
 

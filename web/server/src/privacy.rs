@@ -71,6 +71,7 @@ mod tests {
         assert_eq!(named("/api/v1/runs/x/heatmap?algorithm=a&against_run=%79"), [run("x"), run("y")]);
         assert_eq!(named("/api/v1/objects/x/mesh.glb"), [Named::Object("x".into())]);
         assert_eq!(named("/api/v1/advice/x/reduced.obj?side=a"), [Named::Advice("x".into())]);
+        assert_eq!(named("/api/v1/stability-runs/x/cancel"), [Named::StabilityRun("x".into())]);
         assert!(named("/api/v1/runs/").is_empty() && named("/api/v1/plugins/x").is_empty());
     }
 }

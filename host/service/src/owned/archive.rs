@@ -57,7 +57,7 @@ impl Engine {
             }
         }
         for id in &all.stability {
-            packer.json(&format!("stability/{id}.json"), &self.stability_run(id, Some(owner)).await?)?;
+            packer.json(&format!("stability/{id}.json"), &self.stability_run(id).await?)?;
         }
         if let Some(account) = self.account_of(owner).await? {
             if contents.account {

@@ -39,7 +39,7 @@ impl Engine {
         // Two concurrent requests must not share the last of a quota.
         let _alone = inner.asking.lock().await;
         if inner.store.stability_run(&id).await?.is_some() {
-            return Ok((self.stability_run(&id, Some(owner)).await?, false));
+            return Ok((self.stability_run(&id).await?, false));
         }
         let turn = turn(owner, visitor.address.as_deref());
         let [all, own] = inner.store.open_stability(&turn).await?;
@@ -53,7 +53,6 @@ impl Engine {
             id,
             owner: Some(owner.to_owned()),
             turn,
-            private: inner.registry.is_private(&contestant),
             state: State::Queued,
             attempts: 0,
             message: None,
@@ -65,7 +64,7 @@ impl Engine {
         };
         let new = inner.store.add_stability_run(&row).await?;
         inner.wake.notify_one();
-        Ok((self.stability_run(&row.id, Some(owner)).await?, new))
+        Ok((self.stability_run(&row.id).await?, new))
     }
 
     /// Those of this owner, newest first, without results.
@@ -74,16 +73,16 @@ impl Engine {
         let (from, limit) = page.start()?;
         let rows = self.inner.store.stability_runs_of(owner, &from, limit + 1).await?;
         let part = Part::of(rows, limit, |row: &StabilityRow| Cursor::behind(row.created_us, &row.id));
-        let entries = part.entries.into_iter().map(|row| info(row, Some(owner))).collect();
+        let entries = part.entries.into_iter().map(info).collect();
         Ok(Part { entries, next: part.next })
     }
 
     /// How far it is, with what it found so far.
     #[boxed]
-    pub async fn stability_run(&self, id: &str, viewer: Option<&str>) -> Result<StabilityRunInfo> {
+    pub async fn stability_run(&self, id: &str) -> Result<StabilityRunInfo> {
         let row = self.inner.stability_row(id).await?;
         let result = self.inner.store.stability_found(id).await?;
-        Ok(StabilityRunInfo { result, ..info(row, viewer) })
+        Ok(StabilityRunInfo { result, ..info(row) })
     }
 
     /// Ends it and keeps what it found; only its owner may.
@@ -91,7 +90,7 @@ impl Engine {
     pub async fn cancel_stability(&self, id: &str, caller: Option<&str>) -> Result<StabilityRunInfo> {
         self.inner.own_stability(id, caller, "cancel").await?;
         self.inner.end_stability(id).await?;
-        self.stability_run(id, caller).await
+        self.stability_run(id).await
     }
 
     /// Takes it away; only its owner may.
@@ -103,11 +102,11 @@ impl Engine {
     }
 
     /// # Errors
-    /// `NotFound` when the run is there and not for this viewer: its plugin was not public.
+    /// `NotFound` when the run is there and somebody else's.
     #[boxed]
     pub async fn stability_run_is_for(&self, id: &str, viewer: Option<&str>) -> Result<()> {
         match self.inner.store.stability_run(id).await? {
-            Some(row) if row.private && row.owner.as_deref() != viewer => Err(no_run(id)),
+            Some(row) if row.owner.as_deref() != viewer => Err(no_run(id)),
             _ => Ok(()),
         }
     }
@@ -149,14 +148,13 @@ fn check(spec: &StabilitySpec) -> Result<()> {
     }
 }
 
-fn info(row: StabilityRow, viewer: Option<&str>) -> StabilityRunInfo {
+fn info(row: StabilityRow) -> StabilityRunInfo {
     let parts = stability::parts(&selection(&row.spec));
     let open = matches!(row.state, State::Queued | State::Running);
     StabilityRunInfo {
         step: parts.get(row.done.len()).filter(|_| open).map(|part| (*part).to_owned()),
         done: row.done.len() as u32,
         total: parts.len() as u32,
-        mine: viewer.is_some() && row.owner.as_deref() == viewer,
         id: row.id,
         spec: row.spec,
         name: row.name,

@@ -12,8 +12,6 @@ pub struct StabilityRow {
     pub owner: Option<String>,
     /// Whose turn it takes.
     pub turn: String,
-    /// Its plugin was not public when it was asked for: only its owner sees it.
-    pub private: bool,
     pub state: State,
     /// How often the part that is next was begun.
     pub attempts: i64,
@@ -27,13 +25,12 @@ pub struct StabilityRow {
     pub finished_us: Option<i64>,
 }
 
-type Columns =
-    (String, Option<String>, String, i64, String, i64, Option<String>, String, String, String, i64, Option<i64>);
+type Columns = (String, Option<String>, String, String, i64, Option<String>, String, String, String, i64, Option<i64>);
 
 macro_rules! select {
     ($rest:literal) => {
         concat!(
-            "SELECT id, owner, turn, private, state, attempts, message, name, spec, done, created_us, finished_us ",
+            "SELECT id, owner, turn, state, attempts, message, name, spec, done, created_us, finished_us ",
             "FROM stability_runs ",
             $rest
         )
@@ -44,13 +41,12 @@ impl Store {
     /// Queues one; false when there is one with its id.
     pub async fn add_stability_run(&self, row: &StabilityRow) -> Result<bool> {
         let added = sqlx::query(
-            "INSERT INTO stability_runs (id, owner, turn, private, state, attempts, name, spec, done, created_us) \
-             VALUES ($1, $2, $3, $4, 'queued', 0, $5, $6, '[]', $7) ON CONFLICT (id) DO NOTHING",
+            "INSERT INTO stability_runs (id, owner, turn, state, attempts, name, spec, done, created_us) \
+             VALUES ($1, $2, $3, 'queued', 0, $4, $5, '[]', $6) ON CONFLICT (id) DO NOTHING",
         )
         .bind(&row.id)
         .bind(&row.owner)
         .bind(&row.turn)
-        .bind(i64::from(row.private))
         .bind(&row.name)
         .bind(to_json(&row.spec)?)
         .bind(row.created_us)
@@ -147,12 +143,11 @@ impl Store {
 }
 
 fn read(columns: Columns) -> Result<StabilityRow> {
-    let (id, owner, turn, private, state, attempts, message, name, spec, done, created_us, finished_us) = columns;
+    let (id, owner, turn, state, attempts, message, name, spec, done, created_us, finished_us) = columns;
     Ok(StabilityRow {
         id,
         owner,
         turn,
-        private: private != 0,
         state: named_state(&state)?,
         attempts,
         message,

@@ -13,7 +13,7 @@ use super::runs_sql::StabilityRow;
 use crate::engine::Inner;
 use crate::machine::MeasuringRight;
 use crate::measure::Stop;
-use crate::model::{Stability, State};
+use crate::model::{AlgorithmInfo, Stability, State};
 use crate::{EngineError, Result};
 
 /// A part that was begun this often is not begun again: it may be what ends the service.
@@ -111,7 +111,8 @@ impl Inner {
     /// A whole run of a public algorithm as it is usually used takes its place in the table that everybody sees.
     async fn publish(&self, row: &StabilityRow, contestant: &Contestant, found: &Stability) -> Result<()> {
         let usual = row.spec.parts.is_empty() && row.spec.seeds.is_none() && contestant.settings.is_empty();
-        let public = !row.private && self.public().iter().any(|public| public.id == found.algorithm);
+        let named = |info: &AlgorithmInfo| (&info.id, &info.plugin_sha256) == (&found.algorithm, &found.plugin_sha256);
+        let public = self.public().iter().any(named);
         if usual && public { self.store.keep_stability(found).await } else { Ok(()) }
     }
 }

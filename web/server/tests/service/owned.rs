@@ -142,6 +142,7 @@ async fn everything_is_taken_along_in_one_archive() {
     assert!(files.keys().any(
         |path| path.starts_with(&format!("opencollbench/advice/{advice}/")) && path.ends_with(".certificate.json")
     ));
+    assert_eq!(json(&format!("stability/{}.json", made.id("stability-runs")))["result"]["complete"], true);
     assert_eq!(json(&format!("plugins/{plugin}/plugin.json"))["id"], plugin);
     assert!(file(&format!("plugins/{plugin}/tree.so")).starts_with(b"\x7fELF"));
     assert_eq!(json("account.json")["name"], "owner");

@@ -32,7 +32,8 @@ pub struct Made {
 }
 
 impl Made {
-    /// An object of their own, a run and advice with it, a plugin that did not get far, and the notice that says so.
+    /// An object of their own, a run and advice with it, a stability run, a plugin that did not get far, and the notice that says
+    /// so.
     pub async fn by(owner: Guest) -> Self {
         let object = uploaded(&owner).await;
         let run = owner.start(&spec(&object)).await;
@@ -43,6 +44,13 @@ impl Made {
             tokio::time::sleep(Duration::from_millis(100)).await;
         }
         let advice = place.rsplit('/').next().expect("an id").to_owned();
+        let asked = json!({ "algorithm": "box-tree", "parts": ["vertex-face"], "seeds": 1 });
+        let tried = owner.post("/api/v1/stability-runs").json(&asked).send().await.expect("an answer");
+        let tried = header(&tried, "location");
+        while owner.json(&tried).await["state"] != "done" {
+            tokio::time::sleep(Duration::from_millis(100)).await;
+        }
+        let tried = tried.rsplit('/').next().expect("an id").to_owned();
         let plugin: Value = crate::publishing::garbage(&owner, 0).await.json().await.expect("JSON");
         let plugin = plugin["id"].as_str().expect("an id").to_owned();
         // Its author is told that the check has ended.
@@ -54,6 +62,7 @@ impl Made {
             ("runs", run),
             ("objects", object.clone()),
             ("advice", advice),
+            ("stability-runs", tried),
             ("plugins", plugin),
             ("notices", notice),
         ];
@@ -199,8 +208,8 @@ async fn what_is_private_is_not_there_for_others() {
 
     // The run alone: nothing of it is there, nor beside another run.
     assert_eq!(made.let_see("runs", "private").await.status(), StatusCode::OK);
-    let mut asked =
-        hidden(&made, &guest, &["runs"]).await + hidden(&made, &account, &["runs", "plugins", "notices"]).await;
+    let mut asked = hidden(&made, &guest, &["runs", "stability-runs"]).await
+        + hidden(&made, &account, &["runs", "stability-runs", "plugins", "notices"]).await;
     problem(guest.get(&beside).send().await.expect("an answer"), 404).await;
     seen(&made, &guest, &["objects", "advice"]).await;
 

@@ -7,9 +7,10 @@ use super::submissions::submission;
 use super::{add, object, run};
 use crate::model::{
     AccountInfo, CheckLine, CheckVerdict, Cursor, InvitationInfo, InvitationState, NewChoices, NoticeInfo, OwnedItem,
-    PluginState, Role, Scope, TokenInfo,
+    PluginState, Role, Scope, StabilitySpec, State, TokenInfo,
 };
 use crate::owned::sql::Unused;
+use crate::stability::runs_sql::StabilityRow;
 use crate::suite::Suite;
 
 const NOTE: Note<'static> = Note { actor: "Ada", action: "did", subject: "x", detail: "" };
@@ -26,7 +27,8 @@ async fn rows_of(store: &Store, id: &str) -> i64 {
                 + (SELECT COUNT(*) FROM off_links WHERE account = $1) \
                 + (SELECT COUNT(*) FROM runs WHERE owner = $2) + (SELECT COUNT(*) FROM objects WHERE owner = $2) \
                 + (SELECT COUNT(*) FROM requests WHERE owner = $2) + (SELECT COUNT(*) FROM kept WHERE owner = $2) \
-                + (SELECT COUNT(*) FROM served WHERE owner = $2)";
+                + (SELECT COUNT(*) FROM served WHERE owner = $2) \
+                + (SELECT COUNT(*) FROM stability_runs WHERE owner = $2)";
     let owner = format!("account:{id}");
     sqlx::query_scalar(text).bind(id).bind(owner).fetch_one(&store.pool).await.unwrap()
 }
@@ -70,6 +72,20 @@ async fn somebody(store: &Store, id: &str, name: &str) -> AccountInfo {
         store.add_line(&plugin.id, 1, &line).await.unwrap();
     }
     store.claim().await.unwrap();
+    let tried = StabilityRow {
+        id: format!("stability {id}"),
+        turn: owner.clone(),
+        owner: Some(owner),
+        state: State::Queued,
+        attempts: 0,
+        message: None,
+        name: "n".into(),
+        spec: StabilitySpec { algorithm: "a".into(), parts: Vec::new(), seeds: None },
+        done: Vec::new(),
+        created_us: 1,
+        finished_us: None,
+    };
+    assert!(store.add_stability_run(&tried).await.unwrap());
     info
 }
 
@@ -78,6 +94,7 @@ fn parted(id: &str) -> (Belongings, Belongings) {
         runs: vec![thing(&format!("{kind} run {id}"))],
         objects: vec![thing(&format!("{kind} object {id}"))],
         advice: Vec::new(),
+        stability: Vec::from_iter((kind == "own").then(|| format!("stability {id}"))),
         plugins: vec![format!("{kind} plugin {id}")],
     };
     (of("own"), of("public"))
@@ -103,7 +120,7 @@ pub async fn an_account_goes_at_once_and_what_is_public_is_nobodys(store: Store)
     let campaign = super::campaigns::campaign("c", 1, &suite);
     assert!(store.add_campaign(&CampaignRow { created_by: "Ada".into(), ..campaign }, NOTE).await.unwrap());
     let before = rows_of(&store, "2").await;
-    assert!(before >= 12 && rows_of(&store, "1").await >= 12, "{before}");
+    assert!(before >= 13 && rows_of(&store, "1").await >= 13, "{before}");
 
     let (goes, stays) = parted("1");
     let unused = store.delete_account(&ada, &goes, &stays, NOTE).await.unwrap();

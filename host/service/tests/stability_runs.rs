@@ -1,0 +1,188 @@
+//! Stability runs as jobs of the service.
+
+mod common;
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use ocb_service::model::{AlgorithmInfo, Page, Role, StabilityRunInfo, StabilitySpec, State};
+use ocb_service::{Engine, EngineConfig, EngineError, Visitor};
+
+/// A family that is tried quickly.
+const FAMILY: &str = "vertex-face";
+
+fn config(data: &Path, plugin: &str) -> EngineConfig {
+    let plain = common::config(data);
+    EngineConfig { plugins: vec![plain.runner.with_file_name(plugin)], ..plain }
+}
+
+async fn opened(data: &Path, dispatch: bool) -> Engine {
+    Engine::open(EngineConfig { dispatch, ..config(data, "libocb_box_tree.so") }).await.unwrap()
+}
+
+async fn started(engine: &Engine, owner: &str, algorithm: &str, parts: &[&str], seeds: Option<u32>) -> String {
+    let parts = parts.iter().map(|part| (*part).to_owned()).collect();
+    let spec = StabilitySpec { algorithm: algorithm.into(), parts, seeds };
+    let visitor = Visitor { owner: owner.into(), address: None };
+    engine.start_stability(spec, &visitor, None).await.unwrap().0.id
+}
+
+/// Waits until the run is as it should be.
+async fn until(engine: &Engine, id: &str, so: impl Fn(&StabilityRunInfo) -> bool) -> StabilityRunInfo {
+    let begun = Instant::now();
+    loop {
+        let now = engine.stability_run(id).await.unwrap();
+        if so(&now) {
+            return now;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(120), "{now:?}");
+        tokio::time::sleep(Duration::from_millis(5)).await;
+    }
+}
+
+async fn ended(engine: &Engine, id: &str) -> StabilityRunInfo {
+    until(engine, id, |now| !matches!(now.state, State::Queued | State::Running)).await
+}
+
+fn families(run: &StabilityRunInfo) -> Vec<&str> {
+    run.result.iter().flat_map(|found| &found.families).map(|found| found.family.as_str()).collect()
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_run_of_one_family_ends_with_a_result_for_its_owner_alone() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = opened(data.path(), true).await;
+    let id = started(&engine, "me", "box-tree", &[FAMILY], Some(1)).await;
+    let run = ended(&engine, &id).await;
+    assert_eq!((run.state, run.done, run.total), (State::Done, 1, 1), "{:?}", run.message);
+    assert_eq!(families(&run), [FAMILY]);
+    assert!(run.result.is_some_and(|found| found.complete && found.families[0].tally.asked() > 0));
+    let listed = async |owner| engine.stability_runs(owner, &Page::default()).await.unwrap().entries.len();
+    assert_eq!((listed("me").await, listed("other").await), (1, 0));
+    assert!(engine.stability_run_is_for(&id, Some("me")).await.is_ok());
+    for stranger in [Some("other"), None] {
+        let unseen = engine.stability_run_is_for(&id, stranger).await.unwrap_err();
+        assert!(matches!(unseen, EngineError::NotFound(_)), "{unseen:?}");
+        let refused = engine.cancel_stability(&id, stranger).await.unwrap_err();
+        assert!(matches!(refused, EngineError::Forbidden(_)), "{refused:?}");
+    }
+    engine.remove_stability(&id, Some("me")).await.unwrap();
+    assert_eq!(listed("me").await, 0);
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_run_that_was_stopped_goes_on_behind_the_last_part() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = opened(data.path(), true).await;
+    let table = engine.stability().await.unwrap();
+    let parts: Vec<&str> = table.families.iter().map(|family| family.id.as_str()).take(8).collect();
+    let id = started(&engine, "me", "box-tree", &parts, Some(1)).await;
+    until(&engine, &id, |now| now.done > 0).await;
+    engine.shutdown().await;
+
+    let engine = opened(data.path(), false).await;
+    let stopped = engine.stability_run(&id).await.unwrap();
+    let before = stopped.done as usize;
+    assert!(stopped.state == State::Running && (1..8).contains(&before), "{stopped:?}");
+    assert_eq!((families(&stopped), stopped.step.as_deref()), (parts[..before].to_vec(), Some(parts[before])));
+    // What is kept of the first part is marked, to see that it is not tried again.
+    let database = common::database(data.path()).await;
+    let mark = "UPDATE stability_runs SET found = json_set(found, '$.families[0].tally.agrees', 987654)";
+    sqlx::query(mark).execute(&database).await.unwrap();
+    let attempts: i64 = sqlx::query_scalar("SELECT attempts FROM stability_runs").fetch_one(&database).await.unwrap();
+    assert_eq!(attempts, 0, "a stop is no failed attempt");
+    database.close().await;
+    engine.shutdown().await;
+
+    let engine = opened(data.path(), true).await;
+    let run = ended(&engine, &id).await;
+    assert_eq!((run.state, families(&run)), (State::Done, parts), "{:?}", run.message);
+    assert_eq!(run.result.map(|found| found.families[0].tally.agrees), Some(987_654));
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_cancelled_run_ends_at_once_and_the_next_one_begins() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = opened(data.path(), true).await;
+    let id = started(&engine, "me", "box-tree", &[], Some(10)).await;
+    let next = started(&engine, "other", "box-tree", &[FAMILY], Some(1)).await;
+    until(&engine, &id, |now| now.state == State::Running).await;
+    let run = engine.cancel_stability(&id, Some("me")).await.unwrap();
+    assert_eq!((run.state, run.step), (State::Cancelled, None));
+    assert!(run.done < run.total && run.finished_us.is_some());
+    let done = run.done;
+    assert_eq!(ended(&engine, &next).await.state, State::Done);
+    let run = engine.stability_run(&id).await.unwrap();
+    assert_eq!((run.state, run.done), (State::Cancelled, done), "nothing is added to it");
+    engine.shutdown().await;
+}
+
+/// What an engine with this plugin knows of its algorithm.
+async fn described(plugin: &str) -> AlgorithmInfo {
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(EngineConfig { dispatch: false, ..config(data.path(), plugin) }).await.unwrap();
+    let info = engine.algorithms(None).remove(0);
+    engine.shutdown().await;
+    info
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn only_a_whole_run_of_a_public_algorithm_takes_its_place_in_the_table() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = opened(data.path(), false).await;
+    let database = common::database(data.path()).await;
+    let author = engine.add_account("author", "a long enough password", Role::Developer).await.unwrap();
+    let file = common::config(data.path()).runner.with_file_name("libocb_sphere_tree.so");
+    let manifest = serde_json::json!({
+        "name": "Tree", "version": "1", "authors": "Somebody", "license": "MIT", "queries": ["proximity"],
+    });
+    let (bytes, manifest) = (std::fs::read(&file).unwrap(), serde_json::from_value(manifest).unwrap());
+    engine.submit_plugin(&author, "tree.so", bytes, manifest, None).await.unwrap();
+    let info = serde_json::to_string(&[described("libocb_sphere_tree.so").await]).unwrap();
+    let validated = "UPDATE submissions SET state = 'validated', algorithms = $1";
+    sqlx::query(validated).bind(info).execute(&database).await.unwrap();
+    engine.shutdown().await;
+
+    // One family of each.
+    let owner = author.owner();
+    let all = [("box-tree", "me"), ("sphere-tree@1", owner.as_str())];
+    let engine = opened(data.path(), true).await;
+    let mut first = Vec::new();
+    for (algorithm, owner) in all {
+        let id = started(&engine, owner, algorithm, &[FAMILY], Some(1)).await;
+        let run = ended(&engine, &id).await;
+        assert_eq!(run.state, State::Done, "{:?}", run.message);
+        first.push(id);
+    }
+    assert!(engine.stability().await.unwrap().methods.is_empty(), "a part takes nobody's place");
+    engine.shutdown().await;
+
+    // All of each, of which one family is left to be tried.
+    let engine = opened(data.path(), false).await;
+    let table = engine.stability().await.unwrap();
+    let families = table.families.iter().map(|family| family.id.as_str());
+    let names = families.chain(table.relations.iter().map(|relation| relation.id.as_str()));
+    let done: Vec<&str> = names.chain(["reported", "tessellations", "search"]).filter(|name| *name != FAMILY).collect();
+    let mut whole = Vec::new();
+    for ((algorithm, owner), first) in all.iter().zip(first) {
+        let id = started(&engine, owner, algorithm, &[], None).await;
+        let most = "UPDATE stability_runs SET done = $1, found = (SELECT found FROM stability_runs WHERE id = $2) \
+                    WHERE id = $3";
+        let done = serde_json::to_string(&done).unwrap();
+        sqlx::query(most).bind(done).bind(first).bind(&id).execute(&database).await.unwrap();
+        whole.push(id);
+    }
+    database.close().await;
+    engine.shutdown().await;
+    let engine = opened(data.path(), true).await;
+    for id in &whole {
+        let run = ended(&engine, id).await;
+        assert!(run.state == State::Done && run.result.is_some_and(|found| found.complete), "{:?}", run.message);
+    }
+    let methods = engine.stability().await.unwrap().methods;
+    let ids: Vec<&str> = methods.iter().map(|method| method.algorithm.as_str()).collect();
+    assert_eq!(ids, ["box-tree"], "nobody but its author sees what a plugin does that is not public");
+    engine.shutdown().await;
+}
