@@ -20,11 +20,14 @@ async fn opened(data: &Path, dispatch: bool) -> Engine {
     Engine::open(EngineConfig { dispatch, ..config(data, "libocb_box_tree.so") }).await.unwrap()
 }
 
+fn visitor(owner: &str) -> Visitor {
+    Visitor { owner: owner.into(), address: None }
+}
+
 async fn started(engine: &Engine, owner: &str, algorithm: &str, parts: &[&str], seeds: Option<u32>) -> String {
     let parts = parts.iter().map(|part| (*part).to_owned()).collect();
     let spec = StabilitySpec { algorithm: algorithm.into(), parts, seeds };
-    let visitor = Visitor { owner: owner.into(), address: None };
-    engine.start_stability(spec, &visitor, None).await.unwrap().0.id
+    engine.start_stability(spec, &visitor(owner), None).await.unwrap().0.id
 }
 
 /// Waits until the run is as it should be.
@@ -93,6 +96,12 @@ async fn a_run_that_was_stopped_goes_on_behind_the_last_part() {
     let attempts: i64 = sqlx::query_scalar("SELECT attempts FROM stability_runs").fetch_one(&database).await.unwrap();
     assert_eq!(attempts, 0, "a stop is no failed attempt");
     database.close().await;
+    // Nobody has more than three at a time.
+    for _ in 0..2 {
+        started(&engine, "me", "box-tree", &[FAMILY], Some(1)).await;
+    }
+    let fourth = engine.start_stability(stopped.spec, &visitor("me"), None).await.unwrap_err();
+    assert!(matches!(fourth, EngineError::TooMuch { .. }), "{fourth:?}");
     engine.shutdown().await;
 
     let engine = opened(data.path(), true).await;
