@@ -3,12 +3,17 @@
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::Duration;
 
 use nix::sched::{CpuSet, sched_getaffinity, sched_setaffinity};
 use nix::unistd::Pid;
 
 use crate::sha256_hex;
 use crate::{LabError, Result};
+
+/// How often the right to measure is asked for.
+const TICK: Duration = Duration::from_millis(200);
 
 /// What does not change while this process lives.
 #[derive(Clone, Debug)]
@@ -190,6 +195,21 @@ impl MeasuringRight {
             Err(TryLockError::WouldBlock) => Ok(None),
             Err(TryLockError::Error(e)) => Err(LabError::fault("Taking the machine's measuring lock failed", e)),
         }
+    }
+
+    /// Waits until nobody has the right and takes it; `None` when stopped. `waits` is called once if it is not free at once.
+    pub fn wait(stopped: impl Fn() -> bool, waits: impl FnOnce()) -> Result<Option<Self>> {
+        let mut waits = Some(waits);
+        while !stopped() {
+            if let Some(right) = Self::try_take()? {
+                return Ok(Some(right));
+            }
+            if let Some(waits) = waits.take() {
+                waits();
+            }
+            thread::sleep(TICK);
+        }
+        Ok(None)
     }
 }
 

@@ -37,7 +37,7 @@ impl Engine {
         // A thread of its own: a jail ends with the thread that started it.
         let (sender, found) = tokio::sync::oneshot::channel();
         std::thread::spawn(move || {
-            let tried = work::right_to_measure(&stop)
+            let tried = work::right_to_measure(&stop, || at("waiting: another process is measuring on this machine"))
                 .and_then(|_right| stability::run(inner.registry.runner(), &contestant, &selection, &stop, &at));
             // Who asked may have gone.
             drop(sender.send(tried));

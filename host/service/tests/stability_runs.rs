@@ -5,8 +5,9 @@ mod common;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use ocb_lab::machine::MeasuringRight;
 use ocb_service::model::{AlgorithmInfo, Page, Role, StabilityRunInfo, StabilitySpec, State};
-use ocb_service::{Engine, EngineConfig, EngineError, Visitor};
+use ocb_service::{Engine, EngineConfig, EngineError, StabilitySelection, Stop, Visitor};
 
 /// A family that is tried quickly.
 const FAMILY: &str = "vertex-face";
@@ -193,5 +194,48 @@ async fn only_a_whole_run_of_a_public_algorithm_takes_its_place_in_the_table() {
     let methods = engine.stability().await.unwrap().methods;
     let ids: Vec<&str> = methods.iter().map(|method| method.algorithm.as_str()).collect();
     assert_eq!(ids, ["box-tree"], "nobody but its author sees what a plugin does that is not public");
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_fault_of_the_database_does_not_end_a_run() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = opened(data.path(), true).await;
+    let database = common::database(data.path()).await;
+    let refuse = "CREATE TRIGGER refuse BEFORE UPDATE ON stability_runs WHEN NEW.found IS NOT NULL \
+                  BEGIN SELECT RAISE(ABORT, 'disk I/O error'); END";
+    sqlx::query(refuse).execute(&database).await.unwrap();
+    let id = started(&engine, "me", "box-tree", &[FAMILY], Some(1)).await;
+    let begun = Instant::now();
+    // The first attempt has failed when the second begins.
+    while sqlx::query_scalar::<_, i64>("SELECT attempts FROM stability_runs").fetch_one(&database).await.unwrap() < 2 {
+        assert!(begun.elapsed() < Duration::from_secs(60), "it is not tried again");
+        tokio::time::sleep(Duration::from_millis(5)).await;
+    }
+    sqlx::query("DROP TRIGGER refuse").execute(&database).await.unwrap();
+    let run = ended(&engine, &id).await;
+    assert_eq!(run.state, State::Done, "{:?}", run.message);
+    database.close().await;
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_local_run_waits_for_a_measurement_and_says_so() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = opened(data.path(), false).await;
+    let right = tokio::task::spawn_blocking(|| MeasuringRight::wait(|| false, || {}).unwrap().unwrap()).await.unwrap();
+    let (sender, mut steps) = tokio::sync::mpsc::unbounded_channel();
+    let selection = StabilitySelection { parts: vec![FAMILY.into()], seeds: 1, ..StabilitySelection::default() };
+    let at = move |step: &str| drop(sender.send(step.to_owned()));
+    let run = engine.try_stability("box-tree", selection, Stop::default(), at);
+    let first = async {
+        let first = steps.recv().await.unwrap();
+        drop(right);
+        first
+    };
+    let (found, first) = tokio::join!(run, first);
+    assert!(found.unwrap().complete);
+    let second = steps.recv().await;
+    assert_eq!([first, second.unwrap()], ["waiting: another process is measuring on this machine", FAMILY]);
     engine.shutdown().await;
 }

@@ -7,7 +7,6 @@
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
 
 use ocb_advisor::{
     Advice, CONFIGURATIONS, HELD_OUT, Level, Paper, Question, Scene, Shelf, Watch, advise, ladder, sample,
@@ -20,9 +19,6 @@ use tokio::sync::{Notify, Semaphore};
 use crate::machine::MeasuringRight;
 use crate::model::{AdviceInfo, Asked, State};
 use crate::{EngineError, Result};
-
-/// Between two tries for the right to measure.
-const TICK: Duration = Duration::from_millis(100);
 
 /// The requests that wait or are at work, by id.
 #[derive(Debug)]
@@ -141,16 +137,8 @@ impl Job {
 
     /// Waits until nobody measures on this machine; `None` when stopped.
     fn right_to_measure(&self) -> Result<Option<MeasuringRight>> {
-        self.step("waiting for a measurement to end", 0, 0);
-        loop {
-            if self.stopped() {
-                return Ok(None);
-            }
-            if let Some(right) = MeasuringRight::try_take()? {
-                return Ok(Some(right));
-            }
-            std::thread::sleep(TICK);
-        }
+        let waits = || self.step("waiting for a measurement to end", 0, 0);
+        Ok(MeasuringRight::wait(|| self.stopped(), waits)?)
     }
 }
 

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 use std::thread;
-use std::time::Duration;
 
 use ocb_lab::check::{Extent, Step, Term, check_plugin};
 use tokio::runtime::Handle;
@@ -20,8 +19,6 @@ use crate::{EngineError, Result};
 
 /// A check that was begun this often is not begun again: it may be what ends the service.
 pub const MAX_ATTEMPTS: i64 = 3;
-/// How often the right to measure is asked for.
-const TICK: Duration = Duration::from_millis(200);
 
 /// Carries out a claimed check and notes where the plugin stands then.
 pub async fn carry_out(inner: &Arc<Inner>, row: &SubmissionRow, stop: &Stop) -> Result<()> {
@@ -50,15 +47,7 @@ fn check(
     stop: &Stop,
     handle: &Handle,
 ) -> Result<Option<PluginReport>> {
-    let _right = loop {
-        if stop.asked() {
-            return Ok(None);
-        }
-        match MeasuringRight::try_take()? {
-            Some(right) => break right,
-            None => thread::sleep(TICK),
-        }
-    };
+    let Some(_right) = MeasuringRight::wait(|| stop.asked(), || {})? else { return Ok(None) };
     let (mut seq, mut fault) = (0, None);
     let mut tell = |step: Step<'_>| {
         let kept = handle.block_on(async {

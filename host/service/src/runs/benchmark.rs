@@ -420,23 +420,16 @@ impl Bench<'_> {
 
     /// Waits until no other process measures on this machine; `None` when stopped.
     fn right_to_measure(&mut self) -> Result<Option<MeasuringRight>> {
-        let mut waited = false;
-        loop {
-            if self.stop.asked() {
-                return Ok(None);
-            }
-            if let Some(right) = MeasuringRight::try_take()? {
-                if waited {
-                    self.log.note(FIRST_MEASURING, None)?;
-                }
-                return Ok(Some(right));
-            }
-            if !waited {
-                self.log.note(FIRST_MEASURING, Some("Waiting: another process is measuring on this machine."))?;
-                waited = true;
-            }
-            thread::sleep(TICK);
+        let (stop, log, mut noted) = (&self.stop, &mut self.log, None);
+        let waits = || {
+            noted = Some(log.note(FIRST_MEASURING, Some("Waiting: another process is measuring on this machine.")));
+        };
+        let right = MeasuringRight::wait(|| stop.asked(), waits)?;
+        if let Some(noted) = noted {
+            noted?;
+            self.log.note(FIRST_MEASURING, None)?;
         }
+        Ok(right)
     }
 
     /// Aggregates every algorithm onto the vertices once, so that the first look at the run is quick.

@@ -60,7 +60,8 @@ pub async fn work(inner: Arc<Inner>) {
             Err(e) => {
                 tracing::error!("a stability run: {e}");
                 tokio::time::sleep(BACK_OFF).await;
-                false
+                // It is tried again, whoever else comes.
+                true
             }
         };
         match inner.store.claim().await {

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 use std::thread;
-use std::time::Duration;
 
 use ocb_lab::LabError;
 use ocb_lab::contestant::Contestant;
@@ -18,15 +17,14 @@ use crate::{EngineError, Result};
 
 /// A part that was begun this often is not begun again: it may be what ends the service.
 const MAX_ATTEMPTS: i64 = 3;
-/// How often the right to measure is asked for.
-const TICK: Duration = Duration::from_millis(200);
 
 /// Tries the next part of the run whose turn it is, which `begun` hears; false when none waits.
 pub async fn next_part(inner: &Arc<Inner>, begun: impl FnOnce(&str, &Stop)) -> Result<bool> {
     let Some(row) = inner.store.claim_stability().await? else { return Ok(false) };
     if row.attempts > MAX_ATTEMPTS {
-        let message =
-            format!("The service ended {MAX_ATTEMPTS} times in the middle of this run, so it is not tried again.");
+        let message = format!(
+            "This run failed {MAX_ATTEMPTS} times in the same part and is not tried again; the service's log says why."
+        );
         inner.store.end_stability(&row.id, State::Failed, Some(&message)).await?;
         return Ok(true);
     }
@@ -40,6 +38,8 @@ pub async fn next_part(inner: &Arc<Inner>, begun: impl FnOnce(&str, &Stop)) -> R
     match one_part(inner, &row, &stop).await {
         Ok(()) => {}
         Err(LabError::Stopped) => inner.store.put_back_part(&row.id).await?,
+        // Ours: the part is tried again, after the dispatcher has waited a little.
+        Err(e @ LabError::Fault(_)) => return Err(e.into()),
         Err(e) => {
             tracing::warn!("stability run {}: {e}", row.id);
             let message = EngineError::from(e).for_visitors().to_string();
@@ -85,7 +85,7 @@ async fn tried(
     let (inner, contestant, stop, selection) = (inner.clone(), contestant.clone(), stop.clone(), selection(&row.spec));
     let (sender, ended) = tokio::sync::oneshot::channel();
     let work = move || {
-        let _right = right_to_measure(&stop)?;
+        let _right = right_to_measure(&stop, || {})?;
         stability::part(inner.registry.runner(), &contestant, &selection, part, &mut found, &stop)?;
         Ok(found)
     };
@@ -95,16 +95,8 @@ async fn tried(
 }
 
 /// Waits until nobody measures on this machine.
-pub(super) fn right_to_measure(stop: &Stop) -> std::result::Result<MeasuringRight, LabError> {
-    loop {
-        if stop.asked() {
-            return Err(LabError::Stopped);
-        }
-        match MeasuringRight::try_take()? {
-            Some(right) => return Ok(right),
-            None => thread::sleep(TICK),
-        }
-    }
+pub(super) fn right_to_measure(stop: &Stop, waits: impl FnOnce()) -> std::result::Result<MeasuringRight, LabError> {
+    MeasuringRight::wait(|| stop.asked(), waits)?.ok_or(LabError::Stopped)
 }
 
 impl Inner {
