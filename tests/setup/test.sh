@@ -51,8 +51,8 @@ reasons=$(sed 's/\x1b\[[0-9;]*m//g' "$logs/rust.log" 2>/dev/null | awk '
   /^failures:$/           { name = "" }
   END                     { for (name in reason) n[reason[name]]++; for (why in n) print n[why] " not run: " why }')
 not_run=$(awk '{ n += $1 } END { print n + 0 }' <<< "$reasons")
-# A check of the dependencies that lacks something only says so, and fails nothing.
-lacking=$(sed -n 's/^not run: /1 not run: /p' "$logs/check.log" 2>/dev/null)
+# A check of the dependencies or of a package that lacks something only says so, and fails nothing.
+lacking=$(sed -n 's/^not run: /1 not run: /p' "$logs"/{check,dist}.log 2>/dev/null)
 
 # Each test program says its own counts; a step that broke without a counted failure counts as one.
 read -r passed failed < <({ cat "$logs"/{rust,vitest,browser,dist}.log; grep '^deny: ' "$logs/check.log"; } 2>/dev/null | sed 's/\x1b\[[0-9;]*m//g' | awk '
