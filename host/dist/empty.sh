@@ -58,3 +58,7 @@ service=$!
 /usr/bin/python3 /srv/heatmap.py "$kind" "$started" "$service"
 kill "$service"
 wait "$service"
+if [ "$kind" = deb ]; then
+  dpkg -r opencollbench
+  [ ! -e /opt/opencollbench ] && [ ! -e /usr/bin/ocb ]
+fi

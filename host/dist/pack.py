@@ -32,6 +32,11 @@ systemd-sysusers opencollbench.conf
 if [ -d /run/systemd/system ]; then systemctl daemon-reload; fi
 '''
 
+PRERM = '''#!/bin/sh
+set -e
+if [ "$1" = remove ] && [ -d /run/systemd/system ]; then systemctl stop opencollbench; fi
+'''
+
 
 def archive(path, folder, files, stamp):
     with open(path, "wb") as raw, gzip.GzipFile("", "wb", 6, raw, stamp) as packed, tarfile.open(fileobj=packed, mode="w") as tar:
@@ -75,6 +80,7 @@ def deb(path, version, glibc, files, stamp):
             ("usr/lib/sysusers.d/opencollbench.conf", user, False),
             ("usr/share/doc/opencollbench/copyright", copyright, False),
             ("DEBIAN/control", control, False), ("DEBIAN/postinst", POSTINST.encode(), True),
+            ("DEBIAN/prerm", PRERM.encode(), True),
         ]:
             file = root / name
             file.parent.mkdir(parents=True, exist_ok=True)
