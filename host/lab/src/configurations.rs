@@ -16,7 +16,7 @@ use crate::sha256_hex;
 use crate::{LabError, Result};
 
 use coverage::Coverage;
-pub use file::{ConfigurationFile, read_file, read_matrices};
+pub use file::{ConfigurationFile, read_file, read_matrices, read_text};
 
 /// What a set depends on beside the request. Stored sets of other versions stay readable but are not used again.
 #[derive(Clone, Copy)]

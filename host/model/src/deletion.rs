@@ -6,8 +6,8 @@ use utoipa::ToSchema;
 /// What becomes of an account's things when it is deleted.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[schema(example = json!({
-    "goes": { "runs": 12, "objects": 3, "advice": 1, "plugins": 1 },
-    "stays": { "runs": 2, "objects": 1, "advice": 0, "plugins": 1 },
+    "goes": { "runs": 12, "objects": 3, "configurations": 2, "advice": 1, "plugins": 1 },
+    "stays": { "runs": 2, "objects": 1, "configurations": 0, "advice": 0, "plugins": 1 },
     "bytes": 7_340_032,
     "blocked_by": null
 }))]
@@ -29,6 +29,8 @@ pub struct OwnedCounts {
     pub runs: u32,
     /// Objects.
     pub objects: u32,
+    /// Saved configurations.
+    pub configurations: u32,
     /// Pieces of advice.
     pub advice: u32,
     /// Plugins, each version by itself.

@@ -29,6 +29,7 @@ mod people;
 mod plugin;
 mod preview;
 mod replay;
+mod saved;
 mod selecting;
 mod stability;
 mod stability_run;
@@ -75,6 +76,7 @@ pub use people::{
 pub use plugin::{AlgorithmInfo, BuildInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport, Repro};
 pub use preview::{Beside, Preview};
 pub use replay::{Difference, Recipe, RecipeAlgorithm, RecipeFile, RecipeObject, RecipeVersions, Replay, Replayed};
+pub use saved::SavedConfigurations;
 pub use selecting::{Claim, Meeting, Selected, SelectedOf, WorstBy, WorstCase, WorstRequest};
 pub use stability::{
     CellState, FailingCase, FailureInfo, FailureResult, FamilyInfo, FamilyResult, RelationInfo, RelationResult,

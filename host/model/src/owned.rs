@@ -12,13 +12,15 @@ pub struct OwnedItem {
     pub name: String,
 }
 
-/// Runs, objects and advice of one owner: all of them, or those that go with one of them.
+/// Runs, objects, saved configurations and advice of one owner: all of them, or those that go with one of them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct OwnedItems {
     /// Runs with their results, newest first.
     pub runs: Vec<OwnedItem>,
     /// Objects, newest first.
     pub objects: Vec<OwnedItem>,
+    /// Saved configurations, newest first.
+    pub configurations: Vec<OwnedItem>,
     /// How many pieces of advice.
     pub advice: u32,
     /// Bytes of the stored files that go with them: those that nobody else uses.

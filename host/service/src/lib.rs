@@ -60,3 +60,4 @@ pub use plugins::MAX_PLUGIN_BYTES;
 pub use quotas::Visitor;
 pub use requests::Made;
 pub use sets::SetJob;
+pub use sets::saved::MAX_CONFIGURATION_BYTES;

@@ -153,7 +153,7 @@ impl Objects {
 
     /// Reads a file in any of [`mesh::FORMATS`] and keeps its mesh. Everything is checked before anything is kept.
     pub async fn add(&self, name: &str, bytes: Vec<u8>, owner: Option<&str>) -> Result<ObjectInfo> {
-        let name = clean_name(name);
+        let name = clean_name(name, "object");
         let shown = name.clone();
         let (mesh, warnings, format, unit) = blocking(move || {
             let bad = |e: &dyn std::fmt::Display| EngineError::Invalid(format!("{shown:?} cannot be used: {e}."));
@@ -265,14 +265,15 @@ fn describe(mesh: &Mesh, id: &str, name: &str, terms: &str, warnings: Vec<String
 const ENDINGS: [&str; 7] = ["obj", "stl", "ply", "off", "gltf", "glb", "dae"];
 
 /// The file's name without folder, ending and control characters.
-fn clean_name(name: &str) -> String {
+/// What a file is called without folder, known ending and control characters; without anything else it is a `kind`.
+pub(crate) fn clean_name(name: &str, kind: &str) -> String {
     let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let stem = match base.rsplit_once('.') {
         Some((stem, ending)) if ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known)) => stem,
         _ => base,
     };
     let clean: String = stem.chars().filter(|c| !c.is_control()).take(MAX_NAME).collect();
-    if clean.trim().is_empty() { "object".into() } else { clean.trim().into() }
+    if clean.trim().is_empty() { kind.into() } else { clean.trim().into() }
 }
 
 const MAGIC: &[u8; 8] = b"OCBMESH1";
@@ -320,11 +321,11 @@ mod tests {
 
     #[test]
     fn names_lose_what_does_not_belong_into_a_name() {
-        assert_eq!(clean_name("/some/where/Bunny.OBJ"), "Bunny");
-        assert_eq!(clean_name("C:\\a\u{7}b.obj"), "ab");
-        assert_eq!(clean_name(".obj"), "object");
-        assert_eq!(clean_name("ü.obj"), "ü");
-        assert_eq!(clean_name("part.v2.STL"), "part.v2");
-        assert_eq!(clean_name("part.v2"), "part.v2");
+        assert_eq!(clean_name("/some/where/Bunny.OBJ", "object"), "Bunny");
+        assert_eq!(clean_name("C:\\a\u{7}b.obj", "object"), "ab");
+        assert_eq!(clean_name(".obj", "object"), "object");
+        assert_eq!(clean_name("ü.obj", "object"), "ü");
+        assert_eq!(clean_name("part.v2.STL", "object"), "part.v2");
+        assert_eq!(clean_name("part.v2", "object"), "part.v2");
     }
 }

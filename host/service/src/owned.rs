@@ -67,7 +67,7 @@ impl Engine {
         self.owned_items(owner).await
     }
 
-    async fn remove(&self, owner: &str, what: Belongings) -> Result<OwnedItems> {
+    pub(crate) async fn remove(&self, owner: &str, what: Belongings) -> Result<OwnedItems> {
         self.end_all(owner, &what).await?;
         let told = self.inner.told(owner, what.clone()).await?;
         self.inner.take_away(&what).await?;
@@ -146,12 +146,13 @@ impl Inner {
         self.store.belongings(owner, Some(id)).await
     }
 
-    async fn told(&self, owner: &str, what: Belongings) -> Result<OwnedItems> {
+    pub(crate) async fn told(&self, owner: &str, what: Belongings) -> Result<OwnedItems> {
         let bytes = self.store.unused_without(&what).await?.iter().map(|file| file.bytes).sum();
         let kept_until_us = self.kept_until(owner).await?;
         Ok(OwnedItems {
             runs: what.runs,
             objects: what.objects,
+            configurations: what.configurations,
             advice: what.advice.len() as u32,
             bytes,
             kept_until_us,

@@ -37,7 +37,7 @@ enum Kind {
     Address,
 }
 
-/// Bytes of objects.
+/// Bytes of objects and saved configurations.
 const GUEST_OBJECTS: u64 = 512 << 20;
 const ACCOUNT_OBJECTS: u64 = 4 << 30;
 
@@ -127,15 +127,15 @@ impl Engine {
     }
 
     /// # Errors
-    /// `Busy` when the objects of this owner would have too many bytes with these.
-    pub(crate) async fn has_room_for_an_object(&self, owner: Option<&str>, bytes: usize) -> Result<()> {
+    /// `Busy` when the objects and saved configurations of this owner would have too many bytes with these.
+    pub(crate) async fn has_room_for_a_file(&self, owner: Option<&str>, bytes: usize) -> Result<()> {
         let Some((owner, kind)) = owner.and_then(|owner| Some((owner, kind(owner)?))) else { return Ok(()) };
         let most = if kind == Kind::Guest { GUEST_OBJECTS } else { ACCOUNT_OBJECTS };
-        if self.inner.store.object_bytes(owner).await? + bytes as u64 <= most {
+        if self.inner.store.uploaded_bytes(owner).await? + bytes as u64 <= most {
             return Ok(());
         }
         Err(EngineError::Busy(format!(
-            "With this file, your objects would exceed {} MiB; delete some on the objects page.",
+            "With this file, your objects and saved configurations would exceed {} MiB; delete some on the objects page.",
             most >> 20
         )))
     }

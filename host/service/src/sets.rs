@@ -1,5 +1,7 @@
 //! Configuration sets by themselves, without a run.
 
+pub mod saved;
+mod saved_sql;
 pub mod sql;
 
 use std::sync::Arc;

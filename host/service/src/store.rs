@@ -100,6 +100,7 @@ fn migrations() -> Migrator {
         one(23, "devices", include_str!("../migrations/0023_devices.sql")),
         one(24, "waiting", include_str!("../migrations/0024_waiting.sql")),
         one(25, "triangle_tests", include_str!("../migrations/0025_triangle_tests.sql")),
+        one(26, "saved configurations", include_str!("../migrations/0026_saved_configurations.sql")),
         one(27, "stability runs", include_str!("../migrations/0027_stability_runs.sql")),
     ])
 }

@@ -57,6 +57,7 @@ pub(crate) const ASK_RUN: Limit = limit("request a run", "address", 120, 600);
 pub(crate) const START_STABILITY: Limit = limit("start stability runs", "address", 60, 3600);
 pub(crate) const ASK_ADVICE: Limit = limit("request advice", "address", 60, 3600);
 pub(crate) const ADD_OBJECT: Limit = limit("add an object", "address", 120, 3600);
+pub(crate) const SAVE_CONFIGURATIONS: Limit = limit("save configurations", "address", 120, 3600);
 pub(crate) const ADD_MEBIBYTES: Limit = limit("upload so much", "MiB", 4096, 24 * 3600);
 
 /// A keyed hash of the address or name. 16 bits bound the memory; two visitors share a bucket with a probability of 1 in 65,536.

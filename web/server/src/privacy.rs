@@ -17,6 +17,7 @@ enum Named {
     Run(String),
     Object(String),
     Advice(String),
+    Configurations(String),
     StabilityRun(String),
 }
 
@@ -30,6 +31,7 @@ pub(crate) async fn hide_private_things(State(app): State<App>, request: Request
             Named::Run(id) => app.engine.run_is_for(id, guest.as_deref()).await,
             Named::Object(id) => app.engine.object_is_for(id, guest.as_deref()).await,
             Named::Advice(id) => app.engine.advice_is_for(id, guest.as_deref()).await,
+            Named::Configurations(id) => app.engine.saved_are_for(id, guest.as_deref()).await,
             Named::StabilityRun(id) => app.engine.stability_run_is_for(id, guest.as_deref()).await,
         };
         if let Err(e) = there {
@@ -49,6 +51,7 @@ fn named(uri: &Uri) -> Vec<Named> {
         "runs" => Some(Named::Run(id)),
         "objects" => Some(Named::Object(id)),
         "advice" => Some(Named::Advice(id)),
+        "configurations" => Some(Named::Configurations(id)),
         "stability-runs" => Some(Named::StabilityRun(id)),
         _ => None,
     };

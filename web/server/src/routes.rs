@@ -7,6 +7,7 @@ mod campaigns;
 mod charts;
 mod choices;
 mod citations;
+mod configurations;
 mod heatmaps;
 mod invitations;
 mod mails;
@@ -50,6 +51,7 @@ use crate::{App, events, layers, pages, upload};
     components(schemas(crate::Problem, ocb_service::model::Accuracy, ocb_service::model::ChartKind)),
     tags(
         (name = "objects", description = "Meshes to measure"),
+        (name = "configurations", description = "Saved configurations, to measure on them again"),
         (name = "algorithms", description = "Algorithms and their parameters"),
         (name = "runs", description = "Requesting, following and cancelling runs"),
         (name = "results", description = "Numbers and files of a run"),
@@ -74,6 +76,15 @@ fn api() -> OpenApiRouter<App> {
                 .layer(DefaultBodyLimit::max(upload::MAX_BODY_BYTES as usize))
                 .layer(middleware::from_fn(upload::refuse_gently)),
         )
+        .routes(
+            routes!(configurations::list_configurations, configurations::add_configurations)
+                .layer(DefaultBodyLimit::max(upload::MAX_BODY_BYTES as usize))
+                .layer(middleware::from_fn(upload::refuse_gently)),
+        )
+        .routes(routes!(configurations::remove_configurations))
+        .routes(routes!(configurations::deletion_preview_of_configurations))
+        .routes(routes!(configurations::configurations_file))
+        .routes(routes!(configurations::save_configurations_of_run))
         .routes(routes!(objects::show_object, owned::remove_object))
         .routes(routes!(owned::deletion_preview_of_object))
         .routes(routes!(objects::object_mesh))

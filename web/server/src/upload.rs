@@ -168,15 +168,15 @@ fn content_length(headers: &HeaderMap) -> Option<u64> {
 }
 
 impl Upload {
-    /// From a form with the file in a field of that name.
-    pub(crate) async fn read(request: Request, app: &App, from: &str) -> Result<Self> {
+    /// From a form with a file of at most so many bytes in a field of that name.
+    pub(crate) async fn read(request: Request, most: usize, app: &App, from: &str) -> Result<Self> {
         let mut form = Multipart::from_request(request, app)
             .await
             .map_err(|_| Problem::bad_request("Send the file as multipart/form-data in a field named \"file\"."))?;
         while let Some(field) = form.next_field().await.map_err(broken)? {
             if field.name() == Some("file") {
                 let name = clean_name(field.file_name().unwrap_or_default());
-                return Ok(Self { name, file: spool(field, MAX_BYTES, app, from).await? });
+                return Ok(Self { name, file: spool(field, most, app, from).await? });
             }
             read(field, OTHER_BYTES).await?;
         }

@@ -17,6 +17,9 @@ const SMALLEST: f64 = 1e-100;
 /// Bytes of one raw matrix.
 const MATRIX_BYTES: usize = 16 * 8;
 
+/// How a Parquet file begins.
+const PARQUET: &[u8] = b"PAR1";
+
 /// The content of a configuration file.
 #[derive(Debug, PartialEq)]
 pub struct ConfigurationFile {
@@ -39,6 +42,14 @@ impl ConfigurationFile {
 /// Reads a configuration file for a run, in which plugins are promised rotations.
 pub fn read_file(bytes: &[u8]) -> Result<ConfigurationFile> {
     read(bytes).and_then(checked).and_then(straightened).map_err(invalid)
+}
+
+/// The same of a stranger's file: all formats but Parquet, whose pages may claim to hold any amount.
+pub fn read_text(bytes: &[u8]) -> Result<ConfigurationFile> {
+    if bytes.starts_with(PARQUET) {
+        return Err(invalid("Parquet files are read by the command only; send JSON, CSV or raw f64 matrices".into()));
+    }
+    read_file(bytes)
 }
 
 /// Reads a configuration file for the oracle alone, which accepts any matrix.
@@ -77,7 +88,7 @@ fn no_rotation(row: u32, off: f64) -> String {
 }
 
 fn read(bytes: &[u8]) -> std::result::Result<Vec<Configuration>, String> {
-    if bytes.starts_with(b"PAR1") {
+    if bytes.starts_with(PARQUET) {
         return columns::read_poses(bytes);
     }
     // Text has no bytes below tab and is valid UTF-8; a raw matrix has a last row of seven zero bytes and more.

@@ -78,7 +78,12 @@ impl Inner {
     async fn parted(&self, account: &AccountInfo) -> Result<(Belongings, Belongings)> {
         let all = self.store.belongings(&account.owner(), None).await?;
         let (mut goes, mut stays) = (
-            Belongings { advice: all.advice, stability: all.stability, ..Belongings::default() },
+            Belongings {
+                advice: all.advice,
+                configurations: all.configurations,
+                stability: all.stability,
+                ..Belongings::default()
+            },
             Belongings::default(),
         );
         for run in all.runs {
@@ -133,6 +138,7 @@ fn counted(what: &Belongings) -> OwnedCounts {
     OwnedCounts {
         runs: what.runs.len() as u32,
         objects: what.objects.len() as u32,
+        configurations: what.configurations.len() as u32,
         advice: what.advice.len() as u32,
         plugins: what.plugins.len() as u32,
     }

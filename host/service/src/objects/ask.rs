@@ -26,7 +26,7 @@ impl Engine {
     /// Nothing is kept on error.
     #[boxed]
     pub async fn add_object(&self, name: &str, bytes: Vec<u8>, owner: Option<&str>) -> Result<ObjectInfo> {
-        self.has_room_for_an_object(owner, bytes.len()).await?;
+        self.has_room_for_a_file(owner, bytes.len()).await?;
         self.inner.objects.add(name, bytes, owner).await
     }
 

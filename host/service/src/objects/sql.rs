@@ -74,11 +74,13 @@ impl Store {
         row.map(read).transpose()
     }
 
-    /// Bytes of all meshes of this owner.
-    pub async fn object_bytes(&self, owner: &str) -> Result<u64> {
+    /// Bytes of all meshes and saved configurations of this owner.
+    pub async fn uploaded_bytes(&self, owner: &str) -> Result<u64> {
         let bytes: i64 = sqlx::query_scalar(
-            "SELECT CAST(COALESCE(SUM(b.bytes), 0) AS BIGINT) FROM objects o JOIN blobs b ON b.sha256 = o.blob WHERE o.owner = $1",
+            "SELECT CAST(COALESCE(SUM(b.bytes), 0) AS BIGINT) FROM (SELECT blob FROM objects WHERE owner = $1 \
+             UNION ALL SELECT blob FROM saved_configurations WHERE owner = $2) o JOIN blobs b ON b.sha256 = o.blob",
         )
+        .bind(owner)
         .bind(owner)
         .fetch_one(&self.pool)
         .await?;

@@ -56,6 +56,11 @@ impl Engine {
                 self.pack_advice(&mut packer, id).await?;
             }
         }
+        for saved in &all.configurations {
+            let (told, bytes) = self.saved_file(&saved.id, owner).await?;
+            packer.json(&format!("configurations/{}.json", saved.id), &told)?;
+            packer.add(&format!("configurations/{}.file", saved.id), &bytes)?;
+        }
         for id in &all.stability {
             packer.json(&format!("stability/{id}.json"), &self.stability_run(id).await?)?;
         }

@@ -1,13 +1,14 @@
 //! What an owner has, and taking it away with the stored files that nobody else uses.
 
+use ocb_core::configuration::Method;
 use sqlx::AnyConnection;
 
 use crate::Result;
 use crate::advice::sql::StoredPaper;
-use crate::model::OwnedItem;
+use crate::model::{OwnedItem, RunSpec};
 use crate::store::{Store, from_json, now_us};
 
-/// Runs, objects, advice and plugins of one owner.
+/// Runs, objects, saved configurations, advice and plugins of one owner.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Belongings {
     /// Newest first.
@@ -16,6 +17,8 @@ pub struct Belongings {
     pub objects: Vec<OwnedItem>,
     /// Their ids.
     pub advice: Vec<String>,
+    /// Saved configurations, newest first.
+    pub configurations: Vec<OwnedItem>,
     /// Ids of stability runs.
     pub stability: Vec<String>,
     /// Theirs, too; only an account that is deleted takes plugins along.
@@ -57,11 +60,14 @@ impl Store {
             .fetch_all(&self.pool)
             .await?;
         // They name no object.
-        let stability: Vec<String> = match object {
-            Some(_) => Vec::new(),
+        let (configurations, stability): (Vec<(String, String)>, Vec<String>) = match object {
+            Some(_) => (Vec::new(), Vec::new()),
             None => {
-                let text = "SELECT id FROM stability_runs WHERE owner = $1 ORDER BY created_us DESC, id DESC";
-                sqlx::query_scalar(text).bind(owner).fetch_all(&self.pool).await?
+                let saved =
+                    "SELECT id, name FROM saved_configurations WHERE owner = $1 ORDER BY created_us DESC, id DESC";
+                let tried = "SELECT id FROM stability_runs WHERE owner = $1 ORDER BY created_us DESC, id DESC";
+                let saved = sqlx::query_as(saved).bind(owner).fetch_all(&self.pool).await?;
+                (saved, sqlx::query_scalar(tried).bind(owner).fetch_all(&self.pool).await?)
             }
         };
         let run = |(id, a, b): (String, String, String)| OwnedItem { id, name: format!("{a} x {b}") };
@@ -72,6 +78,7 @@ impl Store {
             runs: runs.into_iter().map(run).collect(),
             objects: objects.into_iter().map(object).collect::<Result<_>>()?,
             advice,
+            configurations: configurations.into_iter().map(|(id, name)| OwnedItem { id, name }).collect(),
             stability,
             plugins: Vec::new(),
         })
@@ -90,9 +97,10 @@ impl Store {
         let text = "SELECT MAX(us) FROM (SELECT MAX(created_us) AS us FROM runs WHERE owner = $1 \
                     UNION ALL SELECT MAX(created_us) FROM objects WHERE owner = $2 \
                     UNION ALL SELECT MAX(created_us) FROM advice WHERE owner = $3 \
-                    UNION ALL SELECT MAX(created_us) FROM stability_runs WHERE owner = $4) AS made";
-        let made: Option<i64> =
-            sqlx::query_scalar(text).bind(owner).bind(owner).bind(owner).bind(owner).fetch_one(&self.pool).await?;
+                    UNION ALL SELECT MAX(created_us) FROM saved_configurations WHERE owner = $4 \
+                    UNION ALL SELECT MAX(created_us) FROM stability_runs WHERE owner = $5) AS made";
+        let made = sqlx::query_scalar(text).bind(owner).bind(owner).bind(owner).bind(owner).bind(owner);
+        let made: Option<i64> = made.fetch_one(&self.pool).await?;
         let asked: Option<i64> = sqlx::query_scalar("SELECT asked_us FROM kept WHERE owner = $1")
             .bind(owner)
             .fetch_optional(&self.pool)
@@ -112,6 +120,7 @@ impl Store {
     pub async fn owners(&self) -> Result<Vec<String>> {
         let text = "SELECT owner FROM runs WHERE owner IS NOT NULL UNION SELECT owner FROM objects WHERE owner IS NOT NULL \
                     UNION SELECT owner FROM advice WHERE owner IS NOT NULL \
+                    UNION SELECT owner FROM saved_configurations \
                     UNION SELECT owner FROM stability_runs WHERE owner IS NOT NULL";
         Ok(sqlx::query_scalar(text).fetch_all(&self.pool).await?)
     }
@@ -130,7 +139,11 @@ pub(crate) async fn take(connection: &mut AnyConnection, what: &Belongings) -> R
         let gone: Vec<(Option<String>, Option<String>)> =
             sqlx::query_as(results).bind(id).fetch_all(&mut *connection).await?;
         files.extend(gone.into_iter().flat_map(|(records, tests)| records.into_iter().chain(tests)));
-        files.extend(column(&mut *connection, "DELETE FROM runs WHERE id = $1 RETURNING set_blob", id).await?);
+        let runs = "DELETE FROM runs WHERE id = $1 RETURNING set_blob, spec";
+        let gone: Vec<(Option<String>, String)> = sqlx::query_as(runs).bind(id).fetch_all(&mut *connection).await?;
+        for (set, spec) in gone {
+            files.extend(set.into_iter().chain(named_file(&spec)?));
+        }
     }
     for OwnedItem { id, .. } in &what.objects {
         leave_hidden(&mut *connection, id).await?;
@@ -141,6 +154,11 @@ pub(crate) async fn take(connection: &mut AnyConnection, what: &Belongings) -> R
             let papers: [Vec<StoredPaper>; 2] = from_json(&papers)?;
             files.extend(papers.into_iter().flatten().flat_map(|paper| [paper.mesh, paper.certificate]));
         }
+    }
+    for OwnedItem { id, .. } in &what.configurations {
+        files.extend(
+            column(&mut *connection, "DELETE FROM saved_configurations WHERE id = $1 RETURNING blob", id).await?,
+        );
     }
     for id in &what.stability {
         sqlx::query("DELETE FROM stability_runs WHERE id = $1").bind(id).execute(&mut *connection).await?;
@@ -167,6 +185,12 @@ pub(crate) async fn take(connection: &mut AnyConnection, what: &Belongings) -> R
         }
     }
     Ok(unused)
+}
+
+/// The file of configurations that a run was asked to measure on.
+pub(crate) fn named_file(spec: &str) -> Result<Option<String>> {
+    let spec: RunSpec = from_json(spec)?;
+    Ok(if let Method::File { sha256 } = spec.method { Some(sha256) } else { None })
 }
 
 /// What an object hid stays hidden without it: a run with it that more people would see takes over who sees the object.
@@ -199,13 +223,15 @@ async fn forget(connection: &mut AnyConnection, sha256: &str) -> Result<Option<u
          AND NOT EXISTS (SELECT 1 FROM runs WHERE set_blob = $4 OR spec LIKE $5) \
          AND NOT EXISTS (SELECT 1 FROM results WHERE records = $6 OR triangle_tests = $7) \
          AND NOT EXISTS (SELECT 1 FROM submissions WHERE blob = $8) \
-         AND NOT EXISTS (SELECT 1 FROM advice WHERE papers LIKE $9) RETURNING bytes",
+         AND NOT EXISTS (SELECT 1 FROM saved_configurations WHERE blob = $9) \
+         AND NOT EXISTS (SELECT 1 FROM advice WHERE papers LIKE $10) RETURNING bytes",
     )
     .bind(sha256)
     .bind(sha256)
     .bind(sha256)
     .bind(sha256)
     .bind(&named)
+    .bind(sha256)
     .bind(sha256)
     .bind(sha256)
     .bind(sha256)

@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashSet};
 
 use crate::Result;
 use crate::advice::sql::StoredPaper;
-use crate::owned::sql::{Belongings, Unused};
+use crate::owned::sql::{Belongings, Unused, named_file};
 use crate::store::{Store, from_json};
 
 /// Plugins that stay whatever goes.
@@ -15,15 +15,21 @@ impl Store {
     /// The files that nobody would use any more without these.
     pub async fn unused_without(&self, what: &Belongings) -> Result<Vec<Unused>> {
         let mut going: HashSet<&str> = what.advice.iter().map(String::as_str).collect();
-        going.extend(what.runs.iter().chain(&what.objects).map(|thing| thing.id.as_str()));
+        going.extend(what.runs.iter().chain(&what.objects).chain(&what.configurations).map(|thing| thing.id.as_str()));
         let mut files = BTreeSet::new();
         for thing in &what.runs {
             files.extend(self.texts("SELECT records FROM results WHERE run_id = $1", &thing.id).await?);
             files.extend(self.texts("SELECT triangle_tests FROM results WHERE run_id = $1", &thing.id).await?);
             files.extend(self.texts("SELECT set_blob FROM runs WHERE id = $1", &thing.id).await?);
+            for spec in self.texts("SELECT spec FROM runs WHERE id = $1", &thing.id).await? {
+                files.extend(named_file(&spec)?);
+            }
         }
         for thing in &what.objects {
             files.extend(self.texts("SELECT blob FROM objects WHERE id = $1", &thing.id).await?);
+        }
+        for saved in &what.configurations {
+            files.extend(self.texts("SELECT blob FROM saved_configurations WHERE id = $1", &saved.id).await?);
         }
         for id in &what.advice {
             for papers in self.texts("SELECT papers FROM advice WHERE id = $1", id).await? {
@@ -51,16 +57,17 @@ impl Store {
         Ok(unused)
     }
 
-    /// Ids of the runs, objects, advice and plugins that use this file.
+    /// Ids of the runs, objects, saved configurations, advice and plugins that use this file.
     async fn users_of(&self, sha256: &str) -> Result<Vec<String>> {
         let named = format!("%\"{sha256}\"%");
         let users = "SELECT id FROM objects WHERE blob = $1 \
                      UNION SELECT id FROM runs WHERE set_blob = $2 OR spec LIKE $3 \
                      UNION SELECT run_id FROM results WHERE records = $4 OR triangle_tests = $5 \
                      UNION SELECT id FROM submissions WHERE blob = $6 \
-                     UNION SELECT id FROM advice WHERE papers LIKE $7";
+                     UNION SELECT id FROM saved_configurations WHERE blob = $7 \
+                     UNION SELECT id FROM advice WHERE papers LIKE $8";
         let query = sqlx::query_scalar(users).bind(sha256).bind(sha256).bind(&named);
-        let query = query.bind(sha256).bind(sha256).bind(sha256);
+        let query = query.bind(sha256).bind(sha256).bind(sha256).bind(sha256);
         Ok(query.bind(&named).fetch_all(&self.pool).await?)
     }
 

@@ -162,7 +162,7 @@ mod contract {
         };
         assert_eq!(store.object("1").await.unwrap(), Some(row(&mine, Some("me"))));
         assert_eq!(store.object("9").await.unwrap(), None);
-        assert_eq!((store.object_bytes("me").await.unwrap(), store.object_bytes("none").await.unwrap()), (1, 0));
+        assert_eq!((store.uploaded_bytes("me").await.unwrap(), store.uploaded_bytes("none").await.unwrap()), (1, 0));
         assert_eq!(store.objects_for(Some("me"), &Cursor::start(), 9).await.unwrap(), [row(&mine, Some("me"))]);
         assert_eq!(store.object_with_mesh(&mine.sha256, Some("me")).await.unwrap(), Some(row(&mine, Some("me"))));
         assert_eq!(store.object_with_mesh(&mine.sha256, Some("other")).await.unwrap(), None);

@@ -17,7 +17,7 @@ use crate::limits::ADD_OBJECT;
 use crate::list;
 use crate::problem::{Problem, Result};
 use crate::request_key::{IdempotencyKey, RequestKey};
-use crate::upload::Upload;
+use crate::upload::{MAX_BYTES, Upload};
 
 /// Stock objects, in front of the first part and beyond its limit, then the visitor's own and those that others have
 /// published, newest first.
@@ -65,7 +65,7 @@ pub(crate) async fn add_object(
     app.limits.count(ADD_OBJECT, &address)?;
     let Upload { name, file } = {
         let _coming = app.uploads.begin(&address)?;
-        Upload::read(request, &app, &address).await?
+        Upload::read(request, MAX_BYTES, &app, &address).await?
     };
     let _turn = app.uploads.take(&file).await?;
     let bytes = file.read().await?;

@@ -73,6 +73,11 @@ async fn a_list_goes_on_where_it_was_left() {
         assert_eq!(guest.upload("own.obj", object).await.status(), 201);
     })
     .await;
+    walked(&guest, "/api/v1/configurations", async |number| {
+        let file = crate::configurations::shifts(&[f64::from(number)]);
+        assert_eq!(guest.send_file("/api/v1/configurations", "own.csv", file).await.status(), 201);
+    })
+    .await;
     walked(&guest, "/api/v1/invitations", async |number| {
         let asked = serde_json::json!({ "recipient": format!("somebody {number}") });
         assert_eq!(guest.post("/api/v1/invitations").json(&asked).send().await.expect("an answer").status(), 201);

@@ -8,6 +8,7 @@ mod advice;
 mod authority;
 mod campaigns;
 mod citations;
+mod configurations;
 mod errors;
 mod invitations;
 mod lists;

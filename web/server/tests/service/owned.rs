@@ -142,6 +142,11 @@ async fn everything_is_taken_along_in_one_archive() {
     assert!(files.keys().any(
         |path| path.starts_with(&format!("opencollbench/advice/{advice}/")) && path.ends_with(".certificate.json")
     ));
+    let saved = made.id("configurations").to_owned();
+    assert_eq!(
+        json(&format!("configurations/{saved}.json"))["sha256"],
+        ocb_service::sha256_hex(file(&format!("configurations/{saved}.file")))
+    );
     assert_eq!(json(&format!("stability/{}.json", made.id("stability-runs")))["result"]["complete"], true);
     assert_eq!(json(&format!("plugins/{plugin}/plugin.json"))["id"], plugin);
     assert!(file(&format!("plugins/{plugin}/tree.so")).starts_with(b"\x7fELF"));

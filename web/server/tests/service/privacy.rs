@@ -51,6 +51,8 @@ impl Made {
             tokio::time::sleep(Duration::from_millis(100)).await;
         }
         let tried = tried.rsplit('/').next().expect("an id").to_owned();
+        let saved = owner.post(&format!("/api/v1/runs/{run}/save-configurations")).send().await.expect("an answer");
+        let saved = saved.json::<Value>().await.expect("JSON")["id"].as_str().expect("an id").to_owned();
         let plugin: Value = crate::publishing::garbage(&owner, 0).await.json().await.expect("JSON");
         let plugin = plugin["id"].as_str().expect("an id").to_owned();
         // Its author is told that the check has ended.
@@ -63,6 +65,7 @@ impl Made {
             ("objects", object.clone()),
             ("advice", advice),
             ("stability-runs", tried),
+            ("configurations", saved),
             ("plugins", plugin),
             ("notices", notice),
         ];
@@ -208,8 +211,8 @@ async fn what_is_private_is_not_there_for_others() {
 
     // The run alone: nothing of it is there, nor beside another run.
     assert_eq!(made.let_see("runs", "private").await.status(), StatusCode::OK);
-    let mut asked = hidden(&made, &guest, &["runs", "stability-runs"]).await
-        + hidden(&made, &account, &["runs", "stability-runs", "plugins", "notices"]).await;
+    let mut asked = hidden(&made, &guest, &["runs", "stability-runs", "configurations"]).await
+        + hidden(&made, &account, &["runs", "stability-runs", "configurations", "plugins", "notices"]).await;
     problem(guest.get(&beside).send().await.expect("an answer"), 404).await;
     seen(&made, &guest, &["objects", "advice"]).await;
 

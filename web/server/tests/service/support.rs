@@ -192,9 +192,14 @@ impl Guest {
 
     /// Uploads a file under a name.
     pub async fn upload(&self, name: &str, bytes: impl Into<Vec<u8>>) -> Response {
+        self.send_file("/api/v1/objects", name, bytes).await
+    }
+
+    /// Sends a file in the form of an upload.
+    pub async fn send_file(&self, path: &str, name: &str, bytes: impl Into<Vec<u8>>) -> Response {
         let part = reqwest::multipart::Part::bytes(bytes.into()).file_name(name.to_owned());
         let form = reqwest::multipart::Form::new().part("file", part);
-        self.post("/api/v1/objects").multipart(form).send().await.expect("an answer")
+        self.post(path).multipart(form).send().await.expect("an answer")
     }
 
     /// Asks for a run and gives its id.

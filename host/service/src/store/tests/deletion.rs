@@ -7,7 +7,7 @@ use super::submissions::submission;
 use super::{add, object, run};
 use crate::model::{
     AccountInfo, CheckLine, CheckVerdict, Cursor, InvitationInfo, InvitationState, NewChoices, NoticeInfo, OwnedItem,
-    PluginState, Role, Scope, StabilitySpec, State, TokenInfo,
+    PluginState, Role, SavedConfigurations, Scope, StabilitySpec, State, TokenInfo,
 };
 use crate::owned::sql::Unused;
 use crate::stability::runs_sql::StabilityRow;
@@ -28,7 +28,8 @@ async fn rows_of(store: &Store, id: &str) -> i64 {
                 + (SELECT COUNT(*) FROM runs WHERE owner = $2) + (SELECT COUNT(*) FROM objects WHERE owner = $2) \
                 + (SELECT COUNT(*) FROM requests WHERE owner = $2) + (SELECT COUNT(*) FROM kept WHERE owner = $2) \
                 + (SELECT COUNT(*) FROM served WHERE owner = $2) \
-                + (SELECT COUNT(*) FROM stability_runs WHERE owner = $2)";
+                + (SELECT COUNT(*) FROM stability_runs WHERE owner = $2) \
+                + (SELECT COUNT(*) FROM saved_configurations WHERE owner = $2)";
     let owner = format!("account:{id}");
     sqlx::query_scalar(text).bind(id).bind(owner).fetch_one(&store.pool).await.unwrap()
 }
@@ -72,6 +73,16 @@ async fn somebody(store: &Store, id: &str, name: &str) -> AccountInfo {
         store.add_line(&plugin.id, 1, &line).await.unwrap();
     }
     store.claim().await.unwrap();
+    store.add_blob(&format!("saved {id}"), 30, "x").await.unwrap();
+    let saved = SavedConfigurations {
+        id: format!("configurations {id}"),
+        name: "n".into(),
+        sha256: format!("saved {id}"),
+        configurations: 3,
+        straightened: 0,
+        created_us: 1,
+    };
+    store.add_saved(&saved, &owner).await.unwrap();
     let tried = StabilityRow {
         id: format!("stability {id}"),
         turn: owner.clone(),
@@ -94,6 +105,7 @@ fn parted(id: &str) -> (Belongings, Belongings) {
         runs: vec![thing(&format!("{kind} run {id}"))],
         objects: vec![thing(&format!("{kind} object {id}"))],
         advice: Vec::new(),
+        configurations: Vec::from_iter((kind == "own").then(|| thing(&format!("configurations {id}")))),
         stability: Vec::from_iter((kind == "own").then(|| format!("stability {id}"))),
         plugins: vec![format!("{kind} plugin {id}")],
     };
@@ -125,7 +137,7 @@ pub async fn an_account_goes_at_once_and_what_is_public_is_nobodys(store: Store)
     let (goes, stays) = parted("1");
     let unused = store.delete_account(&ada, &goes, &stays, NOTE).await.unwrap();
     let file = |sha256: &str, bytes| Unused { sha256: sha256.into(), bytes };
-    assert_eq!(unused, Some(vec![file("own file 1", 20), file("own mesh 1", 10)]));
+    assert_eq!(unused, Some(vec![file("own file 1", 20), file("own mesh 1", 10), file("saved 1", 30)]));
     assert_eq!(rows_of(&store, "1").await, 0);
     assert_eq!(rows_of(&store, "2").await, before, "nobody else lost anything");
 
