@@ -2,13 +2,14 @@ import { answer, http } from './client'
 import type { OwnedItems } from './types'
 
 /** Everything of one's own, or one thing of it with what goes with it. */
-export type Which = { kind: 'all' } | { kind: 'run' | 'object'; id: string }
+export type Which = { kind: 'all' } | { kind: 'run' | 'object' | 'configurations'; id: string }
 
 const of = (id: string) => ({ params: { path: { id } } })
 
 export function ownedItems(which: Which): Promise<OwnedItems> {
   if (which.kind === 'run') return answer(http.GET('/api/v1/runs/{id}/deletion-preview', of(which.id)))
   if (which.kind === 'object') return answer(http.GET('/api/v1/objects/{id}/deletion-preview', of(which.id)))
+  if (which.kind === 'configurations') return answer(http.GET('/api/v1/configurations/{id}/deletion-preview', of(which.id)))
   return answer(http.GET('/api/v1/data'))
 }
 
@@ -16,6 +17,7 @@ export function ownedItems(which: Which): Promise<OwnedItems> {
 export function deleteOwned(which: Which): Promise<OwnedItems> {
   if (which.kind === 'run') return answer(http.DELETE('/api/v1/runs/{id}', of(which.id)))
   if (which.kind === 'object') return answer(http.DELETE('/api/v1/objects/{id}', of(which.id)))
+  if (which.kind === 'configurations') return answer(http.DELETE('/api/v1/configurations/{id}', of(which.id)))
   return answer(http.DELETE('/api/v1/data'))
 }
 

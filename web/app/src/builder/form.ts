@@ -18,7 +18,7 @@ export interface BuilderForm {
   count: number | ''
   /** Of all methods that draw something. */
   seed: number | ''
-  /** SHA-256 of the file whose poses a run is asked again with; empty when there is none. */
+  /** SHA-256 of the saved configurations; empty when none are chosen. */
   poses: string
   /** Of a trajectory: between the centres, in L. */
   centerDistance: number | ''
@@ -127,7 +127,7 @@ function toSeed(form: BuilderForm): number | Missing {
 
 function toMethod(form: BuilderForm): Method | Missing {
   const { method: kind, centerDistance, hitShare, poses } = form
-  if (kind === 'file') return poses === '' ? { missing: 'There are no given poses; choose another method.' } : { kind, sha256: poses }
+  if (kind === 'file') return poses === '' ? { missing: 'Choose or add saved configurations.' } : { kind, sha256: poses }
   const seed = toSeed(form)
   if (typeof seed !== 'number') return seed
   if (kind === 'sphere' || kind === 'grid') {
