@@ -30,7 +30,7 @@ dist: build ## pack an archive, a wheel and a Debian package into target/dist
 plugins-cpp: ## build the wrappers of the C++ libraries that are installed, and say how to get the others
 	@$(MAKE) --no-print-directory --jobs=$(shell nproc) -C plugins/cpp
 
-plugins-native: ## build parry, and FCL, ODE and Bullet from Debian's sources, for this CPU, beside the usual builds
+plugins-native: ## build parry, FCL, ODE, Bullet and Coal from their sources for this CPU, beside the usual builds
 	@$(MAKE) --no-print-directory -C plugins/cpp native
 
 # Against your own copy: make plugin-pqp PQP_DIR=/path/to/it, likewise rapid, v-collide, solid (see plugins/cpp/README.md).

@@ -27,8 +27,8 @@ OCB_FORGERS=${OCB_FORGERS:-200} cargo test --release --workspace --test forgers 
 meshes=${OCB_SHARED:-../shared}/meshes
 target/release/ocb --data "$(mktemp -d)" advise "$meshes/bunny65k.obj" "$meshes/rocker-arm.obj" --held-out "${OCB_HELD_OUT:-100000}"
 make -s plugins-native
-native=fcl-native,bullet-native,parry-native,parry-f32-native
-target/release/ocb --json --data "$(mktemp -d)" bench torus-knot@5000 --count 1000 --distance 0.01 --query cd --algorithm "$native" > target/native.json
+native=fcl-native,bullet-native,coal-native,parry-native,parry-f32-native
+target/release/ocb --json --data "$(mktemp -d)" bench stock:torus-knot@5000 --count 1000 --distance 0.01 --query cd --algorithm "$native" > target/native.json
 python3 - target/native.json "$native" <<'CHECK'
 import json, sys
 rows = {row["algorithm"]: row for row in json.load(open(sys.argv[1]))["results"]}

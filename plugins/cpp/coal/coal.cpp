@@ -46,8 +46,8 @@ ocb::Vector vector(const coal::Vec3s &p) { return {p[0], p[1], p[2]}; }
 class Coal {
   public:
     static ocb::About about() {
-        return {"coal",
-                "Coal",
+        return {"coal" OCB_VARIANT,
+                "Coal" OCB_VARIANT,
                 "3.0.3",
                 "Louis Montaut, Justin Carpentier, Joseph Mirabel, Florent Lamiraux",
                 "BSD-3-Clause",
