@@ -61,8 +61,10 @@ async fn delete(engine: &Engine, name: &str, yes: bool, json: bool) -> Result<()
 }
 
 fn said(what: &str, counts: &OwnedCounts) -> String {
-    let OwnedCounts { runs, objects, advice, plugins } = counts;
-    format!("{what} runs: {runs}, objects: {objects}, pieces of advice: {advice}, plugins: {plugins}")
+    let OwnedCounts { runs, objects, configurations, advice, plugins } = counts;
+    format!(
+        "{what} runs: {runs}, objects: {objects}, saved configurations: {configurations}, pieces of advice: {advice}, plugins: {plugins}"
+    )
 }
 
 async fn invite(engine: &Engine, recipient: &str, days: u32, server: &str, json: bool) -> Result<()> {

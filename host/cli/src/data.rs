@@ -140,7 +140,7 @@ pub fn agreed() -> Result<bool> {
 
 /// A line for each, then the sum.
 fn list(things: &OwnedItems) -> String {
-    let all = [("run", &things.runs), ("object", &things.objects)];
+    let all = [("run", &things.runs), ("object", &things.objects), ("configurations", &things.configurations)];
     let lines = all.into_iter().flat_map(|(kind, all)| all.iter().map(move |thing| (kind, thing)));
     let mut text: Vec<String> = lines.map(|(kind, thing)| format!("{kind}  {}  {}", thing.id, thing.name)).collect();
     text.push(count(things));
@@ -150,9 +150,10 @@ fn list(things: &OwnedItems) -> String {
 fn count(things: &OwnedItems) -> String {
     let several = |n: usize, one: &str, more: &str| format!("{n} {}", if n == 1 { one } else { more });
     format!(
-        "{}, {}, {}; {} in files that no one else uses",
+        "{}, {}, {}, {}; {} in files that no one else uses",
         several(things.runs.len(), "run", "runs"),
         several(things.objects.len(), "object", "objects"),
+        several(things.configurations.len(), "saved set of configurations", "saved sets of configurations"),
         several(things.advice as usize, "piece of advice", "pieces of advice"),
         units::bytes(things.bytes)
     )
