@@ -2,10 +2,11 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help serve build dist pages stock plugins-cpp plugins-native check check-oracle test bench soak clean tools
+.PHONY: help serve build dist beside runner pages stock plugins-cpp plugins-native check check-oracle test bench soak clean tools
 
 PORT ?= 8080
 DATA ?= data
+COMPILE := cargo build --release
 # Tools that tests/setup/tools.sh had to install for this folder alone come first.
 export PATH := $(CURDIR)/.tools/node_modules/.bin:$(HOME)/.cargo/bin:$(PATH)
 CARGO_FLAGS := --release --workspace
@@ -15,13 +16,14 @@ PAGES := $(shell find web/app -type f -not -path '*/node_modules/*' -not -path '
 help: ## print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
-serve: tools pages stock ## build what serves one machine, then serve on 127.0.0.1:8080 (PORT=, DATA=)
-	cargo build --release --no-default-features
+serve: COMPILE += --no-default-features
+serve: tools beside ## build what serves one machine, then serve on 127.0.0.1:8080 (PORT=, DATA=)
+	$(COMPILE)
 	@$(MAKE) --silent --keep-going plugins-cpp || echo "make: going on without the wrappers that were not built"
 	exec $(TARGET)/release/ocb serve --data $(DATA) --listen 127.0.0.1:$(PORT) --stock-dir target/stock
 
-build: tools pages stock ## build all of it: also PostgreSQL, S3, mail, pictures as PNG, the client for services elsewhere
-	cargo build --release
+build: tools beside ## build all of it: also PostgreSQL, S3, mail, pictures as PNG, the client for services elsewhere
+	$(COMPILE)
 	@$(MAKE) --silent --keep-going plugins-cpp || echo "make: going on without the wrappers that were not built"
 
 dist: build ## pack an archive, a wheel and a Debian package into target/dist
@@ -39,6 +41,12 @@ plugin-%:
 
 tools:
 	@tests/setup/tools.sh build
+
+# Building the pages keeps one CPU busy; the runner, which holds none of them, is compiled meanwhile.
+beside:
+	@$(MAKE) --silent --jobs=2 pages stock runner COMPILE="$(COMPILE)"
+runner: tools
+	$(COMPILE) --bin ocb-runner
 
 pages: tools web/app/dist/index.html
 web/app/node_modules/.package-lock.json: web/app/package.json web/app/package-lock.json
