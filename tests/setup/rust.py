@@ -1,0 +1,151 @@
+#!/usr/bin/env python3
+"""rust.py [WORD...]: runs the test programs of the workspace, or those that a word names, two side by side.
+
+Prints what `cargo test --workspace --no-fail-fast` prints: each program's output as a whole, once it has ended, and for each
+that fails the command that repeats it. programs.toml says which may run beside which. Ends with 1 if one failed.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO
+
+root = Path(__file__).resolve().parents[2]
+cargo = ["cargo", "test", "--release", "--workspace"]
+LANES = 2
+
+
+@dataclass
+class Program:
+    """A test program: how to start and to repeat it, and what programs.toml says of it."""
+
+    name: str
+    title: str
+    command: list[str]
+    folder: str
+    repeat: str
+    kind: str = "short"
+    seconds: int = 0
+    threads: int | None = None
+    started: float = 0.0
+    process: subprocess.Popen | None = None
+    output: IO[bytes] | None = None
+
+    def start(self) -> None:
+        """Its output goes to a file of its own, which no process that it leaves behind holds open for us."""
+        environment = os.environ | {"CARGO_MANIFEST_DIR": self.folder}
+        if self.threads:
+            environment.setdefault("RUST_TEST_THREADS", str(self.threads))
+        self.output, self.started = tempfile.TemporaryFile(), time.monotonic()
+        same = {"stdin": subprocess.DEVNULL, "stdout": self.output, "stderr": subprocess.STDOUT}
+        self.process = subprocess.Popen(self.command, cwd=self.folder, env=environment, **same)
+
+
+def programs() -> list[Program]:
+    """All of them, built; the doc tests are one."""
+    built = [*cargo, "--no-run", "--quiet", "--message-format=json-render-diagnostics"]
+    told = subprocess.run(built, cwd=root, stdout=subprocess.PIPE, text=True)
+    if told.returncode != 0:
+        sys.exit(told.returncode)
+    found = []
+    for message in map(json.loads, told.stdout.splitlines()):
+        if not message.get("executable") or not message["profile"]["test"]:
+            continue
+        target, folder = message["target"], Path(message["manifest_path"]).parent
+        package = tomllib.loads(Path(message["manifest_path"]).read_text())["package"]["name"]
+        source = Path(target["src_path"]).relative_to(folder)
+        kind = target["kind"][0] if target["kind"][0] in ("test", "bin") else "lib"
+        name = target["name"] if kind == "test" else kind
+        title = f"{'' if kind == 'test' else 'unittests '}{source} ({package})"
+        which = "--lib" if kind == "lib" else f"--{kind} {target['name']}"
+        found.append(Program(f"{package} {name}", title, [message["executable"]], str(folder), f"-p {package} {which}"))
+    return [*found, Program("doc", "doc tests", [*cargo, "--doc", "--no-fail-fast"], str(root), "--doc")]
+
+
+def described(found: list[Program]) -> list[Program]:
+    """Longest first, as programs.toml says; a line about none of them is a mistake."""
+    by_name = {program.name: program for program in found}
+    for kind, lines in tomllib.loads((Path(__file__).parent / "programs.toml").read_text()).items():
+        for name, about in lines.items():
+            if name not in by_name:
+                sys.exit(f"rust: programs.toml names {name!r}, which is no test program.")
+            program = by_name[name]
+            program.kind, program.seconds, program.threads = kind, about["seconds"], about.get("threads")
+    return sorted(found, key=lambda program: -program.seconds)
+
+
+def beside(one: str, other: str) -> bool:
+    """May programs of these kinds run at the same time?"""
+    return "alone" not in (one, other) and {one, other} != {"measures", "computes"}
+
+
+def run(waiting: list[Program]) -> list[Program]:
+    """Those that failed. The longest starts first that may run beside what runs."""
+    running: dict[int, Program] = {}
+    ended: list[tuple[Program, float, float]] = []
+    failed = []
+    try:
+        while waiting or running:
+            fitting = (p for p in waiting if all(beside(p.kind, other.kind) for other in running.values()))
+            if len(running) < LANES and (program := next(fitting, None)):
+                waiting.remove(program)
+                program.start()
+                running[program.process.pid] = program
+                print(f"     Started {program.title}", flush=True)
+                continue
+            pid, status, used = os.wait4(-1, 0)
+            if not (program := running.pop(pid, None)):
+                continue
+            seconds, code = time.monotonic() - program.started, os.waitstatus_to_exitcode(status)
+            program.process.returncode = code
+            ended.append((program, seconds, used.ru_utime + used.ru_stime))
+            show(program, code)
+            if code != 0:
+                failed.append(program)
+    finally:
+        for program in running.values():
+            program.process.terminate()
+    print("\nThe longest, in seconds, and the seconds of CPU that they and what they started took:")
+    for program, seconds, cpu in sorted(ended, key=lambda of: -of[1])[:25]:
+        print(f"{seconds:7.1f} {cpu:7.1f}  {program.kind:8} {program.title}")
+    return failed
+
+
+def show(program: Program, code: int) -> None:
+    """All that it said."""
+    print(f"     Running {program.title}", flush=True)
+    program.output.seek(0)
+    said = program.output.read()
+    program.output.close()
+    sys.stdout.buffer.write(said)
+    # Cargo says it itself of the doc tests.
+    if code != 0 and b"error: doctest failed, to rerun pass" not in said:
+        end = f"exit status {code}" if code > 0 else f"signal {-code} ({signal.strsignal(-code)})"
+        # As cargo says it; test.sh looks for this line.
+        print(f"error: test failed, to rerun pass `{program.repeat}`\n  {end}: {' '.join(program.command)}")
+    sys.stdout.flush()
+
+
+def main() -> None:
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    words = sys.argv[1:]
+    chosen = [p for p in described(programs()) if not words or any(word in p.name for word in words)]
+    if not chosen:
+        sys.exit(f"rust: no test program is named like {' or '.join(words)}.")
+    started = time.monotonic()
+    if failed := run(list(chosen)):
+        print(f"error: {len(failed)} of {len(chosen)} programs failed. To repeat them:")
+        for program in failed:
+            print(f"    {' '.join(cargo[:3])} {program.repeat}")
+    print(f"rust: {len(chosen)} programs in {time.monotonic() - started:.0f} s")
+    sys.exit(bool(failed))
+
+
+main()
