@@ -49,8 +49,9 @@ def run_tests(test: str, sound: dict[str, float]) -> str | None:
     """What failed, if anything did. `sound`: seconds that the parts of a test program take without a fault, once known."""
     environment = os.environ | {"CARGO_TARGET_DIR": str(target), "RUST_BACKTRACE": "0", "CARGO_TERM_COLOR": "never"}
     environment.setdefault("OCB_SHARED", str(root.parent / "shared"))
-    # Another profile than that of the workspace: else the core with a fault would lie where the next build looks for it.
-    profile = "profile.release.package.ocb-core.debug=false"
+    # Another profile than that of the workspace: else the core with a fault would lie where the next build looks for its own,
+    # and all that depends on it would be built again.
+    profile = "profile.release.package.ocb-core.codegen-units=15"
     cargo = ["cargo", "test", "--release", "--locked", "--offline", "--workspace", "--test", test, "--no-run"]
     cargo += ["--config", profile, "--message-format=json-render-diagnostics"]
     built = subprocess.run(cargo, cwd=copy, env=environment, capture_output=True, text=True)
