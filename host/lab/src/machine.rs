@@ -13,7 +13,10 @@ use crate::sha256_hex;
 use crate::{LabError, Result};
 
 /// How often the right to measure is asked for.
-const TICK: Duration = Duration::from_millis(200);
+const TICK: Duration = Duration::from_millis(100);
+/// Locks of the machine: the right to measure, and that to be the next who has it.
+const THE_RIGHT: &str = "measuring";
+const NEXT: &str = "measuring-next";
 
 /// What does not change while this process lives.
 #[derive(Clone, Debug)]
@@ -131,7 +134,7 @@ impl<'m> MakingWay<'m> {
 
 /// Does another process have the right to measure? A lock that cannot be looked at is nobody's.
 fn measured_elsewhere() -> bool {
-    open_machine_lock().is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
+    open_machine_lock(THE_RIGHT).is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
 /// A thread that ends between listing and setting is no loss, so nothing here can fail.
@@ -188,20 +191,22 @@ pub struct MeasuringRight {
 impl MeasuringRight {
     /// Takes the right if nobody has it now.
     pub fn try_take() -> Result<Option<Self>> {
-        let file =
-            open_machine_lock().map_err(|e| LabError::fault("Opening the machine's measuring lock failed", e))?;
-        match file.try_lock() {
-            Ok(()) => Ok(Some(Self { _file: file })),
-            Err(TryLockError::WouldBlock) => Ok(None),
-            Err(TryLockError::Error(e)) => Err(LabError::fault("Taking the machine's measuring lock failed", e)),
-        }
+        Ok(try_lock(THE_RIGHT)?.map(|file| Self { _file: file }))
     }
 
     /// Waits until nobody has the right and takes it; `None` when stopped. `waits` is called once if it is not free at once.
     pub fn wait(stopped: impl Fn() -> bool, waits: impl FnOnce()) -> Result<Option<Self>> {
         let mut waits = Some(waits);
+        // Of those that wait one is next. Who gives the right back and wants it again comes behind it, else it would have the
+        // right again long before the others look.
+        let mut next = None;
         while !stopped() {
-            if let Some(right) = Self::try_take()? {
+            if next.is_none() {
+                next = try_lock(NEXT)?;
+            }
+            if next.is_some()
+                && let Some(right) = Self::try_take()?
+            {
                 return Ok(Some(right));
             }
             if let Some(waits) = waits.take() {
@@ -213,10 +218,21 @@ impl MeasuringRight {
     }
 }
 
+/// The lock of this name if nobody has it now.
+fn try_lock(name: &str) -> Result<Option<File>> {
+    let file =
+        open_machine_lock(name).map_err(|e| LabError::fault("Opening the machine's measuring lock failed", e))?;
+    match file.try_lock() {
+        Ok(()) => Ok(Some(file)),
+        Err(TryLockError::WouldBlock) => Ok(None),
+        Err(TryLockError::Error(e)) => Err(LabError::fault("Taking the machine's measuring lock failed", e)),
+    }
+}
+
 /// `/run/lock` belongs to everybody on Debian and is emptied at boot; `/tmp` is there where it is not.
-fn open_machine_lock() -> io::Result<File> {
+fn open_machine_lock(name: &str) -> io::Result<File> {
     let folder = if Path::new("/run/lock").is_dir() { "/run/lock" } else { "/tmp" };
-    let path = PathBuf::from(folder).join("opencollbench-measuring.lock");
+    let path = PathBuf::from(folder).join(format!("opencollbench-{name}.lock"));
     // Reading is enough to lock, so another user's file serves as well; the kernel may forbid O_CREAT on it.
     match File::open(&path) {
         Err(e) if e.kind() == io::ErrorKind::NotFound => {
@@ -232,6 +248,7 @@ fn open_machine_lock() -> io::Result<File> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
     use std::sync::{Mutex, PoisonError};
 
     /// Masks belong to the whole process, so only one test at a time may set them.
@@ -274,6 +291,29 @@ mod tests {
             std::thread::sleep(std::time::Duration::from_millis(50));
             way.look();
         }
+    }
+
+    #[test]
+    fn who_gives_the_right_back_waits_behind_who_waits() {
+        let wait = || MeasuringRight::wait(|| false, || {}).unwrap().unwrap();
+        let (done, measured) = (AtomicBool::new(false), AtomicU32::new(0));
+        std::thread::scope(|scope| {
+            let first = wait();
+            let second = scope.spawn(|| {
+                let _right = wait();
+                done.store(true, Ordering::Relaxed);
+            });
+            std::thread::sleep(5 * TICK);
+            drop(first);
+            // Measures over and over, with no pause in which somebody who looks now and then would find the right free.
+            while !done.load(Ordering::Relaxed) && measured.fetch_add(1, Ordering::Relaxed) < 50 {
+                let _right = wait();
+                std::thread::sleep(TICK);
+            }
+            second.join().unwrap();
+        });
+        // Others on this machine may want it, too, and which of those that wait is next is chance.
+        assert!(measured.load(Ordering::Relaxed) < 20, "it was passed over {measured:?} times");
     }
 
     #[test]
