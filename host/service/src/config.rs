@@ -52,6 +52,8 @@ pub struct EngineConfig {
     pub machine_note: Option<String>,
     /// Time of a whole check of a plugin, shared by its algorithms.
     pub check_limit: Duration,
+    /// Checks ask only the short part of their questions, as `ocb plugin check --quick` does. For tests about other things.
+    pub quick_checks: bool,
     /// Work on the queue. Off for commands that only read.
     pub dispatch: bool,
     /// Queue a quick run for the start page when there is none yet.
@@ -82,6 +84,7 @@ impl EngineConfig {
             suite: None,
             machine_note: None,
             check_limit: CHECK_LIMIT,
+            quick_checks: false,
             dispatch: true,
             featured: false,
             guest_days: 30,

@@ -67,7 +67,8 @@ fn check(
         }
         fault.is_none() && !stop.asked()
     };
-    let extent = Extent { manifest: Some(row.manifest.clone()), ..Extent::default() };
+    let quick = inner.config.quick_checks;
+    let extent = Extent { manifest: Some(row.manifest.clone()), quick, ..Extent::default() };
     let term = Term::new(stop, inner.config.check_limit);
     let report = check_plugin(inner.registry.runner(), file, &extent, &term, &mut tell)?;
     fault.map_or(Ok(Some(report)), Err)

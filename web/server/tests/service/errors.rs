@@ -6,7 +6,7 @@ use crate::support::{Service, problem, small_spec};
 
 #[tokio::test]
 async fn bad_specifications_are_refused_before_they_cost_anything() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     let count = |count: u64| json!({ "kind": "sphere", "sampling": { "kind": "count", "count": count } });
     let steps = |by: f64| json!({ "kind": "sphere", "sampling": { "kind": "steps", "rotate": by, "move": 20 } });
@@ -39,7 +39,7 @@ async fn bad_specifications_are_refused_before_they_cost_anything() {
 
 #[tokio::test]
 async fn objects_that_are_not_there_are_named() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     for id in ["stock:unicorn@100", "0193f1a0-0000-7000-8000-000000000000", "x"] {
         let mut spec = small_spec();
@@ -54,7 +54,7 @@ async fn objects_that_are_not_there_are_named() {
 
 #[tokio::test]
 async fn what_is_no_json_is_refused() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     let send = |media_type: &'static str, body: &'static str| {
         guest.post("/api/v1/runs").header("content-type", media_type).body(body).send()
@@ -68,7 +68,7 @@ async fn what_is_no_json_is_refused() {
 
 #[tokio::test]
 async fn unknown_addresses_and_methods_are_problems() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     for path in ["/api/", "/api/v1", "/api/v1/nothing", "/api/v2/objects", "/api/v1/runs/x/y"] {
         problem(guest.get(path).send().await.expect("an answer"), 404).await;
@@ -80,7 +80,7 @@ async fn unknown_addresses_and_methods_are_problems() {
 
 #[tokio::test]
 async fn runs_that_are_not_there_have_nothing() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     let map = "algorithm=box-tree&measure=time&statistic=median&outliers=keep";
     for id in ["0193f1a0-0000-7000-8000-000000000000", "nonsense", "%00"] {
@@ -109,7 +109,7 @@ async fn runs_that_are_not_there_have_nothing() {
 
 #[tokio::test]
 async fn queries_that_do_not_fit_are_refused() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     for query in [
         "",

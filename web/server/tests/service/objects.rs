@@ -10,7 +10,7 @@ const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\
 
 #[tokio::test]
 async fn stock_objects_are_listed_and_drawn() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     let objects = guest.json("/api/v1/objects").await;
     let ids: Vec<&str> =
@@ -30,7 +30,7 @@ async fn stock_objects_are_listed_and_drawn() {
 
 #[tokio::test]
 async fn an_upload_belongs_to_its_guest() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let (guest, other) = (service.guest(), service.guest());
     let response = guest.upload("../../my\u{202e}shape.obj", TETRAHEDRON).await;
     assert_eq!(response.status(), StatusCode::CREATED);
@@ -53,7 +53,7 @@ async fn own_objects(guest: &Guest) -> Vec<String> {
 
 #[tokio::test]
 async fn bad_files_get_a_sentence_and_leave_nothing() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     let cases: [(&str, Vec<u8>, &str); 9] = [
         ("empty.obj", Vec::new(), "empty"),
@@ -76,7 +76,7 @@ async fn bad_files_get_a_sentence_and_leave_nothing() {
 
 #[tokio::test]
 async fn a_form_without_a_file_is_refused() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     let other_field = reqwest::multipart::Form::new().text("name", "x");
     let response = guest.post("/api/v1/objects").multipart(other_field).send().await.expect("an answer");
@@ -93,7 +93,7 @@ async fn a_form_without_a_file_is_refused() {
 /// The client sends all of it and only then reads: it must find the answer, not a reset connection.
 #[tokio::test]
 async fn three_hundred_megabytes_get_a_413() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     const CHUNK: usize = 1 << 20;
     let head = "--x\r\nContent-Disposition: form-data; name=\"file\"; filename=\"big.obj\"\r\n\r\n";

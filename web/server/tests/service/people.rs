@@ -30,7 +30,7 @@ async fn who(guest: &Guest) -> Value {
 
 #[tokio::test]
 async fn an_account_takes_over_what_the_guest_made_and_is_left_everywhere() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let (guest, elsewhere) = (service.guest(), service.guest());
     let run = guest.start(&small_spec()).await;
     assert_eq!(who(&guest).await, Value::Null);
@@ -58,7 +58,7 @@ async fn an_account_takes_over_what_the_guest_made_and_is_left_everywhere() {
 
 #[tokio::test]
 async fn nobody_learns_which_names_there_are_by_logging_in() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     member(&service, "known", Role::User).await;
     let guest = service.guest();
     let wrong = problem(log_in(&guest, "known", "some other password").await, 403).await;
@@ -74,7 +74,7 @@ async fn nobody_learns_which_names_there_are_by_logging_in() {
 
 #[tokio::test]
 async fn other_sites_cannot_act_in_a_visitors_name() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = member(&service, "victim", Role::User).await;
     let sent = guest.post("/api/v1/account/logout").header("origin", "https://evil.example").send().await;
     problem(sent.expect("an answer"), 403).await;
@@ -86,7 +86,7 @@ async fn other_sites_cannot_act_in_a_visitors_name() {
 
 #[tokio::test]
 async fn a_token_does_what_it_is_for_and_nothing_else() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = member(&service, "robot", Role::Developer).await;
     let asked = json!({ "name": "script", "scopes": ["plugins"] });
     let made = guest.post("/api/v1/account/tokens").json(&asked).send().await.expect("an answer");
@@ -111,7 +111,7 @@ async fn a_token_does_what_it_is_for_and_nothing_else() {
 
 #[tokio::test]
 async fn curators_welcome_developers_and_administrators_make_curators() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let user = member(&service, "newcomer", Role::User).await;
     let curator = member(&service, "curator", Role::Curator).await;
     let administrator = member(&service, "admin", Role::Administrator).await;
@@ -265,7 +265,7 @@ const DOORS: &[(&str, &[&str])] = &[
 /// lets somebody in who has no business there.
 #[tokio::test]
 async fn every_route_has_its_door() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let roles = [
         ("everybody", service.guest()),
         ("logged in", member(&service, "user", Role::User).await),

@@ -44,7 +44,7 @@ async fn offered(guest: &Guest) -> Vec<String> {
 
 #[tokio::test]
 async fn a_plugin_is_private_until_a_curator_publishes_it() {
-    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
+    let service = Service::start_checking(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let author = member(&service, "author", Role::Developer).await;
     let curator = member(&service, "curator", Role::Curator).await;
     let (stranger, other) = (service.guest(), member(&service, "other", Role::Developer).await);

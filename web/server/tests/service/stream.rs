@@ -38,7 +38,7 @@ fn parse(text: &str) -> Vec<Event> {
 
 #[tokio::test]
 async fn a_stream_replays_resumes_and_ends() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     let run = guest.start(&small_spec()).await;
     let events = follow(&guest, &run, 0).await;
@@ -62,7 +62,7 @@ async fn a_stream_replays_resumes_and_ends() {
 /// An open stream must not keep the service from ending.
 #[tokio::test]
 async fn the_service_stops_under_an_open_stream() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     let mut spec = small_spec();
     spec["passes"] = 99.into();

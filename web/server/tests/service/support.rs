@@ -30,6 +30,8 @@ pub struct How {
     pub ceilings: Option<Ceilings>,
     /// Nothing is worked on.
     pub idle: bool,
+    /// Plugins are checked with all questions, which takes a minute.
+    pub whole_checks: bool,
 }
 
 impl Service {
@@ -41,6 +43,11 @@ impl Service {
     /// With these plugins of ours alone. What is sent to it is run with whatever jail this machine has.
     pub async fn start_with(plugins: &[&str]) -> Self {
         Self::open(How { plugins: ours(plugins), ..How::default() }).await
+    }
+
+    /// The same, which checks what it is sent as any service does.
+    pub async fn start_checking(plugins: &[&str]) -> Self {
+        Self::open(How { plugins: ours(plugins), whole_checks: true, ..How::default() }).await
     }
 
     /// The same, with the suite in this file.
@@ -73,6 +80,7 @@ impl Service {
         config.mail.clone_from(&how.mail);
         config.ceilings = how.ceilings.unwrap_or_default();
         config.dispatch = !how.idle;
+        config.quick_checks = !how.whole_checks;
         let engine = Engine::open(config).await.expect("the engine opens");
         let listener = ocb_server::bind(([127, 0, 0, 1], 0).into()).await.expect("a free port");
         let url = format!("http://{}", listener.local_addr().expect("an address"));
