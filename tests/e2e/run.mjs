@@ -1,6 +1,7 @@
-// Starts the built service on a data folder of its own, walks all journeys against it, and stops it by its process id.
+// Walks all journeys, two side by side, each on a built service of its own, which is stopped by its process id.
 //
-// OCB_E2E_URL walks against a running service instead (with OCB_E2E_CURATOR, the password of its account "curator"); further arguments choose journeys (file names).
+// OCB_E2E_URL walks one after the other against a running service instead (with OCB_E2E_CURATOR, the password of its account
+// "curator"); further arguments choose journeys (file names).
 import { spawn } from 'node:child_process'
 import { readdirSync } from 'node:fs'
 import { join } from 'node:path'
@@ -8,16 +9,42 @@ import { root, startService } from './service.mjs'
 
 const here = join(root, 'tests/e2e')
 const chosen = process.argv.slice(2)
+// The long ones first, so that none of them is left alone at the end.
+const LONG = ['1-', '7-', '5-', '2-stock', '6-', '9-campaign', '9-advisor']
+const rank = (file) => [...LONG, ''].findIndex((start) => file.startsWith(start))
 const journeys = readdirSync(join(here, 'journeys'))
   .filter((f) => f.endsWith('.test.mjs') && (chosen.length === 0 || chosen.some((c) => f.startsWith(c))))
-  .map((f) => join('journeys', f))
+  .toSorted((a, b) => rank(a) - rank(b))
 const given = process.env.OCB_E2E_URL
-const service = given ? { url: given, stop: async () => {} } : await startService()
-const test = spawn(process.execPath, ['--test', '--test-concurrency=1', '--test-reporter=spec', ...journeys], {
-  cwd: here,
-  stdio: 'inherit',
-  env: { ...process.env, OCB_E2E_URL: service.url, OCB_E2E_CURATOR: service.password ?? process.env.OCB_E2E_CURATOR ?? '', OCB_E2E_PICTURES: join(root, 'target/e2e') },
-})
-const code = await new Promise((done) => test.once('exit', (c) => done(c ?? 1)))
-await service.stop()
-process.exitCode = code
+
+/** Walks one journey; its output comes as a whole. */
+async function walk(journey, service) {
+  const test = spawn(process.execPath, ['--test', '--test-reporter=spec', join('journeys', journey)], {
+    cwd: here,
+    stdio: ['ignore', 'pipe', 'pipe'],
+    env: { ...process.env, OCB_E2E_URL: service.url, OCB_E2E_CURATOR: service.password ?? process.env.OCB_E2E_CURATOR ?? '', OCB_E2E_PICTURES: join(root, 'target/e2e') },
+  })
+  const said = []
+  for (const stream of [test.stdout, test.stderr]) stream.on('data', (chunk) => said.push(chunk))
+  const code = await new Promise((done) => test.once('close', (c) => done(c ?? 1)))
+  process.stdout.write(Buffer.concat(said))
+  if (code !== 0) console.log(`${journey} failed; to repeat it: node tests/e2e/run.mjs ${journey.replace('.test.mjs', '')}`)
+  return code
+}
+
+/** Takes journeys until none is left. */
+async function walkAll() {
+  const service = given ? { url: given, stop: async () => {} } : await startService()
+  let worst = 0
+  try {
+    for (let next = journeys.shift(); next; next = journeys.shift()) worst = Math.max(worst, await walk(next, service))
+  } finally {
+    await service.stop()
+  }
+  return worst
+}
+
+const lanes = given ? 1 : Math.min(2, journeys.length)
+const walked = await Promise.allSettled(Array.from({ length: lanes }, walkAll))
+for (const { reason } of walked) if (reason) console.error(reason)
+process.exitCode = Math.max(...walked.map(({ value }) => value ?? 1))
