@@ -13,7 +13,7 @@ import sys
 import tempfile
 import time
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO
 
@@ -78,7 +78,18 @@ def described(found: list[Program]) -> list[Program]:
                 sys.exit(f"rust: programs.toml names {name!r}, which is no test program.")
             program = by_name[name]
             program.kind, program.seconds, program.threads = kind, about["seconds"], about.get("threads")
+            if word := about.get("alone"):
+                found.append(apart(program, word, about["alone_seconds"]))
     return sorted(found, key=lambda program: -program.seconds)
+
+
+def apart(program: Program, word: str, seconds: int) -> Program:
+    """Takes the tests with this word out of a program, to be run alone."""
+    command, title, repeat = program.command, program.title, program.repeat
+    program.command, program.title = [*command, "--skip", word], f"{title} without {word}"
+    alone = replace(program, command=[*command, word], title=f"{title} {word}", repeat=f"{repeat} -- {word}")
+    alone.kind, alone.seconds = "alone", seconds
+    return alone
 
 
 def beside(one: str, other: str) -> bool:

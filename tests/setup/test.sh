@@ -37,14 +37,24 @@ step build bash -c 'make -sk --jobs=3 pages stock plugins-cpp; made=$?; cargo bu
 step vitest npm --prefix web/app run test
 start_services || broken+=(services)
 step rust tests/setup/rust.py
-step dist host/dist/test.sh
-step faults tests/oracle-check/faults.py quick
-# What only compiles goes beside the browser, which mostly waits.
-make -s check > "$logs/beside.log" 2>&1 &
+# What only computes goes beside what waits and measures, and gives way to it; one after the other, because both compile.
+meanwhile() { # meanwhile NAME COMMAND...: run it, keep its output and how it ended
+  nice -n 19 "${@:2}" > "$logs/beside-$1.log" 2>&1 &
+  wait $!
+  echo $? > "$logs/beside-$1.code"
+}
+(
+  trap 'kill $(jobs -p); exit 143' TERM
+  meanwhile faults tests/oracle-check/faults.py quick
+  meanwhile check make -s check
+) &
 beside=$!
+step dist host/dist/test.sh
 step browser bash -c 'npm --prefix tests/e2e ci --no-audit --no-fund && npm --prefix tests/e2e test'
 wait "$beside"
-step check bash -c 'cat "$1"; exit "$2"' check "$logs/beside.log" $?
 beside=
+for name in faults check; do
+  step "$name" bash -c 'cat "$1.log"; exit "$(cat "$1.code")"' "$name" "$logs/beside-$name"
+done
 
 summary "$logs" ${broken[@]+"${broken[@]}"}
