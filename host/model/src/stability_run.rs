@@ -37,7 +37,9 @@ pub struct StabilityRunInfo {
     pub done: u32,
     /// All parts.
     pub total: u32,
-    /// Why it failed, one sentence.
+    /// Stability runs under way, or carried out before this one if nothing else is requested; 0 when it does not wait.
+    pub runs_ahead: u32,
+    /// Why it failed or was cancelled, one sentence.
     pub message: Option<String>,
     /// When it was asked for.
     pub created_us: i64,

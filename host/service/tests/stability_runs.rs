@@ -113,12 +113,33 @@ async fn a_run_that_was_stopped_goes_on_behind_the_last_part() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn owners_take_turns_and_each_run_knows_its_place() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = opened(data.path(), false).await;
+    let mut ids = Vec::new();
+    for owner in ["me", "me", "me", "other"] {
+        ids.push(started(&engine, owner, "box-tree", &[FAMILY], Some(1)).await);
+    }
+    let mut places = Vec::new();
+    for id in &ids {
+        places.push(engine.stability_run(id).await.unwrap().runs_ahead);
+    }
+    assert_eq!(places, [0, 2, 3, 1]);
+    engine.cancel_stability(&ids[3], Some("other")).await.unwrap();
+    let listed = engine.stability_runs("me", &Page::default()).await.unwrap().entries;
+    assert_eq!(listed.iter().map(|run| run.runs_ahead).collect::<Vec<_>>(), [2, 1, 0], "newest first");
+    assert_eq!(engine.stability_run(&ids[3]).await.unwrap().runs_ahead, 0, "it does not wait any more");
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn a_cancelled_run_ends_at_once_and_the_next_one_begins() {
     let data = tempfile::tempdir().unwrap();
     let engine = opened(data.path(), true).await;
     let id = started(&engine, "me", "box-tree", &[], Some(10)).await;
     let next = started(&engine, "other", "box-tree", &[FAMILY], Some(1)).await;
     until(&engine, &id, |now| now.state == State::Running).await;
+    assert_eq!(engine.stability_run(&next).await.unwrap().runs_ahead, 1);
     let run = engine.cancel_stability(&id, Some("me")).await.unwrap();
     assert_eq!((run.state, run.step), (State::Cancelled, None));
     assert!(run.done < run.total && run.finished_us.is_some());

@@ -20,6 +20,7 @@ export const router = createRouter({
     { path: '/campaigns', component: () => import('./pages/CampaignsPage.vue'), meta: { title: 'Repeated benchmarks' } },
     { path: '/campaigns/:id', component: () => import('./pages/CampaignPage.vue'), props: true, meta: { title: 'Repeated benchmarks' } },
     { path: '/stability', component: () => import('./pages/StabilityPage.vue'), meta: { title: 'Where algorithms fail' } },
+    { path: '/stability/:id', component: () => import('./pages/StabilityRunPage.vue'), props: true, meta: { title: 'Stability run' } },
     { path: '/advisor/:id?', component: () => import('./pages/AdvisorPage.vue'), props: true, meta: { title: 'How much detail is enough?' } },
     { path: '/about', component: () => import('./pages/AboutPage.vue'), meta: { title: 'How we measure' } },
     { path: '/truth', component: () => import('./pages/TruthPage.vue'), meta: { title: 'How answers are judged' } },

@@ -83,7 +83,7 @@ impl Store {
 
 /// How many runs of others come before the run of this turn that has so many of its own before it: turns go round, so that
 /// those whose turn is sooner have one more than it, as far as they have any.
-fn of_others(turn: &str, since: &Since, before: i64, turns: &[Turn]) -> i64 {
+pub(crate) fn of_others(turn: &str, since: &Since, before: i64, turns: &[Turn]) -> i64 {
     let others = turns.iter().filter(|other| other.turn != turn);
     others.map(|other| other.waiting.min(before + i64::from(other.since < *since))).sum()
 }

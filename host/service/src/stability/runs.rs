@@ -73,7 +73,10 @@ impl Engine {
         let (from, limit) = page.start()?;
         let rows = self.inner.store.stability_runs_of(owner, &from, limit + 1).await?;
         let part = Part::of(rows, limit, |row: &StabilityRow| Cursor::behind(row.created_us, &row.id));
-        let entries = part.entries.into_iter().map(info).collect();
+        let mut entries = Vec::new();
+        for row in part.entries {
+            entries.push(self.inner.stability_info(row).await?);
+        }
         Ok(Part { entries, next: part.next })
     }
 
@@ -82,7 +85,7 @@ impl Engine {
     pub async fn stability_run(&self, id: &str) -> Result<StabilityRunInfo> {
         let row = self.inner.stability_row(id).await?;
         let result = self.inner.store.stability_found(id).await?;
-        Ok(StabilityRunInfo { result, ..info(row) })
+        Ok(StabilityRunInfo { result, ..self.inner.stability_info(row).await? })
     }
 
     /// Ends it and keeps what it found; only its owner may.
@@ -117,6 +120,12 @@ impl Inner {
         self.store.stability_run(id).await?.ok_or_else(|| no_run(id))
     }
 
+    async fn stability_info(&self, row: StabilityRow) -> Result<StabilityRunInfo> {
+        let waits = row.state == State::Queued;
+        let runs_ahead = if waits { self.store.stability_before(&row).await? } else { 0 };
+        Ok(info(row, runs_ahead))
+    }
+
     async fn own_stability(&self, id: &str, caller: Option<&str>, may: &str) -> Result<()> {
         let row = self.stability_row(id).await?;
         if caller.is_some() && row.owner.as_deref() == caller {
@@ -148,13 +157,14 @@ fn check(spec: &StabilitySpec) -> Result<()> {
     }
 }
 
-fn info(row: StabilityRow) -> StabilityRunInfo {
+fn info(row: StabilityRow, runs_ahead: u32) -> StabilityRunInfo {
     let parts = stability::parts(&selection(&row.spec));
     let open = matches!(row.state, State::Queued | State::Running);
     StabilityRunInfo {
         step: parts.get(row.done.len()).filter(|_| open).map(|part| (*part).to_owned()),
         done: row.done.len() as u32,
         total: parts.len() as u32,
+        runs_ahead,
         id: row.id,
         spec: row.spec,
         name: row.name,

@@ -2,7 +2,9 @@
 
 use crate::Result;
 use crate::model::{Cursor, Stability, StabilitySpec, State};
+use crate::runs::places::of_others;
 use crate::runs::sql::{named_state, state_name};
+use crate::runs::turn::Turn;
 use crate::store::{Store, from_json, now_us, to_json};
 
 /// One stability run.
@@ -133,6 +135,32 @@ impl Store {
                     WHERE state IN ('queued', 'running')";
         let (all, own): (i64, i64) = sqlx::query_as(text).bind(turn).fetch_one(&self.pool).await?;
         Ok([all, own])
+    }
+
+    /// How many are under way, or are carried out before this one, which waits. Few wait, so all are looked at.
+    pub async fn stability_before(&self, row: &StabilityRow) -> Result<u32> {
+        let waiting: Vec<(String, String, i64, i64, String)> = sqlx::query_as(
+            "SELECT r.state, r.turn, COALESCE(s.served_us, 0), r.created_us, r.id \
+             FROM stability_runs r LEFT JOIN served s ON s.owner = r.turn WHERE r.state IN ('queued', 'running') \
+             ORDER BY r.created_us, r.id",
+        )
+        .fetch_all(&self.pool)
+        .await?;
+        let (mut running, mut own, mut turns) = (0, 0, Vec::<Turn>::new());
+        for (state, turn, served_us, created_us, id) in waiting {
+            if named_state(&state)? == State::Running {
+                running += 1;
+                continue;
+            }
+            own += i64::from(turn == row.turn && (created_us, &id) < (row.created_us, &row.id));
+            match turns.iter_mut().find(|known| known.turn == turn) {
+                Some(known) => known.waiting += 1,
+                None => turns.push(Turn { turn, waiting: 1, since: (served_us, created_us, id) }),
+            }
+        }
+        // It may have begun since it was read.
+        let Some(turn) = turns.iter().find(|known| known.turn == row.turn) else { return Ok(running) };
+        Ok(running + (own + of_others(&row.turn, &turn.since, own, &turns)) as u32)
     }
 
     /// Takes one away.

@@ -3,7 +3,7 @@ import { asApiError, fromResponse } from './errors'
 import { nextOf } from './link'
 import type { paths } from './schema'
 import type {
-  Accuracy, AdviceInfo, AdviceSpec, AlgorithmInfo, Board, Chart, ChartKind, Citation, Ecdf, Estimate, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, StabilityTable, SuiteInfo, Visibility, WorstCase,
+  Accuracy, AdviceInfo, AdviceSpec, AlgorithmInfo, Board, Chart, ChartKind, Citation, Ecdf, Estimate, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, SuiteInfo, Visibility, WorstCase,
 } from './types'
 
 export const http = createClient<paths>({ baseUrl: '/' })
@@ -111,8 +111,6 @@ export const getWorst = (
 /** All pairs of triangles that meet in one configuration. */
 export const getMeeting = (id: string, configuration: number): Promise<Meeting> =>
   answer(http.GET('/api/v1/runs/{id}/configurations/{configuration}/contacts', { params: { path: { id, configuration } } }))
-/** Where methods fail, as far as they were tried. */
-export const getStability = (): Promise<StabilityTable> => answer(http.GET('/api/v1/stability'))
 
 export const askAdvice = (spec: AdviceSpec): Promise<AdviceInfo> => answer(http.POST('/api/v1/advice', { body: spec }))
 

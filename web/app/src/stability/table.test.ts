@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest'
 import type { Stability, StabilityTable, Tally } from '../api/types'
-import { cell, columns, passed, short, tallyWords } from './table'
+import { cell, columns, passed, short, tableOf, tallyWords, views } from './table'
 
 const none: Tally = { agrees: 0, grazing: 0, misses: 0, false_alarms: 0, distances: 0, unsteady: 0, broken: 0, slow: 0, unsupported: 0, refused: 0 }
 const family = (id: string, beyond = false) => ({ id, name: id, sentence: '', source: '', parameter: 'x', continuous: false, beyond })
@@ -40,6 +40,12 @@ describe('the stability table', () => {
   test('every view has its columns', () => {
     expect(columns(table, 'reported')[0]).toMatchObject({ id: 'pqp-4', name: 'PQP, issue 4' })
     expect(columns(table, 'families').map(({ id }) => id)).toEqual(['near', 'far', 'nan'])
+  })
+
+  test('a result alone shows what was tried', () => {
+    const whole = { ...table, families: [...table.families, family('untried')] }
+    expect(columns(tableOf(method, whole), 'families').map(({ id }) => id)).toEqual(['near', 'far', 'nan'])
+    expect(views(tableOf({ ...method, relations: [], failures: [] }, whole))).toEqual(['families'])
   })
 
   test('numbers are short', () => {

@@ -79,6 +79,19 @@ export function columns(table: StabilityTable, view: View): Column[] {
   return table.failures.map(({ id, source, seen }) => ({ id, name: source, sentence: seen, beyond: false }))
 }
 
+/** The views that have a column. */
+export const views = (table: StabilityTable): View[] => VIEWS.filter((view) => columns(table, view).length > 0)
+
+/** The table of one result alone, without what was not tried. */
+export function tableOf(result: Stability, { families, relations, failures }: Omit<StabilityTable, 'methods'>): StabilityTable {
+  return {
+    families: families.filter(({ id }) => result.families.some(({ family }) => family === id)),
+    relations: relations.filter(({ id }) => result.relations.some(({ relation }) => relation === id)),
+    failures: failures.filter(({ id }) => result.failures.some((failure) => failure.id === id)),
+    methods: [result],
+  }
+}
+
 /** The cell of a method in a column; null where it was not tried. */
 export function cell(method: Stability, view: View, id: string): Cell | null {
   if (view === 'families') {

@@ -1,0 +1,28 @@
+import { describe, expect, test } from 'vitest'
+import type { StabilityRunInfo } from '../api/types'
+import { choices, partsOf, progressWords, tested } from './choice'
+
+const family = (id: string, name: string) => ({ id, name, sentence: '', source: '', parameter: 'x', continuous: false, beyond: false })
+const table = { families: [family('near', 'Near'), family('far', 'Far')], relations: [{ id: 'swap', name: 'Swap', sentence: '' }, { id: 'unit', name: 'Unit', sentence: '' }] }
+const run: StabilityRunInfo = {
+  id: 'x', spec: { algorithm: 'a' }, name: 'A', state: 'queued', step: 'near', done: 0, total: 2, runs_ahead: 2, created_us: 0,
+}
+
+describe('what a stability run tests', () => {
+  test('every choice leads back to its own words', () => {
+    const { all, groups } = choices(table)
+    const words = [all, ...groups.flatMap((group) => group.choices)].map(({ value }) => tested({ algorithm: 'a', parts: partsOf(value, table) }, table))
+    expect(words).toEqual([
+      'everything', 'all stress families', 'Near', 'Far', 'all relations', 'Swap', 'Unit', 'Reported failures', 'The same surface with other triangles', 'Adversarial search',
+    ])
+    expect(tested({ algorithm: 'a', parts: ['near', 'swap', 'far'] }, table)).toBe('3 tests')
+  })
+
+  test('it says its place or its progress', () => {
+    expect(progressWords(run, table)).toBe('Waiting; 2 stability runs are ahead of it.')
+    expect(progressWords({ ...run, runs_ahead: 1 }, table)).toBe('Waiting; 1 stability run is ahead of it.')
+    expect(progressWords({ ...run, runs_ahead: 0 }, table)).toBe('Waiting; it is the next stability run.')
+    expect(progressWords({ ...run, state: 'running', done: 1, runs_ahead: 0 }, table)).toBe('1 of 2 tests done; now: Near.')
+    expect(progressWords({ ...run, state: 'cancelled', done: 1, step: null }, table)).toBe('1 of 2 tests done.')
+  })
+})
