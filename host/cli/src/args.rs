@@ -443,17 +443,23 @@ pub struct StabilityArgs {
     #[arg(long, value_name = "NAME")]
     pub family: Vec<String>,
     /// Only this parameter value of the family, or this amount of the relation.
-    #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
+    #[arg(long, value_name = "NUMBER", allow_negative_numbers = true, conflicts_with = "server")]
     pub at: Option<f64>,
     /// Only this seed.
-    #[arg(long, value_name = "NUMBER", conflicts_with = "seeds")]
+    #[arg(long, value_name = "NUMBER", conflicts_with_all = ["seeds", "server"])]
     pub seed: Option<u32>,
     /// Seeds per value [default: 3].
     #[arg(long, value_name = "COUNT")]
     pub seeds: Option<u32>,
     /// Time limit; the table is then marked incomplete.
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", conflicts_with = "server")]
     pub budget: Option<u64>,
+    /// URL of a service that tries the algorithms instead of this machine; Ctrl-C cancels the run there.
+    #[arg(long, value_name = "URL", requires = "token")]
+    pub server: Option<String>,
+    /// Token of your account there for runs and objects; its account page creates tokens.
+    #[arg(long, env = "OCB_TOKEN", value_name = "TOKEN", hide_env_values = true)]
+    pub token: Option<String>,
     /// Folder for the failing cases: both objects as OBJ, poses, expected and actual answers, the command line.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

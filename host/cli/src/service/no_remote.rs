@@ -15,6 +15,11 @@ impl Service<'_> {
     }
 
     /// Refuses.
+    pub async fn post<T>(&self, _: &str, _: &Value) -> Result<T> {
+        left_out()
+    }
+
+    /// Refuses.
     pub async fn put<T>(&self, _: &str, _: &Value) -> Result<T> {
         left_out()
     }

@@ -18,6 +18,11 @@ impl Service<'_> {
         answer(&self.address(path), self.request(Method::GET, path)).await
     }
 
+    /// Sends this to what is at this path.
+    pub async fn post<T: DeserializeOwned>(&self, path: &str, body: &Value) -> Result<T> {
+        answer(&self.address(path), self.request(Method::POST, path).json(body)).await
+    }
+
     /// Says how what is at this path is to be.
     pub async fn put<T: DeserializeOwned>(&self, path: &str, body: &Value) -> Result<T> {
         answer(&self.address(path), self.request(Method::PUT, path).json(body)).await

@@ -1,34 +1,6 @@
 //! What one has made, here and on a service: shown, taken along, deleted.
 
-use std::io::{BufRead, BufReader};
-use std::process::Child;
-
-use crate::support::{Desk, Ended};
-
-/// A service on a data folder of its own; ends when dropped.
-struct Serving {
-    child: Child,
-    url: String,
-}
-
-impl Serving {
-    fn start(desk: &Desk) -> Self {
-        let mut child = desk.command(&["serve", "--address", "127.0.0.1:0", "--json"]).spawn().expect("it starts");
-        let lines = BufReader::new(child.stdout.take().expect("stdout")).lines().map_while(Result::ok);
-        let url = lines.into_iter().find_map(|line| {
-            let (_, rest) = line.split_once("http://")?;
-            rest.split('"').next().map(|address| format!("http://{address}"))
-        });
-        Self { child, url: url.expect("an address") }
-    }
-}
-
-impl Drop for Serving {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
+use crate::support::{Desk, Ended, Serving};
 
 #[test]
 fn what_the_command_line_made_is_shown_taken_along_and_deleted() {
@@ -64,17 +36,9 @@ fn things<'a>(args: &[&'a str], account: &[&'a str]) -> Vec<&'a str> {
 #[test]
 fn what_an_account_has_on_a_service_is_its_own() {
     let (desk, there) = (Desk::new(), Desk::new());
-    let made = there.command(&["admin", "create", "ada"]).env("OCB_PASSWORD", "a long enough password").output();
-    assert!(made.expect("it starts").status.success());
+    there.account("ada");
     let service = Serving::start(&there);
-    let client = reqwest::blocking::Client::builder().cookie_store(true).build().expect("a client");
-    let post = |path: &str, body: serde_json::Value| {
-        let sent = client.post(format!("{}/api/v1{path}", service.url)).json(&body).send().expect("an answer");
-        assert!(sent.status().is_success(), "{path}: {}", sent.status());
-        sent.json::<serde_json::Value>().expect("JSON")
-    };
-    post("/account/login", serde_json::json!({ "name": "ada", "password": "a long enough password" }));
-    let token = post("/account/tokens", serde_json::json!({ "name": "t", "scopes": ["runs"] }))["secret"].clone();
+    let (token, post) = service.log_in("ada");
     let run = post(
         "/runs",
         serde_json::json!({
@@ -83,7 +47,7 @@ fn what_an_account_has_on_a_service_is_its_own() {
         }),
     );
     let run = run["id"].as_str().expect("an id");
-    let account = ["--server", &service.url, "--token", token.as_str().expect("a secret")];
+    let account = ["--server", &service.url, "--token", &token];
     assert_eq!(desk.json(&things(&["show"], &account))["runs"][0]["id"], run);
     let tar = desk.path("all.tar").to_str().expect("text").to_owned();
     assert!(desk.json(&things(&["export", "-o", &tar], &account))["bytes"].as_u64() > Some(1024));

@@ -13,6 +13,7 @@ mod look;
 mod replay;
 mod serve;
 mod settings;
+mod stability;
 mod suite;
 mod support;
 mod truth;

@@ -1,15 +1,19 @@
 //! Running the binary on a data folder of the test's own.
 
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 
-use serde_json::Value;
+use serde_json::{Value, json};
 use tempfile::TempDir;
 
 /// A data folder and what is run on it.
 pub struct Desk {
     folder: TempDir,
 }
+
+/// The password of every account.
+const PASSWORD: &str = "a long enough password";
 
 /// How a command ended.
 #[derive(Debug)]
@@ -63,6 +67,12 @@ impl Desk {
         command
     }
 
+    /// Makes an account.
+    pub fn account(&self, name: &str) {
+        let made = self.command(&["admin", "create", name]).env("OCB_PASSWORD", PASSWORD).output().expect("it starts");
+        assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    }
+
     /// Runs a command to its end.
     pub fn run(&self, args: &[&str]) -> Ended {
         let Output { status, stdout, stderr } = self.command(args).output().expect("it starts");
@@ -85,5 +95,45 @@ impl Desk {
         assert_eq!(lines.len(), 1, "{args:?}: one sentence, not {stderr:?}");
         assert!(lines[0].starts_with("ocb: ") && lines[0].len() > 15, "{args:?}: {stderr}");
         lines[0].to_owned()
+    }
+}
+
+/// A service on a data folder of its own; ends when dropped.
+pub struct Serving {
+    child: Child,
+    pub url: String,
+}
+
+impl Serving {
+    pub fn start(desk: &Desk) -> Self {
+        let mut child =
+            desk.command(&["serve", "--address", "127.0.0.1:0", "--json"]).spawn().expect("it starts");
+        let lines = BufReader::new(child.stdout.take().expect("stdout")).lines().map_while(Result::ok);
+        let url = lines.into_iter().find_map(|line| {
+            let (_, rest) = line.split_once("http://")?;
+            rest.split('"').next().map(|address| format!("http://{address}"))
+        });
+        Self { child, url: url.expect("an address") }
+    }
+
+    /// A token of this account for runs and objects, and a way to send JSON as the account.
+    pub fn log_in(&self, name: &str) -> (String, impl Fn(&str, Value) -> Value) {
+        let client = reqwest::blocking::Client::builder().cookie_store(true).build().expect("a client");
+        let url = self.url.clone();
+        let post = move |path: &str, body: Value| {
+            let sent = client.post(format!("{url}/api/v1{path}")).json(&body).send().expect("an answer");
+            assert!(sent.status().is_success(), "{path}: {}", sent.status());
+            sent.json::<Value>().expect("JSON")
+        };
+        post("/account/login", json!({ "name": name, "password": PASSWORD }));
+        let token = post("/account/tokens", json!({ "name": "t", "scopes": ["runs"] }));
+        (token["secret"].as_str().expect("a secret").to_owned(), post)
+    }
+}
+
+impl Drop for Serving {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
     }
 }
