@@ -46,12 +46,12 @@ async function ready(url, alive) {
   throw new Error(`the service did not answer on ${url}`)
 }
 
-/** Serves this data folder, or a new one with a curator that goes away with the service. */
-export async function startService({ data: given, options: more = [] } = {}) {
+/** Serves this data folder, or a new one with a curator that goes away with the service; nothing is measured unasked, unless `idle`. */
+export async function startService({ data: given, options: more = [], idle = false } = {}) {
   const url = `http://127.0.0.1:${await freePort()}`
   const data = given ?? mkdtempSync(join(tmpdir(), 'ocb-e2e-'))
   const password = given ? undefined : addCurator(data)
-  const options = ['serve', '--data', data, '--listen', url.slice('http://'.length), '--stock-dir', join(root, 'target/stock'), ...more]
+  const options = ['serve', '--data', data, '--listen', url.slice('http://'.length), '--stock-dir', join(root, 'target/stock'), '--idle', idle ? 'on' : 'off', ...more]
   const service = spawn(built('ocb'), options, { cwd: root, stdio: ['ignore', 'inherit', 'inherit'] })
   const ended = new Promise((done) => service.once('exit', (code, signal) => done(signal ?? code)))
   let running = true

@@ -27,6 +27,7 @@ use ocb_service::Profile;
 
 use crate::board::BoardArgs;
 use crate::chart::ChartArgs;
+use crate::choice::Switch;
 use crate::placing::PlacingArgs;
 
 /// Benchmark of collision detection and proximity query algorithms.
@@ -205,6 +206,10 @@ pub struct ServeArgs {
     /// Days until the data of a guest is deleted, counted from the last item that the guest created or asked to keep.
     #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=36_500), env = "OCB_GUEST_DAYS", value_name = "DAYS", hide_env_values = true)]
     pub guest_days: u32,
+    /// While nobody asks for anything: measure what is missing of the suite, then test the installed algorithms for stability. Any
+    /// request interrupts this.
+    #[arg(long, value_enum, default_value_t = Switch::On, env = "OCB_IDLE", hide_env_values = true)]
+    pub idle: Switch,
     #[command(flatten)]
     pub ceilings: CeilingArgs,
     #[command(flatten)]

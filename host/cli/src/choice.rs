@@ -164,3 +164,10 @@ choice! {
         Resolution,
     }
 }
+
+/// On or off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Switch {
+    On,
+    Off,
+}

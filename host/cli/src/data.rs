@@ -150,11 +150,12 @@ fn list(things: &OwnedItems) -> String {
 fn count(things: &OwnedItems) -> String {
     let several = |n: usize, one: &str, more: &str| format!("{n} {}", if n == 1 { one } else { more });
     format!(
-        "{}, {}, {}, {}; {} in files that no one else uses",
+        "{}, {}, {}, {}, {}; {} in files that no one else uses",
         several(things.runs.len(), "run", "runs"),
         several(things.objects.len(), "object", "objects"),
         several(things.configurations.len(), "saved set of configurations", "saved sets of configurations"),
         several(things.advice as usize, "piece of advice", "pieces of advice"),
+        several(things.stability as usize, "stability run", "stability runs"),
         units::bytes(things.bytes)
     )
 }

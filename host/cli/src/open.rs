@@ -7,6 +7,7 @@ use std::time::Duration;
 use ocb_service::{Ceilings, Engine, EngineConfig, MailServer, Profile, given};
 
 use crate::args::{CeilingArgs, MailArgs, ServeArgs, Store};
+use crate::choice::Switch;
 use crate::failure::{Failure, Result};
 
 /// Owner of what the command line makes.
@@ -36,7 +37,14 @@ pub async fn open_to_serve(store: &Store, args: &ServeArgs, url: &str) -> Result
     let mail = mail_server(&args.mail, url)?;
     let config = config(store, data(store)?, Purpose::Serve);
     let ceilings = ceilings(&args.ceilings);
-    Ok(Engine::open(EngineConfig { guest_days: args.guest_days, ceilings, mail, ..config }).await?)
+    Ok(Engine::open(EngineConfig {
+        guest_days: args.guest_days,
+        idle: args.idle == Switch::On,
+        ceilings,
+        mail,
+        ..config
+    })
+    .await?)
 }
 
 fn ceilings(args: &CeilingArgs) -> Ceilings {

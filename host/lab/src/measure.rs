@@ -66,6 +66,7 @@ struct Stopping {
     asked: bool,
     /// Shown to the owner of the run.
     reason: Option<String>,
+    for_now: bool,
     killer: Option<Killer>,
 }
 
@@ -77,14 +78,30 @@ impl Stop {
 
     /// The same, with a reason for the owner of the run; the first reason is kept.
     pub fn stop_because(&self, reason: Option<String>) {
+        self.end(reason, false);
+    }
+
+    /// The same for work that gives way to other work and begins again later.
+    pub fn stop_for_now(&self) {
+        self.end(None, true);
+    }
+
+    fn end(&self, reason: Option<String>, for_now: bool) {
         let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
         if !inner.asked {
             inner.reason = reason;
         }
+        // What is to end for good does not begin again, whoever asked first.
+        inner.for_now = for_now && (inner.for_now || !inner.asked);
         inner.asked = true;
         if let Some(killer) = &inner.killer {
             killer.kill();
         }
+    }
+
+    /// It was asked for, and the work begins again later.
+    pub fn for_now(&self) -> bool {
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner).for_now
     }
 
     /// Why it was asked for.

@@ -6,8 +6,8 @@ use utoipa::ToSchema;
 /// What becomes of an account's things when it is deleted.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[schema(example = json!({
-    "goes": { "runs": 12, "objects": 3, "configurations": 2, "advice": 1, "plugins": 1 },
-    "stays": { "runs": 2, "objects": 1, "configurations": 0, "advice": 0, "plugins": 1 },
+    "goes": { "runs": 12, "objects": 3, "configurations": 2, "advice": 1, "stability": 1, "plugins": 1 },
+    "stays": { "runs": 2, "objects": 1, "configurations": 0, "advice": 0, "stability": 0, "plugins": 1 },
     "bytes": 7_340_032,
     "blocked_by": null
 }))]
@@ -33,6 +33,8 @@ pub struct OwnedCounts {
     pub configurations: u32,
     /// Pieces of advice.
     pub advice: u32,
+    /// Stability runs.
+    pub stability: u32,
     /// Plugins, each version by itself.
     pub plugins: u32,
 }

@@ -12,7 +12,7 @@ pub struct OwnedItem {
     pub name: String,
 }
 
-/// Runs, objects, saved configurations and advice of one owner: all of them, or those that go with one of them.
+/// Runs, objects, saved configurations, advice and stability runs of one owner: all of them, or those that go with one of them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct OwnedItems {
     /// Runs with their results, newest first.
@@ -23,6 +23,8 @@ pub struct OwnedItems {
     pub configurations: Vec<OwnedItem>,
     /// How many pieces of advice.
     pub advice: u32,
+    /// How many stability runs.
+    pub stability: u32,
     /// Bytes of the stored files that go with them: those that nobody else uses.
     pub bytes: u64,
     /// When a guest's things go by themselves; absent for accounts, whose things stay.

@@ -28,6 +28,8 @@ pub struct SuiteInfo {
     pub hardware_class: String,
     /// Version of the oracle that judges.
     pub oracle: u32,
+    /// The service measures what is missing when nobody asks for anything.
+    pub idle: bool,
     /// How far each public algorithm has come, by id.
     pub progress: Vec<SuiteProgress>,
 }
@@ -43,6 +45,8 @@ pub struct SuiteProgress {
     pub measured: u32,
     /// Scenarios that are in the queue.
     pub waiting: u32,
+    /// Scenarios that the service tried while idle, without a result; it does not try them again.
+    pub failed: u32,
     /// Scenarios whose question it answers.
     pub of: u32,
 }

@@ -63,6 +63,7 @@ impl Engine {
             return Ok((self.advice(&info.id).await?, false));
         }
         inner.clone().begin_advice(inner.advices.add(info.clone(), turn));
+        inner.call();
         Ok((info, true))
     }
 
@@ -147,6 +148,8 @@ impl Inner {
                 tracing::error!("advice {id}: {e}");
             }
             inner.advices.remove(&id);
+            // Idle work waits for it.
+            inner.wake.notify_one();
         });
     }
 

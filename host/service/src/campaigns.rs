@@ -24,9 +24,9 @@ use crate::model::{
 use crate::notices::notice;
 use crate::plugins::sql::THE_SERVICE;
 use crate::requests::Made;
-use crate::runs::BACKGROUND;
 use crate::runs::RunContext;
 use crate::runs::log::plain_event;
+use crate::runs::priority::BACKGROUND;
 use crate::store::now_us;
 use crate::{EngineError, Result};
 

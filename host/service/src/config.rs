@@ -56,6 +56,8 @@ pub struct EngineConfig {
     pub quick_checks: bool,
     /// Work on the queue. Off for commands that only read.
     pub dispatch: bool,
+    /// When nothing is asked for, measure what of the suite is missing, and try the installed algorithms for stability.
+    pub idle: bool,
     /// Queue a quick run for the start page when there is none yet.
     pub featured: bool,
     /// Days that what guests make stays after they last made something or asked to have it kept.
@@ -86,6 +88,7 @@ impl EngineConfig {
             check_limit: CHECK_LIMIT,
             quick_checks: false,
             dispatch: true,
+            idle: false,
             featured: false,
             guest_days: 30,
             ceilings: Ceilings::default(),

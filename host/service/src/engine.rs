@@ -1,7 +1,7 @@
 //! The one handle for server and command line.
 
 use std::fs::File;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use ocb_core::configuration::ConfigurationSet;
@@ -33,6 +33,14 @@ pub struct Engine {
     pub(crate) inner: Arc<Inner>,
 }
 
+/// Work under way, and how it is stopped.
+pub struct Current {
+    pub id: String,
+    pub stop: Stop,
+    /// It gives way to whatever anybody asks for.
+    pub idle: bool,
+}
+
 /// What all parts of one engine share.
 pub struct Inner {
     pub config: EngineConfig,
@@ -52,8 +60,10 @@ pub struct Inner {
     pub asking: tokio::sync::Mutex<()>,
     /// Rung when the queue has something new.
     pub wake: Notify,
-    /// The run at work and how it is stopped.
-    pub current: Mutex<Option<(String, Stop)>>,
+    /// What is at work.
+    pub current: Mutex<Option<Current>>,
+    /// How often somebody has asked for work.
+    pub asked: AtomicU64,
     pub sets: Cache<ConfigurationSet>,
     pub records: Cache<RecordColumns>,
     pub maps: Cache<VertexMap>,
@@ -75,6 +85,13 @@ impl Inner {
     /// The engine is shutting down.
     pub fn closing(&self) -> bool {
         self.closing.load(Ordering::SeqCst)
+    }
+
+    /// There is new work: the dispatcher looks at the queue, and idle work gives way.
+    pub fn call(&self) {
+        self.asked.fetch_add(1, Ordering::SeqCst);
+        self.give_way();
+        self.wake.notify_one();
     }
 
     /// Work that closing waits for.

@@ -16,6 +16,7 @@ mod citations;
 mod config;
 mod engine;
 mod error;
+mod idle;
 #[cfg_attr(not(feature = "mail"), allow(dead_code))]
 mod mail;
 mod notices;

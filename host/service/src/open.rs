@@ -1,6 +1,6 @@
 //! Opening a service on its data folder, and closing it.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use tokio::sync::Notify;
@@ -10,12 +10,14 @@ use crate::blobs::Blobs;
 use crate::boxed;
 use crate::cache::Cache;
 use crate::engine::{Engine, Inner};
+use crate::idle;
 use crate::machine::{Machine, lock_data_folder};
 use crate::model::Status;
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;
 use crate::runs::dispatcher;
 use crate::runs::log::RunEvents;
+use crate::runs::priority::BACKGROUND;
 use crate::store::Store;
 use crate::suite::Suite;
 use crate::{EngineConfig, EngineError, Result};
@@ -46,6 +48,7 @@ impl Engine {
             asking: tokio::sync::Mutex::default(),
             wake: Notify::new(),
             current: Mutex::new(None),
+            asked: AtomicU64::new(0),
             sets: Cache::new(4),
             records: Cache::new(16),
             maps: Cache::new(8),
@@ -66,6 +69,9 @@ impl Engine {
         engine.inner.renew_plugins().await?;
         if engine.inner.config.dispatch {
             dispatcher::recover(&engine.inner).await?;
+            if !engine.inner.config.idle {
+                idle::end_waiting(&engine.inner).await?;
+            }
             engine.recover_advice().await?;
             engine.feature_a_run().await?;
             engine.catch_up_with_the_suite().await?;
@@ -103,7 +109,7 @@ impl Engine {
             version: env!("CARGO_PKG_VERSION").into(),
             hardware_class: self.inner.machine.hardware_class.clone(),
             running: self.inner.store.running().await?.len() as u32,
-            queued: self.inner.store.waiting(i64::MAX).await?.0,
+            queued: self.inner.store.waiting(BACKGROUND).await?.0,
             algorithms: self.inner.registry.algorithms(None).len() as u32,
             problems: self.inner.registry.problems(),
         })

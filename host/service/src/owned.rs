@@ -83,7 +83,7 @@ impl Engine {
             }
         }
         for run in &what.stability {
-            self.inner.end_stability(run).await?;
+            self.inner.end_stability(run, None).await?;
         }
         for advice in &what.advice {
             self.cancel_advice(advice, Some(owner)).await?;
@@ -154,6 +154,7 @@ impl Inner {
             objects: what.objects,
             configurations: what.configurations,
             advice: what.advice.len() as u32,
+            stability: what.stability.len() as u32,
             bytes,
             kept_until_us,
         })

@@ -106,7 +106,7 @@ impl Engine {
         let missing = || EngineError::Fault("The plugin was lost while it was being stored.".into());
         let kept = store.submission_of(&account.id, &row.blob).await?.ok_or_else(missing)?;
         if new {
-            self.inner.wake.notify_one();
+            self.inner.call();
         }
         Ok((self.plugin(&kept.id, Some(account)).await?, new))
     }

@@ -80,8 +80,12 @@ impl Inner {
 
     /// The time limit of a run, if it has one.
     pub fn longest_run(&self, row: &RunRow) -> Option<Duration> {
-        let guest = row.owner.as_deref().and_then(kind) == Some(Kind::Guest);
-        (guest && row.campaign.is_none()).then_some(self.config.ceilings.guest_run)
+        self.longest_of(row.owner.as_deref()).filter(|_| row.campaign.is_none())
+    }
+
+    /// The time limit of a run or stability run of this owner, if there is one.
+    pub fn longest_of(&self, owner: Option<&str>) -> Option<Duration> {
+        (owner.and_then(kind) == Some(Kind::Guest)).then_some(self.config.ceilings.guest_run)
     }
 
     /// # Errors
@@ -192,7 +196,7 @@ fn later(seconds: f64) -> u32 {
 }
 
 /// A time for people.
-fn time(seconds: f64) -> String {
+pub(crate) fn time(seconds: f64) -> String {
     let of = |n: f64, unit: &str| format!("{n:.0} {unit}{}", if n.round() == 1.0 { "" } else { "s" });
     match seconds {
         s if s < 120.0 => format!("{s:.0} s"),

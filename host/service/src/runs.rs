@@ -1,6 +1,8 @@
 //! Asking for runs, looking at them and ending them.
 
 pub mod benchmark;
+pub mod carry_out;
+pub mod current;
 pub mod dispatcher;
 pub mod draw;
 pub mod estimate;
@@ -8,6 +10,7 @@ pub mod featured;
 pub mod follow;
 pub mod log;
 pub mod places;
+pub mod priority;
 pub mod queue;
 pub mod repro;
 pub mod spec;
@@ -19,17 +22,13 @@ use std::time::{Duration, Instant};
 
 use crate::boxed;
 use crate::engine::Engine;
-use crate::model::{AccountInfo, Cursor, Page, Part, Role, RunInfo, RunSpec, State, Visibility};
+use crate::model::{AccountInfo, Cursor, Page, Part, Role, RunInfo, RunSpec, Stage, State, Visibility};
 use crate::quotas::{Visitor, granted, turn};
 use crate::runs::log::{fresh_stages, plain_event};
+use crate::runs::priority::INTERACTIVE;
 use crate::runs::sql::RunRow;
 use crate::store::now_us;
 use crate::{EngineError, Result};
-
-/// Priority of what somebody waits for.
-pub const INTERACTIVE: i64 = 1;
-/// Priority of the service's own runs.
-pub const BACKGROUND: i64 = 5;
 
 /// How long `cancel` waits for a run under way to end before it answers.
 const CANCEL_PATIENCE: Duration = Duration::from_secs(3);
@@ -125,7 +124,7 @@ impl Engine {
             return self.asked_before(&row, key.unwrap_or_default()).await.map(|run| (run, false));
         }
         self.inner.run_events.queue_moved();
-        self.inner.wake.notify_one();
+        self.inner.call();
         Ok((row.id, true))
     }
 
@@ -169,7 +168,7 @@ impl Engine {
             return Err(nothing());
         }
         self.inner.run_events.queue_moved();
-        self.inner.wake.notify_one();
+        self.inner.call();
         self.run(id, caller).await
     }
 
@@ -258,9 +257,10 @@ impl Engine {
         let store = &self.inner.store;
         let runs_ahead = if row.state == State::Queued { store.runs_before(&row.id).await?.unwrap_or(0) } else { 0 };
         let mut stages = store.stages(&row.id).await?;
-        // A run that was cancelled before its turn has begun none of them.
+        // A run that was cancelled before its turn, or before it began again, has none of them at work.
         if row.state == State::Cancelled {
-            stages.iter_mut().filter(|s| s.state == State::Queued).for_each(|s| s.state = State::Cancelled);
+            let open = |stage: &&mut Stage| matches!(stage.state, State::Queued | State::Running);
+            stages.iter_mut().filter(open).for_each(|stage| stage.state = State::Cancelled);
         }
         Ok(RunInfo {
             stages,

@@ -102,6 +102,7 @@ fn migrations() -> Migrator {
         one(25, "triangle_tests", include_str!("../migrations/0025_triangle_tests.sql")),
         one(26, "saved configurations", include_str!("../migrations/0026_saved_configurations.sql")),
         one(27, "stability runs", include_str!("../migrations/0027_stability_runs.sql")),
+        one(29, "idle", include_str!("../migrations/0029_idle.sql")),
     ])
 }
 

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use ocb_lab::machine::MeasuringRight;
 use ocb_service::model::{AlgorithmInfo, Page, Role, StabilityRunInfo, StabilitySpec, State};
-use ocb_service::{Engine, EngineConfig, EngineError, StabilitySelection, Stop, Visitor};
+use ocb_service::{Ceilings, Engine, EngineConfig, EngineError, StabilitySelection, Stop, Visitor};
 
 /// A family that is tried quickly.
 const FAMILY: &str = "vertex-face";
@@ -147,6 +147,45 @@ async fn a_cancelled_run_ends_at_once_and_the_next_one_begins() {
     assert_eq!(ended(&engine, &next).await.state, State::Done);
     let run = engine.stability_run(&id).await.unwrap();
     assert_eq!((run.state, run.done), (State::Cancelled, done), "nothing is added to it");
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_guests_run_ends_when_its_time_is_over_and_keeps_what_it_found() {
+    let data = tempfile::tempdir().unwrap();
+    let ceilings = Ceilings { guest_run: Duration::from_millis(1500), ..Ceilings::default() };
+    let config = EngineConfig { ceilings, ..config(data.path(), "libocb_box_tree.so") };
+    let engine = Engine::open(config).await.unwrap();
+    let guest = "0193f1a0-0000-4000-8000-000000000000";
+    let id = started(&engine, guest, "box-tree", &[], Some(10)).await;
+    let run = ended(&engine, &id).await;
+    assert_eq!(run.state, State::Cancelled, "{run:?}");
+    assert!(run.message.as_deref().is_some_and(|told| told.contains("time limit for guests")), "{:?}", run.message);
+    assert_eq!(families(&run).len(), run.done as usize);
+    let took = run.finished_us.unwrap() - run.created_us;
+    assert!((1_500_000..8_000_000).contains(&took), "it ended after {took} us");
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_curator_ends_anybodys_run_without_seeing_its_result() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = opened(data.path(), false).await;
+    let id = started(&engine, "me", "box-tree", &[], None).await;
+    let user = engine.add_account("user", "a long enough password", Role::Developer).await.unwrap();
+    let curator = engine.add_account("curator", "a long enough password", Role::Curator).await.unwrap();
+    for refused in [
+        engine.open_stability_runs(&user).await.unwrap_err(),
+        engine.cancel_stability_of_others(&id, &user).await.unwrap_err(),
+    ] {
+        assert!(matches!(refused, EngineError::Forbidden(_)), "{refused:?}");
+    }
+    let open = engine.open_stability_runs(&curator).await.unwrap();
+    assert_eq!(open.iter().map(|run| run.id.as_str()).collect::<Vec<_>>(), [id.as_str()]);
+    let run = engine.cancel_stability_of_others(&id, &curator).await.unwrap();
+    assert_eq!((run.state, run.message.as_deref()), (State::Cancelled, Some("Cancelled by a curator.")));
+    assert!(engine.open_stability_runs(&curator).await.unwrap().is_empty());
+    assert!(engine.stability_run_is_for(&id, Some(&curator.owner())).await.is_err());
     engine.shutdown().await;
 }
 

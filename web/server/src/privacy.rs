@@ -5,10 +5,11 @@ use axum::extract::{Query, Request, State};
 use axum::http::Uri;
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+use ocb_service::model::Role;
 use percent_encoding::percent_decode_str;
 
 use crate::App;
-use crate::guest::Guest;
+use crate::guest::{Guest, Person};
 use crate::problem::Problem;
 
 /// Something that a request names by its id.
@@ -27,6 +28,11 @@ pub(crate) async fn hide_private_things(State(app): State<App>, request: Request
     let named = named(request.uri());
     let guest = request.extensions().get::<Guest>().map(|guest| guest.0.clone());
     for thing in &named {
+        // Curators end what keeps others waiting, and do not see what it found.
+        let ends = matches!(thing, Named::StabilityRun(_)) && request.uri().path().ends_with("/cancel");
+        if ends && request.extensions().get::<Person>().is_some_and(|Person(account)| account.role >= Role::Curator) {
+            continue;
+        }
         let there = match thing {
             Named::Run(id) => app.engine.run_is_for(id, guest.as_deref()).await,
             Named::Object(id) => app.engine.object_is_for(id, guest.as_deref()).await,

@@ -159,6 +159,7 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(stability_runs::start_stability, stability_runs::list_stability_runs))
         .routes(routes!(stability_runs::show_stability_run, stability_runs::remove_stability))
         .routes(routes!(stability_runs::cancel_stability))
+        .routes(routes!(stability_runs::list_open_stability_runs))
         .routes(routes!(suite::show_suite))
         .routes(routes!(campaigns::create_campaign, campaigns::list_campaigns))
         .routes(routes!(campaigns::preview_campaign))

@@ -13,7 +13,8 @@ use crate::support::{Desk, Ended};
 fn it_serves_until_it_is_told_to_stop() {
     let desk = Desk::new();
     for signal in [Signal::SIGTERM, Signal::SIGINT] {
-        let mut child = desk.command(&["serve", "--address", "127.0.0.1:0", "--json"]).spawn().expect("it starts");
+        let mut child =
+            desk.command(&["serve", "--address", "127.0.0.1:0", "--json", "--idle", "off"]).spawn().expect("it starts");
         let stdout = BufReader::new(child.stdout.take().expect("stdout"));
         let url = stdout.lines().map_while(Result::ok).find_map(|line| {
             let (_, rest) = line.split_once("http://")?;

@@ -107,7 +107,7 @@ pub struct Serving {
 impl Serving {
     pub fn start(desk: &Desk) -> Self {
         let mut child =
-            desk.command(&["serve", "--address", "127.0.0.1:0", "--json"]).spawn().expect("it starts");
+            desk.command(&["serve", "--address", "127.0.0.1:0", "--json", "--idle", "off"]).spawn().expect("it starts");
         let lines = BufReader::new(child.stdout.take().expect("stdout")).lines().map_while(Result::ok);
         let url = lines.into_iter().find_map(|line| {
             let (_, rest) = line.split_once("http://")?;

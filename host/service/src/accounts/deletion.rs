@@ -140,6 +140,7 @@ fn counted(what: &Belongings) -> OwnedCounts {
         objects: what.objects.len() as u32,
         configurations: what.configurations.len() as u32,
         advice: what.advice.len() as u32,
+        stability: what.stability.len() as u32,
         plugins: what.plugins.len() as u32,
     }
 }

@@ -63,6 +63,11 @@ impl Advices {
         [jobs.len(), jobs.values().filter(|job| job.turn == turn).count()]
     }
 
+    /// Nothing waits or is at work.
+    pub fn is_empty(&self) -> bool {
+        locked(&self.jobs).is_empty()
+    }
+
     /// One of them.
     pub fn find(&self, id: &str) -> Option<Arc<Job>> {
         locked(&self.jobs).get(id).cloned()

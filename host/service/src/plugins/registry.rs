@@ -89,6 +89,11 @@ impl Registry {
         all
     }
 
+    /// Those of the installed plugins, by id.
+    pub fn installed(&self) -> Vec<AlgorithmInfo> {
+        self.contestants.iter().map(|c| c.info.clone()).collect()
+    }
+
     /// From now on these, of all that developers brought.
     pub fn offer(&self, brought: AllBrought) {
         *self.brought.write().unwrap_or_else(PoisonError::into_inner) = brought;

@@ -54,7 +54,7 @@ pub fn run(inner: &Arc<Inner>, id: &str, stop: &Stop, handle: &Handle) -> Result
     let ended = bench.stages().map_err(EngineError::for_visitors);
     match &ended {
         Ok(End::Done) => {}
-        Ok(End::Stopped) if inner.closing() => {}
+        Ok(End::Stopped) if inner.closing() || stop.for_now() => {}
         Ok(End::Stopped) => bench.log.end_open(State::Cancelled, None)?,
         Err(e) => bench.log.end_open(State::Failed, Some(&e.to_string()))?,
     }

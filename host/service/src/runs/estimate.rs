@@ -104,7 +104,7 @@ pub async fn estimate_alone(inner: &Inner, checked: &Checked) -> Result<Estimate
 /// Runs ahead of an interactive one that is asked for now, and the seconds until they are done.
 async fn queue_ahead(inner: &Inner) -> Result<(u32, f64)> {
     let running = inner.store.running().await?;
-    let (ahead, seconds) = inner.store.waiting(crate::runs::INTERACTIVE).await?;
+    let (ahead, seconds) = inner.store.waiting(crate::runs::priority::INTERACTIVE).await?;
     let left =
         |(_, started_us, expected): &(String, i64, f64)| (expected - (now_us() - started_us) as f64 / 1e6).max(1.0);
     Ok((running.len() as u32 + ahead, running.iter().map(left).sum::<f64>() + seconds))

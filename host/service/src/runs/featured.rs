@@ -6,8 +6,8 @@ use ocb_core::query::{Query, Semantics};
 use crate::Result;
 use crate::engine::Engine;
 use crate::model::RunSpec;
-use crate::runs::BACKGROUND;
 use crate::runs::RunContext;
+use crate::runs::priority::BACKGROUND;
 
 /// Configurations of the quick run.
 const CONFIGURATIONS: u32 = 2000;

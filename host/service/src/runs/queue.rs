@@ -1,6 +1,7 @@
 //! The queue: which run is next, and what becomes of interrupted ones.
 
 use crate::Result;
+use crate::runs::priority::{BACKGROUND, IDLE};
 use crate::store::{Store, now_us};
 
 /// The queued and running work of an owner or an address.
@@ -25,18 +26,29 @@ macro_rules! granted {
 }
 
 impl Store {
-    /// Takes the next run: smallest priority, then whose turn was longest ago, then the oldest.
+    /// Takes the next run: smallest priority, then whose turn was longest ago, then the oldest. Idle work is not among them.
     pub async fn claim(&self) -> Result<Option<String>> {
+        self.claim_between(i64::MIN, BACKGROUND).await
+    }
+
+    /// Takes a run that the service queued for when it is idle.
+    pub async fn claim_idle(&self) -> Result<Option<String>> {
+        self.claim_between(IDLE, IDLE).await
+    }
+
+    async fn claim_between(&self, smallest: i64, largest: i64) -> Result<Option<String>> {
         let now = now_us();
         let claimed: Option<(String, String)> = sqlx::query_as(
             "UPDATE runs SET state = 'running', attempts = attempts + 1, started_us = $1, message = NULL \
              WHERE state = 'queued' AND id = ( \
                  SELECT r.id FROM runs r LEFT JOIN served s ON s.owner = r.turn \
-                 WHERE r.state = 'queued' \
+                 WHERE r.state = 'queued' AND r.priority BETWEEN $2 AND $3 \
                  ORDER BY r.priority, COALESCE(s.served_us, 0), r.created_us, r.id LIMIT 1) \
              RETURNING id, turn",
         )
         .bind(now)
+        .bind(smallest)
+        .bind(largest)
         .fetch_optional(&self.pool)
         .await?;
         let Some((id, turn)) = claimed else { return Ok(None) };
@@ -69,7 +81,7 @@ impl Store {
         Ok((queued, failed))
     }
 
-    /// Puts a run under way back without counting the attempt: the service was asked to stop.
+    /// Puts a run under way back without counting the attempt: it was asked to stop, and not because of what it did.
     pub async fn put_back(&self, id: &str) -> Result<()> {
         sqlx::query("UPDATE runs SET state = 'queued', attempts = attempts - 1 WHERE id = $1 AND state = 'running'")
             .bind(id)
@@ -93,10 +105,10 @@ impl Store {
         Ok(Granted { waiting: waiting as u64, seconds })
     }
 
-    /// Runs under way: their ids, when they were started and what they were expected to take.
+    /// Runs under way that others wait for: their ids, when they were started and what they were expected to take.
     pub async fn running(&self) -> Result<Vec<(String, i64, f64)>> {
-        Ok(sqlx::query_as("SELECT id, COALESCE(started_us, 0), expected_seconds FROM runs WHERE state = 'running'")
-            .fetch_all(&self.pool)
-            .await?)
+        let text = "SELECT id, COALESCE(started_us, 0), expected_seconds FROM runs \
+                    WHERE state = 'running' AND priority <= $1";
+        Ok(sqlx::query_as(text).bind(BACKGROUND).fetch_all(&self.pool).await?)
     }
 }

@@ -5,9 +5,10 @@ use ocb_lab::stability::{self, Selection};
 use super::runs_sql::StabilityRow;
 use crate::boxed;
 use crate::engine::{Engine, Inner};
-use crate::model::{Cursor, Page, Part, StabilityRunInfo, StabilitySpec, State};
+use crate::model::{AccountInfo, Cursor, Page, Part, Role, StabilityRunInfo, StabilitySpec, State};
 use crate::quotas::{Visitor, turn};
 use crate::requests::Made;
+use crate::runs::priority::INTERACTIVE;
 use crate::store::now_us;
 use crate::{EngineError, Result};
 
@@ -53,17 +54,19 @@ impl Engine {
             id,
             owner: Some(owner.to_owned()),
             turn,
+            priority: INTERACTIVE,
             state: State::Queued,
             attempts: 0,
             message: None,
             name: contestant.info.name.clone(),
             spec,
             done: Vec::new(),
+            spent_seconds: 0.0,
             created_us: now_us(),
             finished_us: None,
         };
         let new = inner.store.add_stability_run(&row).await?;
-        inner.wake.notify_one();
+        inner.call();
         Ok((self.stability_run(&row.id).await?, new))
     }
 
@@ -92,15 +95,41 @@ impl Engine {
     #[boxed]
     pub async fn cancel_stability(&self, id: &str, caller: Option<&str>) -> Result<StabilityRunInfo> {
         self.inner.own_stability(id, caller, "cancel").await?;
-        self.inner.end_stability(id).await?;
+        self.inner.end_stability(id, None).await?;
         self.stability_run(id).await
+    }
+
+    /// All that have not ended, in the order in which they were asked for, for curators and administrators.
+    ///
+    /// # Errors
+    /// `Forbidden` for all others.
+    #[boxed]
+    pub async fn open_stability_runs(&self, curator: &AccountInfo) -> Result<Vec<StabilityRunInfo>> {
+        curates(curator)?;
+        let mut all = Vec::new();
+        for row in self.inner.store.open_stability_runs().await? {
+            all.push(self.inner.stability_info(row).await?);
+        }
+        Ok(all)
+    }
+
+    /// Ends anybody's, for curators and administrators, who do not see what it found; its owner sees who did.
+    ///
+    /// # Errors
+    /// `Forbidden` for all others.
+    #[boxed]
+    pub async fn cancel_stability_of_others(&self, id: &str, curator: &AccountInfo) -> Result<StabilityRunInfo> {
+        curates(curator)?;
+        self.inner.stability_row(id).await?;
+        self.inner.end_stability(id, Some("Cancelled by a curator.")).await?;
+        self.inner.stability_info(self.inner.stability_row(id).await?).await
     }
 
     /// Takes it away; only its owner may.
     #[boxed]
     pub async fn remove_stability(&self, id: &str, caller: Option<&str>) -> Result<()> {
         self.inner.own_stability(id, caller, "delete").await?;
-        self.inner.end_stability(id).await?;
+        self.inner.end_stability(id, None).await?;
         self.inner.store.remove_stability(id).await
     }
 
@@ -135,11 +164,18 @@ impl Inner {
     }
 
     /// The row first: a part that ends at this moment finds it ended.
-    pub(crate) async fn end_stability(&self, id: &str) -> Result<()> {
-        self.store.end_stability(id, State::Cancelled, None).await?;
+    pub(crate) async fn end_stability(&self, id: &str, reason: Option<&str>) -> Result<()> {
+        self.store.end_stability(id, State::Cancelled, reason).await?;
         self.stop_current(Some(id), None);
         Ok(())
     }
+}
+
+fn curates(account: &AccountInfo) -> Result<()> {
+    if account.role < Role::Curator {
+        return Err(EngineError::Forbidden("Only the owner of this stability run or a curator may cancel it.".into()));
+    }
+    Ok(())
 }
 
 /// What is asked, for the lab.

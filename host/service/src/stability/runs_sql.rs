@@ -3,6 +3,7 @@
 use crate::Result;
 use crate::model::{Cursor, Stability, StabilitySpec, State};
 use crate::runs::places::of_others;
+use crate::runs::priority::INTERACTIVE;
 use crate::runs::sql::{named_state, state_name};
 use crate::runs::turn::Turn;
 use crate::store::{Store, from_json, now_us, to_json};
@@ -14,6 +15,8 @@ pub struct StabilityRow {
     pub owner: Option<String>,
     /// Whose turn it takes.
     pub turn: String,
+    /// That of what visitors ask for, or of idle work.
+    pub priority: i64,
     pub state: State,
     /// How often the part that is next was begun.
     pub attempts: i64,
@@ -23,16 +26,19 @@ pub struct StabilityRow {
     pub spec: StabilitySpec,
     /// Parts that are done.
     pub done: Vec<String>,
+    /// What these took.
+    pub spent_seconds: f64,
     pub created_us: i64,
     pub finished_us: Option<i64>,
 }
 
-type Columns = (String, Option<String>, String, String, i64, Option<String>, String, String, String, i64, Option<i64>);
+type Columns =
+    (String, Option<String>, String, i64, String, i64, Option<String>, String, String, String, f64, i64, Option<i64>);
 
 macro_rules! select {
     ($rest:literal) => {
         concat!(
-            "SELECT id, owner, turn, state, attempts, message, name, spec, done, created_us, finished_us ",
+            "SELECT id, owner, turn, priority, state, attempts, message, name, spec, done, spent_seconds, created_us, finished_us ",
             "FROM stability_runs ",
             $rest
         )
@@ -43,8 +49,8 @@ impl Store {
     /// Queues one; false when there is one with its id.
     pub async fn add_stability_run(&self, row: &StabilityRow) -> Result<bool> {
         let added = sqlx::query(
-            "INSERT INTO stability_runs (id, owner, turn, state, attempts, name, spec, done, created_us) \
-             VALUES ($1, $2, $3, 'queued', 0, $4, $5, '[]', $6) ON CONFLICT (id) DO NOTHING",
+            "INSERT INTO stability_runs (id, owner, turn, state, attempts, name, spec, done, created_us, priority) \
+             VALUES ($1, $2, $3, 'queued', 0, $4, $5, '[]', $6, $7) ON CONFLICT (id) DO NOTHING",
         )
         .bind(&row.id)
         .bind(&row.owner)
@@ -52,22 +58,25 @@ impl Store {
         .bind(&row.name)
         .bind(to_json(&row.spec)?)
         .bind(row.created_us)
+        .bind(row.priority)
         .execute(&self.pool)
         .await?;
         Ok(added.rows_affected() == 1)
     }
 
-    /// The one whose next part is to be tried, and counts the attempt: what is begun first, then whose turn was longest ago.
-    pub async fn claim_stability(&self) -> Result<Option<StabilityRow>> {
+    /// The one of this priority whose next part is to be tried, and counts the attempt: what is begun first, then whose turn was
+    /// longest ago.
+    pub async fn claim_stability(&self, priority: i64) -> Result<Option<StabilityRow>> {
         let id: Option<String> = sqlx::query_scalar(
             "UPDATE stability_runs SET state = 'running', attempts = attempts + 1 \
              WHERE state IN ('queued', 'running') AND id = ( \
                  SELECT r.id FROM stability_runs r LEFT JOIN served s ON s.owner = r.turn \
-                 WHERE r.state IN ('queued', 'running') \
+                 WHERE r.state IN ('queued', 'running') AND r.priority = $1 \
                  ORDER BY CASE r.state WHEN 'running' THEN 0 ELSE 1 END, COALESCE(s.served_us, 0), r.created_us, r.id \
                  LIMIT 1) \
              RETURNING id",
         )
+        .bind(priority)
         .fetch_optional(&self.pool)
         .await?;
         let Some(id) = id else { return Ok(None) };
@@ -80,10 +89,12 @@ impl Store {
         Ok(row)
     }
 
-    /// Keeps what the parts found that are done; one that was cancelled meanwhile stays as it is.
-    pub async fn keep_parts(&self, id: &str, done: &[String], found: &Stability) -> Result<()> {
-        let text = "UPDATE stability_runs SET attempts = 0, done = $1, found = $2 WHERE id = $3 AND state = 'running'";
-        sqlx::query(text).bind(to_json(&done)?).bind(to_json(found)?).bind(id).execute(&self.pool).await?;
+    /// Keeps what the parts found that are done, and what they took; one that was cancelled meanwhile stays as it is.
+    pub async fn keep_parts(&self, id: &str, done: &[String], found: &Stability, seconds: f64) -> Result<()> {
+        let text = "UPDATE stability_runs SET attempts = 0, done = $1, found = $2, spent_seconds = $3 \
+                    WHERE id = $4 AND state = 'running'";
+        let query = sqlx::query(text).bind(to_json(&done)?).bind(to_json(found)?).bind(seconds);
+        query.bind(id).execute(&self.pool).await?;
         Ok(())
     }
 
@@ -129,11 +140,20 @@ impl Store {
         rows.into_iter().map(read).collect()
     }
 
-    /// How many have not ended: all, and those of this turn.
+    /// All that have not ended, the oldest first.
+    pub async fn open_stability_runs(&self) -> Result<Vec<StabilityRow>> {
+        let rows: Vec<Columns> =
+            sqlx::query_as(select!("WHERE state IN ('queued', 'running') ORDER BY created_us, id"))
+                .fetch_all(&self.pool)
+                .await?;
+        rows.into_iter().map(read).collect()
+    }
+
+    /// How many of visitors have not ended: all, and those of this turn.
     pub async fn open_stability(&self, turn: &str) -> Result<[i64; 2]> {
         let text = "SELECT COUNT(*), COUNT(CASE WHEN turn = $1 THEN 1 END) FROM stability_runs \
-                    WHERE state IN ('queued', 'running')";
-        let (all, own): (i64, i64) = sqlx::query_as(text).bind(turn).fetch_one(&self.pool).await?;
+                    WHERE state IN ('queued', 'running') AND priority = $2";
+        let (all, own): (i64, i64) = sqlx::query_as(text).bind(turn).bind(INTERACTIVE).fetch_one(&self.pool).await?;
         Ok([all, own])
     }
 
@@ -141,9 +161,10 @@ impl Store {
     pub async fn stability_before(&self, row: &StabilityRow) -> Result<u32> {
         let waiting: Vec<(String, String, i64, i64, String)> = sqlx::query_as(
             "SELECT r.state, r.turn, COALESCE(s.served_us, 0), r.created_us, r.id \
-             FROM stability_runs r LEFT JOIN served s ON s.owner = r.turn WHERE r.state IN ('queued', 'running') \
-             ORDER BY r.created_us, r.id",
+             FROM stability_runs r LEFT JOIN served s ON s.owner = r.turn \
+             WHERE r.state IN ('queued', 'running') AND r.priority = $1 ORDER BY r.created_us, r.id",
         )
+        .bind(INTERACTIVE)
         .fetch_all(&self.pool)
         .await?;
         let (mut running, mut own, mut turns) = (0, 0, Vec::<Turn>::new());
@@ -171,17 +192,20 @@ impl Store {
 }
 
 fn read(columns: Columns) -> Result<StabilityRow> {
-    let (id, owner, turn, state, attempts, message, name, spec, done, created_us, finished_us) = columns;
+    let (id, owner, turn, priority, state, attempts, message, name, spec, done, spent_seconds, created_us, finished_us) =
+        columns;
     Ok(StabilityRow {
         id,
         owner,
         turn,
+        priority,
         state: named_state(&state)?,
         attempts,
         message,
         name,
         spec: from_json(&spec)?,
         done: from_json(&done)?,
+        spent_seconds,
         created_us,
         finished_us,
     })

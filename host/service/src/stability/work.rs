@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 use std::thread;
+use std::time::{Duration, Instant};
 
 use ocb_lab::LabError;
 use ocb_lab::contestant::Contestant;
@@ -13,14 +14,15 @@ use crate::engine::Inner;
 use crate::machine::MeasuringRight;
 use crate::measure::Stop;
 use crate::model::{AlgorithmInfo, Stability, State};
+use crate::quotas::time;
 use crate::{EngineError, Result};
 
 /// A part that was begun this often is not begun again: it may be what ends the service.
 const MAX_ATTEMPTS: i64 = 3;
 
-/// Tries the next part of the run whose turn it is, which `begun` hears; false when none waits.
-pub async fn next_part(inner: &Arc<Inner>, begun: impl FnOnce(&str, &Stop)) -> Result<bool> {
-    let Some(row) = inner.store.claim_stability().await? else { return Ok(false) };
+/// Tries the next part of the run of this priority whose turn it is, which `begun` hears; false when none waits.
+pub async fn next_part(inner: &Arc<Inner>, priority: i64, begun: impl FnOnce(&str, &Stop)) -> Result<bool> {
+    let Some(row) = inner.store.claim_stability(priority).await? else { return Ok(false) };
     if row.attempts > MAX_ATTEMPTS {
         let message = format!(
             "This run failed {MAX_ATTEMPTS} times in the same part and is not tried again; the service's log says why."
@@ -35,8 +37,12 @@ pub async fn next_part(inner: &Arc<Inner>, begun: impl FnOnce(&str, &Stop)) -> R
     if inner.closing() || !open {
         stop.stop();
     }
-    match one_part(inner, &row, &stop).await {
+    match in_time(inner, &row, &stop).await {
         Ok(()) => {}
+        // Its time is over.
+        Err(LabError::Stopped) if stop.reason().is_some() => {
+            inner.store.end_stability(&row.id, State::Cancelled, stop.reason().as_deref()).await?;
+        }
         Err(LabError::Stopped) => inner.store.put_back_part(&row.id).await?,
         // Ours: the part is tried again, after the dispatcher has waited a little.
         Err(e @ LabError::Fault(_)) => return Err(e.into()),
@@ -49,7 +55,26 @@ pub async fn next_part(inner: &Arc<Inner>, begun: impl FnOnce(&str, &Stop)) -> R
     Ok(true)
 }
 
+/// Tries a part, and stops it when the time of its run is over.
+async fn in_time(inner: &Arc<Inner>, row: &StabilityRow, stop: &Stop) -> std::result::Result<(), LabError> {
+    let part = one_part(inner, row, stop);
+    let Some(longest) = inner.longest_of(row.owner.as_deref()) else { return part.await };
+    tokio::pin!(part);
+    let left = longest.saturating_sub(Duration::from_secs_f64(row.spent_seconds));
+    match tokio::time::timeout(left, &mut part).await {
+        Ok(ended) => ended,
+        Err(_) => {
+            stop.stop_because(Some(format!(
+                "Stopped after {}, the time limit for guests. Choose fewer tests or seeds, or log in.",
+                time(longest.as_secs_f64())
+            )));
+            part.await
+        }
+    }
+}
+
 async fn one_part(inner: &Arc<Inner>, row: &StabilityRow, stop: &Stop) -> std::result::Result<(), LabError> {
+    let begun = Instant::now();
     let fault = |e: EngineError| LabError::Fault(e.to_string());
     let contestant = inner
         .stability_contestant(&row.spec.algorithm, row.owner.as_deref())
@@ -66,7 +91,8 @@ async fn one_part(inner: &Arc<Inner>, row: &StabilityRow, stop: &Stop) -> std::r
         done.push((*part).to_owned());
     }
     found.complete = done.len() == parts.len();
-    inner.store.keep_parts(&row.id, &done, &found).await.map_err(fault)?;
+    let seconds = row.spent_seconds + begun.elapsed().as_secs_f64();
+    inner.store.keep_parts(&row.id, &done, &found, seconds).await.map_err(fault)?;
     if found.complete && inner.store.end_stability(&row.id, State::Done, None).await.map_err(fault)? {
         inner.publish(row, &contestant, &found).await.map_err(fault)?;
     }

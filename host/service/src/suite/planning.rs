@@ -1,16 +1,17 @@
 //! The public benchmark: which results of the suite there are, which are missing, and queueing those.
 //!
 //! The runs of the suite are ordinary runs, so everything that shows, repeats and deletes runs works for them as well. Our own
-//! algorithms are measured when the operator runs `ocb suite run`, a developer's plugin when it becomes public. Otherwise a
-//! service that has just been installed would be busy for minutes with runs that no visitor requested.
+//! algorithms are measured when the operator runs `ocb suite run` and while the service is idle (`crate::idle`), a developer's
+//! plugin when it becomes public.
 
 use std::collections::{HashMap, HashSet};
 
 use crate::boxed;
 use crate::engine::{Engine, Inner};
+use crate::idle::sql::Tried;
 use crate::model::{AlgorithmInfo, Environment, PluginState, RunInfo, RunSpec, State, SuiteInfo, SuiteProgress};
-use crate::runs::BACKGROUND;
 use crate::runs::RunContext;
+use crate::runs::priority::BACKGROUND;
 use crate::runs::sql::RunRow;
 use crate::suite::scenario_of;
 use crate::{EngineError, Result};
@@ -30,16 +31,21 @@ impl Engine {
     #[boxed]
     pub async fn suite(&self) -> Result<SuiteInfo> {
         let suite = &self.inner.suite;
-        let known = self.inner.known().await?;
+        let (known, tried) = (self.inner.known().await?, self.inner.store.tried().await?);
         let scenarios = suite.scenarios();
-        let progress = |algorithm: AlgorithmInfo| {
+        let progress = |algorithm: AlgorithmInfo| -> Result<SuiteProgress> {
             let answered = scenarios.iter().filter(|spec| algorithm.queries.contains(&spec.query));
             let of = |what| {
                 let has = |spec: &&RunSpec| known.of(&algorithm, spec) == Some(what);
                 answered.clone().filter(has).count() as u32
             };
             let (measured, waiting, of) = (of(Known::Measured), of(Known::Waiting), answered.clone().count() as u32);
-            SuiteProgress { algorithm: algorithm.id, name: algorithm.name, measured, waiting, of }
+            let mut failed = 0;
+            for spec in answered.filter(|spec| known.of(&algorithm, spec).is_none()) {
+                let what = self.inner.of_the_suite(spec)?;
+                failed += u32::from(tried.contains(&Tried::of(&what, &algorithm)));
+            }
+            Ok(SuiteProgress { algorithm: algorithm.id, name: algorithm.name, measured, waiting, failed, of })
         };
         let document = &suite.document;
         Ok(SuiteInfo {
@@ -53,7 +59,8 @@ impl Engine {
             scenarios: scenarios.len() as u32,
             hardware_class: self.inner.machine.hardware_class.clone(),
             oracle: ocb_core::oracle::VERSION,
-            progress: self.inner.public().into_iter().map(progress).collect(),
+            idle: self.inner.config.idle,
+            progress: self.inner.public().into_iter().map(progress).collect::<Result<_>>()?,
         })
     }
 

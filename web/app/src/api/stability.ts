@@ -16,5 +16,8 @@ export const getStabilityRun = (id: string): Promise<StabilityRunInfo> =>
 export const cancelStabilityRun = (id: string): Promise<StabilityRunInfo> =>
   answer(http.POST('/api/v1/stability-runs/{id}/cancel', { params: { path: { id } } }))
 
+/** All that have not ended, without results: for curators. */
+export const listOpenStabilityRuns = (): Promise<StabilityRunInfo[]> => answer(http.GET('/api/v1/curation/stability-runs'))
+
 export const deleteStabilityRun = (id: string): Promise<void> =>
   nothing(http.DELETE('/api/v1/stability-runs/{id}', { params: { path: { id } } }))

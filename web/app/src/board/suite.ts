@@ -18,6 +18,22 @@ function describe(separation: Separation): string {
   return `relative distance ${separation.distance}`
 }
 
+/** What is missing, and what becomes of it; null when nothing is. */
+export function missingWords({ progress, idle }: Pick<SuiteInfo, 'progress' | 'idle'>): string | null {
+  const sum = (of: (one: SuiteProgress) => number) => progress.reduce((all, one) => all + of(one), 0)
+  const [missing, failed] = [sum(({ of, measured }) => of - measured), sum((one) => one.failed)]
+  if (missing === 0) return null
+  const results = (n: number) => `${n} ${n === 1 ? 'result' : 'results'}`
+  const said = [`${results(missing)} of the suite ${missing === 1 ? 'is' : 'are'} missing here.`]
+  if (failed > 0) said.push(`${failed} of them could not be measured and will not be tried again automatically.`)
+  if (missing > failed) {
+    const rest = failed > 0 ? 'The others' : missing === 1 ? 'It' : 'They'
+    const one = failed === 0 && missing === 1
+    said.push(idle ? `${rest} will be measured when this service is idle.` : `${rest} ${one ? 'is' : 'are'} not measured automatically: filling the suite while idle is turned off.`)
+  }
+  return said.join(' ')
+}
+
 /** Who is not through with the suite: nothing measured yet, or a part. */
 export function unfinished(progress: readonly SuiteProgress[]): SuiteProgress[] {
   return progress.filter(({ measured, of }) => measured < of)

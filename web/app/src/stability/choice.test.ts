@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest'
-import type { StabilityRunInfo } from '../api/types'
-import { choices, partsOf, progressWords, tested } from './choice'
+import type { Stability, StabilityRunInfo } from '../api/types'
+import { choices, partsOf, progressWords, tested, untestedWords } from './choice'
 
 const family = (id: string, name: string) => ({ id, name, sentence: '', source: '', parameter: 'x', continuous: false, beyond: false })
 const table = { families: [family('near', 'Near'), family('far', 'Far')], relations: [{ id: 'swap', name: 'Swap', sentence: '' }, { id: 'unit', name: 'Unit', sentence: '' }] }
@@ -24,5 +24,13 @@ describe('what a stability run tests', () => {
     expect(progressWords({ ...run, runs_ahead: 0 }, table)).toBe('Waiting; it is the next stability run.')
     expect(progressWords({ ...run, state: 'running', done: 1, runs_ahead: 0 }, table)).toBe('1 of 2 tests done; now: Near.')
     expect(progressWords({ ...run, state: 'cancelled', done: 1, step: null }, table)).toBe('1 of 2 tests done.')
+  })
+
+  test('it says who is not in the table', () => {
+    const progress = ['a', 'b', 'c'].map((algorithm) => ({ algorithm, name: algorithm, measured: 0, waiting: 0, failed: 0, of: 1 }))
+    const methods = (...ids: string[]) => ids.map((algorithm) => ({ algorithm }) as Stability)
+    expect(untestedWords(methods('a', 'b', 'c'), { progress, idle: true })).toBeNull()
+    expect(untestedWords([], { progress, idle: true })).toBe('No algorithm has been tested yet. This service tests installed algorithms when it is idle.')
+    expect(untestedWords(methods('a'), { progress, idle: false })).toBe('2 algorithms have not been tested yet. Start a test of everything to add one to the table.')
   })
 })

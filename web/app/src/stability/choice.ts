@@ -1,4 +1,4 @@
-import type { StabilityRunInfo, StabilitySpec, StabilityTable } from '../api/types'
+import type { StabilityRunInfo, StabilitySpec, StabilityTable, SuiteInfo } from '../api/types'
 
 /** What a stability run tests, as one choice of a list. */
 export interface Choice {
@@ -63,4 +63,14 @@ export function progressWords(run: StabilityRunInfo, table: Parts): string {
     return run.runs_ahead === 0 ? 'Waiting; it is the next stability run.' : `Waiting; ${run.runs_ahead} stability ${run.runs_ahead === 1 ? 'run is' : 'runs are'} ahead of it.`
   }
   return `${run.done} of ${run.total} tests done${run.step == null ? '' : `; now: ${partName(run.step, table)}`}.`
+}
+
+/** How many public algorithms have no row in the table, and how they get one; null when all have. */
+export function untestedWords(methods: StabilityTable['methods'], { progress, idle }: Pick<SuiteInfo, 'progress' | 'idle'>): string | null {
+  const without = progress.filter((one) => methods.every(({ algorithm }) => algorithm !== one.algorithm)).length
+  if (without === 0) return null
+  const none = 'No algorithm has been tested yet.'
+  const some = `${without} ${without === 1 ? 'algorithm has' : 'algorithms have'} not been tested yet.`
+  const how = idle ? 'This service tests installed algorithms when it is idle.' : 'Start a test of everything to add one to the table.'
+  return `${without === progress.length ? none : some} ${how}`
 }

@@ -1,16 +1,16 @@
 //! Stability runs that visitors start.
 
-use axum::Json as Answer;
 use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use ocb_service::Visitor;
+use axum::{Extension, Json as Answer};
 use ocb_service::model::{Page, StabilityRunInfo, StabilitySpec};
+use ocb_service::{EngineError, Visitor};
 
 use crate::App;
 use crate::address::Address;
 use crate::extract::{Json, Path, Query};
-use crate::guest::Guest;
+use crate::guest::{Curator, Guest, Person};
 use crate::limits::START_STABILITY;
 use crate::list;
 use crate::problem::Result;
@@ -68,7 +68,8 @@ pub(crate) async fn show_stability_run(
     Ok(Answer(app.engine.stability_run(&id).await?))
 }
 
-/// Ends it and keeps what it found; what has ended stays as it is.
+/// Ends it and keeps what it found; what has ended stays as it is. Curators may end any stability run, in a browser session; the
+/// answer is then without its result.
 #[utoipa::path(post, path = "/stability-runs/{id}/cancel", tag = "runs",
     params(("id" = String, Path, description = "Id of the stability run")),
     responses(
@@ -78,9 +79,29 @@ pub(crate) async fn show_stability_run(
 pub(crate) async fn cancel_stability(
     State(app): State<App>,
     Guest(guest): Guest,
+    person: Option<Extension<Person>>,
     Path(id): Path<String>,
 ) -> Result<Answer<StabilityRunInfo>> {
-    Ok(Answer(app.engine.cancel_stability(&id, Some(&guest)).await?))
+    match (app.engine.cancel_stability(&id, Some(&guest)).await, person) {
+        (Err(EngineError::Forbidden(_)), Some(Extension(Person(account)))) => {
+            Ok(Answer(app.engine.cancel_stability_of_others(&id, &account).await?))
+        }
+        (cancelled, _) => Ok(Answer(cancelled?)),
+    }
+}
+
+/// All stability runs that have not ended, the oldest first, without results: for curators.
+#[utoipa::path(get, path = "/curation/stability-runs", tag = "curation",
+    responses(
+        (status = 200, body = Vec<StabilityRunInfo>),
+        (status = 401, description = "Not authenticated"),
+        (status = 403, description = "Not a curator"),
+    ))]
+pub(crate) async fn list_open_stability_runs(
+    State(app): State<App>,
+    Curator(curator): Curator,
+) -> Result<Answer<Vec<StabilityRunInfo>>> {
+    Ok(Answer(app.engine.open_stability_runs(&curator).await?))
 }
 
 /// Takes it away with its result; the table of all algorithms keeps what it has.

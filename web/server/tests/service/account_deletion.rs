@@ -20,8 +20,11 @@ async fn publish(by: &Guest, path: &str) {
     assert_eq!(asked.send().await.expect("an answer").status(), StatusCode::OK, "{path}");
 }
 
+/// Of each kind so many; saved configurations and stability runs as many as pieces of advice.
 fn counts(runs: u32, objects: u32, advice: u32, plugins: u32) -> Value {
-    json!({ "runs": runs, "objects": objects, "advice": advice, "plugins": plugins })
+    json!({
+        "runs": runs, "objects": objects, "configurations": advice, "advice": advice, "stability": advice, "plugins": plugins,
+    })
 }
 
 #[tokio::test]

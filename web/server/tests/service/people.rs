@@ -254,6 +254,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "post /campaigns",
             "post /campaigns/{id}/cancel",
             "get /curation",
+            "get /curation/stability-runs",
             "get /invitations",
             "post /invitations",
             "delete /invitations/{id}",

@@ -290,6 +290,26 @@ async fn what_is_public_is_in_the_lists_of_others_and_only_accounts_publish() {
 }
 
 #[tokio::test]
+async fn a_curator_ends_a_stability_run_and_does_not_see_it() {
+    let service = Service::start_with(&["libocb_box_tree.so"]).await;
+    let (owner, curator) = (service.guest(), member(&service, "curator", Role::Curator).await);
+    let begun = owner.post("/api/v1/stability-runs").json(&json!({ "algorithm": "box-tree", "seeds": 10 }));
+    let place = header(&begun.send().await.expect("an answer"), "location");
+    let open = curator.json("/api/v1/curation/stability-runs").await;
+    assert!(place.ends_with(open[0]["id"].as_str().expect("an id")), "{open:#}");
+    let end = format!("{place}/cancel");
+    problem(service.guest().post(&end).send().await.expect("an answer"), 404).await;
+    let ended = curator.post(&end).send().await.expect("an answer");
+    assert_eq!(ended.status(), StatusCode::OK);
+    let ended: Value = ended.json().await.expect("JSON");
+    assert_eq!((&ended["state"], &ended["message"]), (&"cancelled".into(), &"Cancelled by a curator.".into()));
+    assert!(ended["result"].is_null(), "{ended:#}");
+    problem(curator.get(&place).send().await.expect("an answer"), 404).await;
+    assert_eq!(owner.json(&place).await["state"], "cancelled");
+    service.stop().await;
+}
+
+#[tokio::test]
 async fn a_stream_ends_when_its_run_becomes_private() {
     let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let (owner, stranger) = (service.guest(), service.guest());

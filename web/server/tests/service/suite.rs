@@ -51,7 +51,7 @@ async fn what_becomes_public_is_measured_on_the_suite_and_leaves_the_board_when_
     assert_eq!((&suite["version"], &suite["scenarios"]), (&json!(3), &json!(2)));
     assert_eq!(
         of(&suite, "box-tree"),
-        &json!({ "algorithm": "box-tree", "name": "BoxTree", "measured": 0, "waiting": 0, "of": 2 })
+        &json!({ "algorithm": "box-tree", "name": "BoxTree", "measured": 0, "waiting": 0, "failed": 0, "of": 2 })
     );
 
     let author = member(&service, "author", Role::Developer).await;

@@ -1,0 +1,171 @@
+//! Idle work: a service of which nothing is asked measures what is missing of the suite, and tries its algorithms for stability.
+//!
+//! It queues one thing at a time, at the lowest priority, and gives way to whatever anybody asks for: the work is put back, and
+//! begins again when the service is idle again. What was tried while idle is not tried again, whatever came out: a failure would
+//! be repeated for ever.
+
+pub mod sql;
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use crate::engine::{Engine, Inner};
+use crate::idle::sql::{Tried, TriedSet};
+use crate::model::{AlgorithmInfo, RunSpec, StabilitySpec, State};
+use crate::runs::RunContext;
+use crate::runs::carry_out::carry_out;
+use crate::runs::priority::IDLE;
+use crate::stability::runs_sql::StabilityRow;
+use crate::stability::work::next_part;
+use crate::store::now_us;
+use crate::suite::planning::{AT_ONCE, scenario};
+use crate::{EngineError, Result};
+
+/// When nothing was missing, or something failed, it is looked again after so long.
+const LOOK: Duration = Duration::from_secs(300);
+/// What is tried of an algorithm besides the scenarios of the suite.
+const STABILITY: &str = "stability";
+
+/// The dispatcher's part of it.
+#[derive(Default)]
+pub struct Filling {
+    /// When to look again for what is missing.
+    next: Option<Instant>,
+}
+
+impl Filling {
+    /// Works on what is missing for a while; false when there is nothing to do, or nothing may be done now. `asked` is how often
+    /// anybody had asked for work when the queue was found empty.
+    pub async fn work(&mut self, inner: &Arc<Inner>, asked: u64) -> bool {
+        if !inner.config.idle || inner.closing() || !inner.advices.is_empty() {
+            return false;
+        }
+        self.go_on(inner, asked).await.unwrap_or_else(|e| {
+            tracing::error!("idle work: {e}");
+            self.next = Some(Instant::now() + LOOK);
+            false
+        })
+    }
+
+    async fn go_on(&mut self, inner: &Arc<Inner>, asked: u64) -> Result<bool> {
+        // What gave way before.
+        if let Some(id) = inner.store.claim_idle().await? {
+            carry_out(inner, &id, Some(asked)).await?;
+            return Ok(true);
+        }
+        let tried = next_part(inner, IDLE, |id, stop| inner.set_current_idle(id, stop, asked)).await;
+        inner.unset_current();
+        if tried? {
+            return Ok(true);
+        }
+        if self.next.is_some_and(|next| Instant::now() < next) {
+            return Ok(false);
+        }
+        let queued = queue_next(inner).await?;
+        self.next = (!queued).then(|| Instant::now() + LOOK);
+        Ok(queued)
+    }
+}
+
+/// Queues the next of what is missing: the suite first, then stability. False when nothing is.
+async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
+    // Somebody else who plans queues work, and then this is not idle any more.
+    let Ok(_alone) = inner.planning.try_lock() else { return Ok(false) };
+    let tried = inner.store.tried().await?;
+    if let Some(spec) = inner.next_of_the_suite(&tried).await? {
+        inner.keep_suite().await?;
+        queue_run(inner, spec).await?;
+        return Ok(true);
+    }
+    match inner.next_for_stability(&tried).await? {
+        Some(algorithm) => queue_stability(inner, algorithm).await.map(|()| true),
+        None => Ok(false),
+    }
+}
+
+async fn queue_run(inner: &Arc<Inner>, spec: RunSpec) -> Result<()> {
+    let engine = Engine { inner: inner.clone() };
+    let what = inner.of_the_suite(&spec)?;
+    let algorithms: Vec<AlgorithmInfo> =
+        inner.public().into_iter().filter(|algorithm| spec.algorithms.contains(&algorithm.id)).collect();
+    let context = RunContext { priority: IDLE, suite: Some(&inner.suite.sha256), ..RunContext::default() };
+    let run = match engine.enqueue(spec, context).await {
+        Ok((run, _)) => run,
+        Err(e @ EngineError::Fault(_)) => return Err(e),
+        Err(e) => {
+            tracing::warn!("idle work: a run of the suite cannot be queued: {e}");
+            String::new()
+        }
+    };
+    for algorithm in &algorithms {
+        inner.store.note_tried(&Tried::of(&what, algorithm), &run).await?;
+    }
+    Ok(())
+}
+
+async fn queue_stability(inner: &Inner, algorithm: AlgorithmInfo) -> Result<()> {
+    let tried = Tried::of(STABILITY, &algorithm);
+    let row = StabilityRow {
+        id: uuid::Uuid::now_v7().to_string(),
+        owner: None,
+        turn: String::new(),
+        priority: IDLE,
+        state: State::Queued,
+        attempts: 0,
+        message: None,
+        spec: StabilitySpec { algorithm: algorithm.id, parts: Vec::new(), seeds: None },
+        name: algorithm.name,
+        done: Vec::new(),
+        spent_seconds: 0.0,
+        created_us: now_us(),
+        finished_us: None,
+    };
+    inner.store.add_stability_run(&row).await?;
+    inner.store.note_tried(&tried, &row.id).await
+}
+
+/// Ends runs of the suite that wait for an idle service, where none comes: they are missing again.
+pub async fn end_waiting(inner: &Inner) -> Result<()> {
+    for run in inner.store.end_idle_runs("Filling the suite while idle was turned off.").await? {
+        inner.store.forget_tried(&run).await?;
+    }
+    Ok(())
+}
+
+impl Inner {
+    /// A scenario of the suite on this machine, judged by this oracle, in a jail like this.
+    pub(crate) fn of_the_suite(&self, spec: &RunSpec) -> Result<String> {
+        let (class, profile) = (&self.machine.hardware_class, self.registry.profile());
+        let (suite, oracle, scenario) = (&self.suite.sha256, ocb_core::oracle::VERSION, scenario(spec)?);
+        Ok(format!("suite {suite}, class {class}, {}, oracle {oracle}: {scenario}", profile.as_str()))
+    }
+
+    async fn next_of_the_suite(&self, tried: &TriedSet) -> Result<Option<RunSpec>> {
+        let (known, public) = (self.known().await?, self.public());
+        for spec in self.suite.scenarios() {
+            let what = self.of_the_suite(&spec)?;
+            let missing = public.iter().filter(|algorithm| {
+                algorithm.queries.contains(&spec.query)
+                    && known.of(algorithm, &spec).is_none()
+                    && !tried.contains(&Tried::of(&what, algorithm))
+            });
+            let algorithms: Vec<String> = missing.take(AT_ONCE).map(|algorithm| algorithm.id.clone()).collect();
+            if !algorithms.is_empty() {
+                return Ok(Some(RunSpec { algorithms, ..spec }));
+            }
+        }
+        Ok(None)
+    }
+
+    async fn next_for_stability(&self, tried: &TriedSet) -> Result<Option<AlgorithmInfo>> {
+        let found = self.store.stability().await?;
+        let known = |algorithm: &AlgorithmInfo| {
+            found.iter().any(|found| {
+                found.complete && (&found.algorithm, &found.plugin_sha256) == (&algorithm.id, &algorithm.plugin_sha256)
+            })
+        };
+        let missing =
+            |algorithm: &AlgorithmInfo| !known(algorithm) && !tried.contains(&Tried::of(STABILITY, algorithm));
+        Ok(self.registry.installed().into_iter().find(missing))
+    }
+}

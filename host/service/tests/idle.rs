@@ -1,0 +1,142 @@
+//! A service of which nothing is asked measures what is missing, and gives way to whoever asks for something.
+
+mod common;
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use ocb_service::model::{State, SuiteProgress};
+use ocb_service::{Engine, EngineConfig};
+
+/// The file of a suite of two scenarios, with so many processes and seconds for each algorithm.
+fn suite(data: &Path, passes: u32, budget_seconds: f64) -> std::path::PathBuf {
+    let object = "stock:torus-knot@600";
+    let document = serde_json::json!({
+        "version": 3, "scenes": [[object, object]],
+        "separations": [{ "kind": "relative", "distance": 0.1 }, { "kind": "relative", "distance": 0.01 }],
+        "queries": ["collision_first"], "configurations": 30, "passes": passes, "budget_seconds": budget_seconds,
+    });
+    let file = data.join("suite.json");
+    std::fs::write(&file, document.to_string()).unwrap();
+    file
+}
+
+async fn opened(data: &Path, suite: &Path, idle: bool) -> Engine {
+    let plain = common::config(data);
+    let plugins = vec![plain.runner.with_file_name("libocb_box_tree.so")];
+    Engine::open(EngineConfig { plugins, suite: Some(suite.to_owned()), idle, ..plain }).await.unwrap()
+}
+
+async fn progress(engine: &Engine) -> SuiteProgress {
+    engine.suite().await.unwrap().progress.remove(0)
+}
+
+/// Asks the database until it gives this.
+async fn until<T: for<'r> sqlx::Decode<'r, sqlx::Any> + sqlx::Type<sqlx::Any> + Send + Unpin>(
+    database: &sqlx::AnyPool,
+    question: &'static str,
+    so: impl Fn(&T) -> bool,
+) -> T {
+    let begun = Instant::now();
+    loop {
+        let found: Option<T> = sqlx::query_scalar(question).fetch_optional(database).await.unwrap();
+        match found {
+            Some(found) if so(&found) => return found,
+            _ => {}
+        }
+        assert!(begun.elapsed() < Duration::from_secs(120), "waited in vain for {question}");
+        tokio::time::sleep(Duration::from_millis(5)).await;
+    }
+}
+
+/// Runs and stability runs of the service itself.
+const IDLE_RUNS: &str = "SELECT COUNT(*) FROM runs WHERE priority = 9";
+const STABILITY: &str = "SELECT COUNT(*) FROM stability_runs WHERE priority = 9 AND state = 'running'";
+
+#[tokio::test(flavor = "multi_thread")]
+async fn an_idle_service_measures_the_suite_and_then_tries_stability() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = opened(data.path(), &suite(data.path(), 1, 20.0), true).await;
+    let database = common::database(data.path()).await;
+    until(&database, STABILITY, |n: &i64| *n == 1).await;
+    let found = progress(&engine).await;
+    assert_eq!((found.measured, found.waiting, found.failed, found.of), (2, 0, 0, 2));
+    assert!(engine.suite().await.unwrap().idle);
+    assert_eq!(engine.status().await.unwrap().queued, 0);
+    // It goes on part by part, and is nobody's.
+    until(&database, "SELECT LENGTH(done) FROM stability_runs", |length: &i64| *length > 2).await;
+    engine.shutdown().await;
+    let attempts: i64 = sqlx::query_scalar("SELECT attempts FROM stability_runs").fetch_one(&database).await.unwrap();
+    assert_eq!(attempts, 0, "what was put back is no failed attempt");
+    database.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn it_gives_way_to_a_visitor_at_once_and_finishes_later() {
+    let data = tempfile::tempdir().unwrap();
+    // Long enough to be interrupted.
+    let suite = suite(data.path(), 30, 30.0);
+    let engine = opened(data.path(), &suite, true).await;
+    let database = common::database(data.path()).await;
+    let running = "SELECT id FROM runs WHERE priority = 9 AND state = 'running'";
+    let idle: String = until(&database, running, |_| true).await;
+    // It is measuring, not only looking for configurations.
+    let measuring = "SELECT COUNT(*) FROM run_stages WHERE stage LIKE '%measuring%' AND stage LIKE '%running%'";
+    until(&database, measuring, |n: &i64| *n > 0).await;
+
+    let asked = Instant::now();
+    let run = engine.submit(common::spec("collision_first", 20, 1), Some("me")).await.unwrap();
+    assert!(run.runs_ahead == 0, "nobody waits for idle work");
+    until(&database, "SELECT COUNT(*) FROM runs WHERE owner = 'me' AND state <> 'queued'", |n: &i64| *n == 1).await;
+    let waited = asked.elapsed();
+    let state = "SELECT state FROM runs WHERE priority = 9";
+    until(&database, state, |state: &String| state == "queued").await;
+    assert!(waited < Duration::from_secs(3), "it gave way after {waited:?}");
+    let (run, _) = common::finish(&engine, &run.id).await;
+    assert_eq!(run.state, State::Done, "{:?}", run.message);
+    let (put_back, _) = common::finish(&engine, &idle).await;
+    assert_eq!((put_back.state, put_back.attempts), (State::Done, 1), "{:?}", put_back.message);
+    // Off means off: what waits is missing again, and nothing is begun.
+    until(&database, running, |next: &String| *next != idle).await;
+    engine.shutdown().await;
+    let engine = opened(data.path(), &suite, false).await;
+    let found = progress(&engine).await;
+    assert_eq!((found.measured, found.waiting, found.failed), (1, 0, 0));
+    assert!(!engine.suite().await.unwrap().idle);
+    let run = engine.submit(common::spec("collision_first", 20, 2), Some("me")).await.unwrap();
+    assert_eq!(common::finish(&engine, &run.id).await.0.state, State::Done);
+    tokio::time::sleep(Duration::from_millis(200)).await;
+    let waiting: i64 = until(&database, IDLE_RUNS, |_| true).await;
+    assert_eq!(waiting, 2, "one is measured and one is cancelled");
+    engine.shutdown().await;
+    let engine = opened(data.path(), &suite, true).await;
+    until(&database, STABILITY, |n: &i64| *n == 1).await;
+    assert_eq!(progress(&engine).await.measured, 2);
+    engine.shutdown().await;
+    database.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_failed_is_not_tried_again() {
+    let data = tempfile::tempdir().unwrap();
+    // Over before the first question is asked.
+    let suite = suite(data.path(), 1, 1e-9);
+    let engine = opened(data.path(), &suite, true).await;
+    let database = common::database(data.path()).await;
+    until(&database, STABILITY, |n: &i64| *n == 1).await;
+    // The stability of the algorithm is made to fail, too.
+    sqlx::query("UPDATE stability_runs SET state = 'failed'").execute(&database).await.unwrap();
+    engine.shutdown().await;
+    let engine = opened(data.path(), &suite, true).await;
+    // It has looked for what is missing when it has done what was asked for, and waits.
+    let run = engine.submit(common::spec("collision_first", 20, 1), Some("me")).await.unwrap();
+    common::finish(&engine, &run.id).await;
+    tokio::time::sleep(Duration::from_millis(300)).await;
+    let found = progress(&engine).await;
+    assert_eq!((found.measured, found.waiting, found.failed), (0, 0, 2));
+    let runs: i64 = until(&database, IDLE_RUNS, |_| true).await;
+    let tries: i64 = until(&database, "SELECT COUNT(*) FROM stability_runs", |_| true).await;
+    assert_eq!((runs, tries), (2, 1));
+    engine.shutdown().await;
+    database.close().await;
+}
