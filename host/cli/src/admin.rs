@@ -63,7 +63,8 @@ async fn delete(engine: &Engine, name: &str, yes: bool, json: bool) -> Result<()
 fn said(what: &str, counts: &OwnedCounts) -> String {
     let OwnedCounts { runs, objects, configurations, advice, stability, plugins } = counts;
     format!(
-        "{what} runs: {runs}, objects: {objects}, saved configurations: {configurations}, pieces of advice: {advice}, stability runs: {stability}, plugins: {plugins}"
+        "{what} runs: {runs}, objects: {objects}, saved configurations: {configurations}, pieces of advice: {advice}, \
+         stability runs: {stability}, plugins: {plugins}"
     )
 }
 

@@ -108,6 +108,7 @@ fn write(folder: &Path, method: &Stability) -> Result<()> {
         put("b.obj", &repro.b)?;
         put("case.json", &output::to_json(repro)?)?;
     }
+    std::fs::create_dir_all(folder).map_err(|e| Failure::file("create", folder, &e))?;
     let path = folder.join(format!("{}.json", method.algorithm.replace([':', '='], "-")));
     std::fs::write(&path, output::to_json(method)?).map_err(|e| Failure::file("write", &path, &e))
 }

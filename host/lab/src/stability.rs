@@ -11,11 +11,12 @@ mod tessellations;
 
 use std::time::{Duration, Instant};
 
-use ocb_sandbox::{ClockChoice, Policy};
+use ocb_sandbox::Policy;
 use ocb_stability::relations::Relation;
 use ocb_stability::{corpus, families as catalogue};
 
 use crate::contestant::{Contestant, Runner};
+use crate::machine::Machine;
 use crate::measure::{Stop, precision};
 use crate::model::{FailureInfo, FamilyInfo, RelationInfo, Stability, StabilityTable};
 use crate::now_us;
@@ -89,6 +90,7 @@ pub fn table() -> StabilityTable {
         source: f.source.into(),
         parameter: f.parameter.name.into(),
         continuous: f.parameter.continuous,
+        harder: f.parameter.harder.into(),
         beyond: f.beyond,
     };
     let relation = |r: Relation| {
@@ -110,14 +112,15 @@ pub fn table() -> StabilityTable {
     }
 }
 
-/// A jail for small objects: a question takes microseconds, and one that takes seconds hangs.
-fn policy() -> Policy {
+/// A jail for small objects: a question takes microseconds, and one that takes seconds hangs. It is timed as in runs.
+fn policy(machine: &Machine) -> Policy {
     Policy {
+        runner_cpu: Some(machine.measuring_cpu()),
+        supervisor_cpu: Some(machine.supervisor_cpu()),
         load_seconds: 5.0,
         build_seconds: 5.0,
         query_seconds: 2.0,
         trial_seconds: 120.0,
-        clock: ClockChoice::Futex,
         rough_clock: true,
         ..Policy::default()
     }
@@ -157,13 +160,15 @@ pub fn begin(contestant: &Contestant, selection: &Selection) -> Stability {
 /// `Stopped` when it was; then nothing is added.
 pub fn part(
     runner: &Runner,
+    machine: &Machine,
     contestant: &Contestant,
     selection: &Selection,
     name: &str,
     found: &mut Stability,
     stop: &Stop,
 ) -> Result<()> {
-    let launcher = runner.launcher(contestant, Policy { threads: contestant.threads, ..policy() });
+    let _quiet = machine.keep_off();
+    let launcher = runner.launcher(contestant, Policy { threads: contestant.threads, ..policy(machine) });
     let mut asker = Asker::new(&launcher, contestant, precision(&contestant.info), stop);
     if let Some(family) = catalogue::by_id(name) {
         found.families.push(families::family(&mut asker, family, selection)?);
@@ -184,6 +189,7 @@ pub fn part(
 /// Tries everything selected on one algorithm; says what it is at. As [`part`] it blocks and takes times.
 pub fn run(
     runner: &Runner,
+    machine: &Machine,
     contestant: &Contestant,
     selection: &Selection,
     stop: &Stop,
@@ -197,7 +203,7 @@ pub fn run(
             return Ok(found);
         }
         at(name);
-        part(runner, contestant, selection, name, &mut found, stop)?;
+        part(runner, machine, contestant, selection, name, &mut found, stop)?;
     }
     found.complete = true;
     Ok(found)

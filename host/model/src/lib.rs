@@ -79,8 +79,9 @@ pub use replay::{Difference, Recipe, RecipeAlgorithm, RecipeFile, RecipeObject, 
 pub use saved::SavedConfigurations;
 pub use selecting::{Claim, Meeting, Selected, SelectedOf, WorstBy, WorstCase, WorstRequest};
 pub use stability::{
-    CellState, FailingCase, FailureInfo, FailureResult, FamilyInfo, FamilyResult, RelationInfo, RelationResult,
-    RelationStep, SearchResult, Stability, StabilityTable, StepResult, Tally, TessellationResult, ThresholdInfo,
+    CellState, FailingCase, FailureInfo, FailureResult, FamilyInfo, FamilyResult, HarderWhen, RelationInfo,
+    RelationResult, RelationStep, SearchResult, Stability, StabilityTable, StepResult, Tally, TessellationResult,
+    ThresholdInfo, Timed,
 };
 pub use stability_run::{StabilityRunInfo, StabilitySpec};
 pub use submission::{Action, Decision, Manifest, PluginInfo, PluginState};

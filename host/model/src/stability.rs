@@ -1,6 +1,7 @@
 //! Where methods fail: one method's results over all families, relations and reported failures.
 
 use ocb_core::query::Query;
+use ocb_stability::Harder;
 use ocb_stability::sweep::Threshold;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -33,8 +34,32 @@ pub struct FamilyInfo {
     pub parameter: String,
     /// Between two steps the threshold is narrowed by bisection.
     pub continuous: bool,
+    /// In which direction of the parameter it gets harder.
+    pub harder: HarderWhen,
     /// It asks for more than the interface promises to plugins: wrong answers are shown and are no fault.
     pub beyond: bool,
+}
+
+/// Which values of a parameter are harder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum HarderWhen {
+    /// Large ones.
+    Large,
+    /// Small ones.
+    Small,
+    /// Those far from 0.
+    Far,
+}
+
+impl From<Harder> for HarderWhen {
+    fn from(harder: Harder) -> Self {
+        match harder {
+            Harder::Up => Self::Large,
+            Harder::Down => Self::Small,
+            Harder::Outward => Self::Far,
+        }
+    }
 }
 
 /// A relation between answers.
@@ -224,6 +249,21 @@ pub struct StepResult {
     pub at: f64,
     /// What was seen.
     pub tally: Tally,
+    /// What its collision queries took (first contact); absent when none was answered, and in results of older versions.
+    #[serde(default)]
+    pub collision: Option<Timed>,
+    /// What its distance queries took.
+    #[serde(default)]
+    pub distance: Option<Timed>,
+}
+
+/// Times of several queries, measured from outside.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Timed {
+    /// Queries.
+    pub n: u32,
+    /// Their median, nanoseconds.
+    pub median_ns: f64,
 }
 
 /// One method on one relation.

@@ -38,7 +38,9 @@ impl Engine {
         let (sender, found) = tokio::sync::oneshot::channel();
         std::thread::spawn(move || {
             let tried = work::right_to_measure(&stop, || at("waiting: another process is measuring on this machine"))
-                .and_then(|_right| stability::run(inner.registry.runner(), &contestant, &selection, &stop, &at));
+                .and_then(|_right| {
+                    stability::run(inner.registry.runner(), &inner.machine, &contestant, &selection, &stop, &at)
+                });
             // Who asked may have gone.
             drop(sender.send(tried));
         });

@@ -49,12 +49,16 @@ async fn until<T: for<'r> sqlx::Decode<'r, sqlx::Any> + sqlx::Type<sqlx::Any> + 
     }
 }
 
+/// One test at a time: while one measures, the process has fewer CPUs, and what is opened then is of another hardware class.
+static ALONE: tokio::sync::Mutex<()> = tokio::sync::Mutex::const_new(());
+
 /// Runs and stability runs of the service itself.
 const IDLE_RUNS: &str = "SELECT COUNT(*) FROM runs WHERE priority = 9";
 const STABILITY: &str = "SELECT COUNT(*) FROM stability_runs WHERE priority = 9 AND state = 'running'";
 
 #[tokio::test(flavor = "multi_thread")]
 async fn an_idle_service_measures_the_suite_and_then_tries_stability() {
+    let _alone = ALONE.lock().await;
     let data = tempfile::tempdir().unwrap();
     let engine = opened(data.path(), &suite(data.path(), 1, 20.0), true).await;
     let database = common::database(data.path()).await;
@@ -73,6 +77,7 @@ async fn an_idle_service_measures_the_suite_and_then_tries_stability() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn it_gives_way_to_a_visitor_at_once_and_finishes_later() {
+    let _alone = ALONE.lock().await;
     let data = tempfile::tempdir().unwrap();
     // Long enough to be interrupted.
     let suite = suite(data.path(), 30, 30.0);
@@ -118,6 +123,7 @@ async fn it_gives_way_to_a_visitor_at_once_and_finishes_later() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn what_failed_is_not_tried_again() {
+    let _alone = ALONE.lock().await;
     let data = tempfile::tempdir().unwrap();
     // Over before the first question is asked.
     let suite = suite(data.path(), 1, 1e-9);

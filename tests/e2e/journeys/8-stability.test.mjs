@@ -64,6 +64,12 @@ test('a failing cell by keyboard alone', async (t) => {
   await v.page.evaluate(() => scrollTo(0, 0))
   await v.picture('stability')
   await v.accessible('the stability page')
+  // Both algorithms have times, and their marks say where they fail.
+  const chart = v.at('threshold-chart')
+  await chart.scrollIntoViewIfNeeded()
+  assert.match(await chart.locator('desc').textContent(), /Box ?Tree: no failure down to .*parry.*: fails from|parry.*: fails from .*Box ?Tree: no failure down to /)
+  assert.equal(await chart.locator('.range').count(), METHODS.length)
+  await v.picture('stability-thresholds')
 })
 
 for (const scheme of ['light', 'dark']) {

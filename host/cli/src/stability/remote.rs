@@ -66,6 +66,7 @@ async fn follow(service: &Service<'_>, path: &str, mut run: StabilityRunInfo) ->
 
 fn words(run: &StabilityRunInfo) -> String {
     match (run.state, &run.step) {
+        (State::Queued, _) if run.runs_ahead == 1 => "waiting, 1 stability run ahead".to_owned(),
         (State::Queued, _) => format!("waiting, {} stability runs ahead", run.runs_ahead),
         (_, Some(step)) => format!("{step} ({} of {} done)", run.done, run.total),
         (_, None) => format!("{} of {} done", run.done, run.total),

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use ocb_core::query::{Query, Semantics};
+use ocb_core::statistics::Statistic;
 use ocb_stability::sweep::{Threshold, bisect, thresholds};
 use ocb_stability::{Family, Question};
 
@@ -10,7 +11,7 @@ use super::ask::{Asker, Got};
 use super::judge::Known;
 use super::{Selection, repro};
 use crate::Result;
-use crate::model::{FamilyResult, StepResult, Tally};
+use crate::model::{FamilyResult, StepResult, Tally, Timed};
 
 /// More than so many times the median is slow, ...
 const SLOW: f64 = 10.0;
@@ -61,6 +62,11 @@ pub fn family(asker: &mut Asker, family: &Family, selection: &Selection) -> Resu
     for one in &seen {
         tallies[items[one.item].step].add(&one.tally);
     }
+    let step_result = |step, at, tally| {
+        let timed = |query| timed(seen.iter().filter(|one| one.query == query && items[one.item].step == step));
+        let [collision, distance] = [Query::CollisionFirst, Query::Proximity].map(timed);
+        StepResult { at, tally, collision, distance }
+    };
     let mut tally = Tally::default();
     tallies.iter().for_each(|step| tally.add(step));
     let failed: Vec<bool> = tallies.iter().map(Tally::failed).collect();
@@ -92,10 +98,22 @@ pub fn family(asker: &mut Asker, family: &Family, selection: &Selection) -> Resu
         family: family.id.into(),
         state: tally.state(),
         tally,
-        steps: steps.iter().zip(&tallies).map(|(&at, &tally)| StepResult { at, tally }).collect(),
+        steps: steps
+            .iter()
+            .zip(&tallies)
+            .enumerate()
+            .map(|(step, (&at, &tally))| step_result(step, at, tally))
+            .collect(),
         thresholds: found.into_iter().map(Into::into).collect(),
         first,
     })
+}
+
+/// The median time of what was answered.
+fn timed<'s>(seen: impl Iterator<Item = &'s Seen>) -> Option<Timed> {
+    let mut times: Vec<f64> =
+        seen.filter_map(|one| if let Got::Answer(_, ns) = one.got { Some(ns) } else { None }).collect();
+    Statistic::Median.of(&mut times).map(|median_ns| Timed { n: times.len() as u32, median_ns })
 }
 
 /// The questions of one seed at one step.

@@ -170,7 +170,8 @@ impl Store {
         let (mut running, mut own, mut turns) = (0, 0, Vec::<Turn>::new());
         for (state, turn, served_us, created_us, id) in waiting {
             if named_state(&state)? == State::Running {
-                running += 1;
+                // It may have begun since it was read.
+                running += u32::from(id != row.id);
                 continue;
             }
             own += i64::from(turn == row.turn && (created_us, &id) < (row.created_us, &row.id));
@@ -179,7 +180,6 @@ impl Store {
                 None => turns.push(Turn { turn, waiting: 1, since: (served_us, created_us, id) }),
             }
         }
-        // It may have begun since it was read.
         let Some(turn) = turns.iter().find(|known| known.turn == row.turn) else { return Ok(running) };
         Ok(running + (own + of_others(&row.turn, &turn.since, own, &turns)) as u32)
     }

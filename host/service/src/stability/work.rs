@@ -112,7 +112,7 @@ async fn tried(
     let (sender, ended) = tokio::sync::oneshot::channel();
     let work = move || {
         let _right = right_to_measure(&stop, || {})?;
-        stability::part(inner.registry.runner(), &contestant, &selection, part, &mut found, &stop)?;
+        stability::part(inner.registry.runner(), &inner.machine, &contestant, &selection, part, &mut found, &stop)?;
         Ok(found)
     };
     let thread = thread::Builder::new().name("stability".into()).spawn(move || drop(sender.send(work())));

@@ -2,7 +2,7 @@ import { describe, expect, test } from 'vitest'
 import type { Stability, StabilityRunInfo } from '../api/types'
 import { choices, partsOf, progressWords, tested, untestedWords } from './choice'
 
-const family = (id: string, name: string) => ({ id, name, sentence: '', source: '', parameter: 'x', continuous: false, beyond: false })
+const family = (id: string, name: string) => ({ id, name, sentence: '', source: '', parameter: 'x', continuous: false, harder: 'large' as const, beyond: false })
 const table = { families: [family('near', 'Near'), family('far', 'Far')], relations: [{ id: 'swap', name: 'Swap', sentence: '' }, { id: 'unit', name: 'Unit', sentence: '' }] }
 const run: StabilityRunInfo = {
   id: 'x', spec: { algorithm: 'a' }, name: 'A', state: 'queued', step: 'near', done: 0, total: 2, runs_ahead: 2, created_us: 0,
@@ -19,9 +19,9 @@ describe('what a stability run tests', () => {
   })
 
   test('it says its place or its progress', () => {
-    expect(progressWords(run, table)).toBe('Waiting; 2 stability runs are ahead of it.')
-    expect(progressWords({ ...run, runs_ahead: 1 }, table)).toBe('Waiting; 1 stability run is ahead of it.')
-    expect(progressWords({ ...run, runs_ahead: 0 }, table)).toBe('Waiting; it is the next stability run.')
+    expect(progressWords(run, table)).toBe('2 stability runs ahead in the queue.')
+    expect(progressWords({ ...run, runs_ahead: 1 }, table)).toBe('1 stability run ahead in the queue.')
+    expect(progressWords({ ...run, runs_ahead: 0 }, table)).toBe('Next stability run in the queue.')
     expect(progressWords({ ...run, state: 'running', done: 1, runs_ahead: 0 }, table)).toBe('1 of 2 tests done; now: Near.')
     expect(progressWords({ ...run, state: 'cancelled', done: 1, step: null }, table)).toBe('1 of 2 tests done.')
   })

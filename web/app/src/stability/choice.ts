@@ -60,7 +60,7 @@ export const isOpen = ({ state }: Pick<StabilityRunInfo, 'state'>): boolean => s
 /** How far it is, in a sentence. */
 export function progressWords(run: StabilityRunInfo, table: Parts): string {
   if (run.state === 'queued') {
-    return run.runs_ahead === 0 ? 'Waiting; it is the next stability run.' : `Waiting; ${run.runs_ahead} stability ${run.runs_ahead === 1 ? 'run is' : 'runs are'} ahead of it.`
+    return run.runs_ahead === 0 ? 'Next stability run in the queue.' : `${run.runs_ahead} stability ${run.runs_ahead === 1 ? 'run' : 'runs'} ahead in the queue.`
   }
   return `${run.done} of ${run.total} tests done${run.step == null ? '' : `; now: ${partName(run.step, table)}`}.`
 }

@@ -3,7 +3,7 @@ import type { Stability, StabilityTable, Tally } from '../api/types'
 import { cell, columns, passed, short, tableOf, tallyWords, views } from './table'
 
 const none: Tally = { agrees: 0, grazing: 0, misses: 0, false_alarms: 0, distances: 0, unsteady: 0, broken: 0, slow: 0, unsupported: 0, refused: 0 }
-const family = (id: string, beyond = false) => ({ id, name: id, sentence: '', source: '', parameter: 'x', continuous: false, beyond })
+const family = (id: string, beyond = false) => ({ id, name: id, sentence: '', source: '', parameter: 'x', continuous: false, harder: 'large' as const, beyond })
 const table: StabilityTable = {
   families: [family('near'), family('far'), family('nan', true)],
   relations: [{ id: 'swap', name: 'Swap', sentence: '' }],
