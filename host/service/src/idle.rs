@@ -1,4 +1,5 @@
-//! Idle work: a service of which nothing is asked measures what is missing of the suite, and tries its algorithms for stability.
+//! Idle work: a service of which nothing is asked measures the examples of its start page and what is missing of the suite, and
+//! tries its algorithms for stability.
 //!
 //! It queues one thing at a time, at the lowest priority, and gives way to whatever anybody asks for: the work is put back, and
 //! begins again when the service is idle again. What was tried while idle is not tried again, whatever came out: a failure would
@@ -67,14 +68,21 @@ impl Filling {
     }
 }
 
-/// Queues the next of what is missing: the suite first, then stability. False when nothing is.
+/// Queues the next of what is missing: the examples first, then the suite, then stability. False when nothing is.
 async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
     // Somebody else who plans queues work, and then this is not idle any more.
     let Ok(_alone) = inner.planning.try_lock() else { return Ok(false) };
     let tried = inner.store.tried().await?;
+    if let Some((spec, what)) = inner.next_example(&tried) {
+        queue_run(inner, spec, &[what], None).await?;
+        return Ok(true);
+    }
     if let Some(spec) = inner.next_of_the_suite(&tried).await? {
         inner.keep_suite().await?;
-        queue_run(inner, spec).await?;
+        let what = inner.of_the_suite(&spec)?;
+        let algorithms = inner.public().into_iter().filter(|algorithm| spec.algorithms.contains(&algorithm.id));
+        let tried: Vec<Tried> = algorithms.map(|algorithm| Tried::of(&what, &algorithm)).collect();
+        queue_run(inner, spec, &tried, Some(&inner.suite.sha256)).await?;
         return Ok(true);
     }
     match inner.next_for_stability(&tried).await? {
@@ -83,22 +91,19 @@ async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
     }
 }
 
-async fn queue_run(inner: &Arc<Inner>, spec: RunSpec) -> Result<()> {
+async fn queue_run(inner: &Arc<Inner>, spec: RunSpec, tried: &[Tried], suite: Option<&str>) -> Result<()> {
     let engine = Engine { inner: inner.clone() };
-    let what = inner.of_the_suite(&spec)?;
-    let algorithms: Vec<AlgorithmInfo> =
-        inner.public().into_iter().filter(|algorithm| spec.algorithms.contains(&algorithm.id)).collect();
-    let context = RunContext { priority: IDLE, suite: Some(&inner.suite.sha256), ..RunContext::default() };
+    let context = RunContext { priority: IDLE, suite, ..RunContext::default() };
     let run = match engine.enqueue(spec, context).await {
         Ok((run, _)) => run,
         Err(e @ EngineError::Fault(_)) => return Err(e),
         Err(e) => {
-            tracing::warn!("idle work: a run of the suite cannot be queued: {e}");
+            tracing::warn!("idle work: a run cannot be queued: {e}");
             String::new()
         }
     };
-    for algorithm in &algorithms {
-        inner.store.note_tried(&Tried::of(&what, algorithm), &run).await?;
+    for what in tried {
+        inner.store.note_tried(what, &run).await?;
     }
     Ok(())
 }

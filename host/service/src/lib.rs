@@ -16,6 +16,7 @@ mod citations;
 mod config;
 mod engine;
 mod error;
+mod examples;
 mod idle;
 #[cfg_attr(not(feature = "mail"), allow(dead_code))]
 mod mail;

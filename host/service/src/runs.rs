@@ -88,7 +88,7 @@ impl Engine {
             owner: owner.map(str::to_owned),
             featured,
             private: checked.contestants.iter().any(|c| self.inner.registry.is_private(c)),
-            visibility: if featured || suite.is_some() || campaign.is_some() {
+            visibility: if featured || suite.is_some() || campaign.is_some() || priority == IDLE {
                 Visibility::Public
             } else {
                 Visibility::default()

@@ -146,3 +146,32 @@ async fn what_failed_is_not_tried_again() {
     engine.shutdown().await;
     database.close().await;
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn examples_come_first_and_only_those_whose_algorithms_are_installed() {
+    let _alone = ALONE.lock().await;
+    let data = tempfile::tempdir().unwrap();
+    let suite = suite(data.path(), 1, 5.0);
+    let engine = opened(data.path(), &suite, false).await;
+    assert_eq!(engine.examples().await.unwrap(), [], "box-tree alone makes no example");
+    engine.shutdown().await;
+
+    let plain = common::config(data.path());
+    let plugins =
+        ["box_tree", "fast", "parry"].map(|name| plain.runner.with_file_name(format!("libocb_{name}.so")));
+    let plugins = Vec::from(plugins);
+    let engine = Engine::open(EngineConfig { plugins, suite: Some(suite), idle: true, ..plain }).await.unwrap();
+    let begun = Instant::now();
+    let run = loop {
+        let examples = engine.examples().await.unwrap();
+        assert_eq!(examples[0].example.id, "gear");
+        if let Some(run) = &examples[0].run {
+            break run.clone();
+        }
+        assert!(begun.elapsed() < Duration::from_secs(60), "no example was queued");
+        tokio::time::sleep(Duration::from_millis(20)).await;
+    };
+    assert!(matches!(run.state, State::Queued | State::Running), "{run:?}");
+    assert_eq!((run.visibility, run.spec.algorithms.len()), (ocb_service::model::Visibility::Public, 3));
+    engine.shutdown().await;
+}

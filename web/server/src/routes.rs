@@ -123,6 +123,7 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(selecting::columns_arrow))
         .routes(routes!(selecting::witnesses_arrow))
         .routes(routes!(runs::featured_run))
+        .routes(routes!(runs::list_examples))
         .routes(routes!(account::show_account, account::make_account, account::delete_account))
         .routes(routes!(account::show_deletion_preview))
         .routes(routes!(account::log_in))

@@ -19,6 +19,11 @@ pub struct Tried {
 pub type TriedSet = HashSet<Tried>;
 
 impl Tried {
+    /// Something that is tried whatever the plugin files are.
+    pub fn apart(what: &str) -> Self {
+        Self { what: what.to_owned(), algorithm: String::new(), plugin_sha256: String::new() }
+    }
+
     /// This, of this algorithm as it is now.
     pub fn of(what: &str, algorithm: &AlgorithmInfo) -> Self {
         Self { what: what.to_owned(), algorithm: algorithm.id.clone(), plugin_sha256: algorithm.plugin_sha256.clone() }
@@ -41,6 +46,14 @@ impl Store {
         let Tried { what, algorithm, plugin_sha256 } = tried;
         sqlx::query(text).bind(what).bind(algorithm).bind(plugin_sha256).bind(run).execute(&self.pool).await?;
         Ok(())
+    }
+
+    /// The run that tried it.
+    pub async fn run_that_tried(&self, tried: &Tried) -> Result<Option<String>> {
+        let text = "SELECT run FROM idle_tried WHERE what = $1 AND algorithm = $2 AND plugin_sha256 = $3";
+        let Tried { what, algorithm, plugin_sha256 } = tried;
+        let run = sqlx::query_scalar(text).bind(what).bind(algorithm).bind(plugin_sha256);
+        Ok(run.fetch_optional(&self.pool).await?)
     }
 
     /// What this run was to try counts as not tried.

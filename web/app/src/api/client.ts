@@ -3,7 +3,7 @@ import { asApiError, fromResponse } from './errors'
 import { nextOf } from './link'
 import type { paths } from './schema'
 import type {
-  Accuracy, AdviceInfo, AdviceSpec, AlgorithmInfo, Board, Chart, ChartKind, Citation, Ecdf, Estimate, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, SuiteInfo, Visibility, WorstCase,
+  Accuracy, AdviceInfo, AdviceSpec, AlgorithmInfo, Board, Chart, ChartKind, Citation, Ecdf, Estimate, ExampleInfo, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, SuiteInfo, Visibility, WorstCase,
 } from './types'
 
 export const http = createClient<paths>({ baseUrl: '/' })
@@ -121,6 +121,8 @@ export const cancelAdvice = (id: string): Promise<AdviceInfo> =>
 
 export const getCitation = (kind: 'run' | 'plugin', id: string): Promise<Citation> =>
   answer(kind === 'run' ? http.GET('/api/v1/runs/{id}/citation', { params: { path: { id } } }) : http.GET('/api/v1/plugins/{id}/citation', { params: { path: { id } } }))
+
+export const listExamples = (): Promise<ExampleInfo[]> => answer(http.GET('/api/v1/examples'))
 
 /** The run of the start page, or null while there is none. */
 export const getFeatured = (): Promise<RunInfo | null> => answer(http.GET('/api/v1/featured'))

@@ -4,7 +4,7 @@ use axum::extract::State;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::{Extension, Json as Answer};
-use ocb_service::model::{Estimate, NewVisibility, Page, RunInfo, RunSpec};
+use ocb_service::model::{Estimate, ExampleInfo, NewVisibility, Page, RunInfo, RunSpec};
 use ocb_service::{EngineError, Visitor};
 
 use crate::App;
@@ -156,6 +156,13 @@ pub(crate) async fn change_run_visibility(
     Json(asked): Json<NewVisibility>,
 ) -> Result<Answer<RunInfo>> {
     Ok(Answer(app.engine.change_run_visibility(&id, asked.visibility, &guest).await?))
+}
+
+/// The examples of the start page, each with its run on this machine where there is one. A service measures them by itself while it
+/// is idle.
+#[utoipa::path(get, path = "/examples", tag = "runs", responses((status = 200, body = Vec<ExampleInfo>)))]
+pub(crate) async fn list_examples(State(app): State<App>) -> Result<Answer<Vec<ExampleInfo>>> {
+    Ok(Answer(app.engine.examples().await?))
 }
 
 /// The finished run that the start page shows; null until the first one is finished.

@@ -162,6 +162,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "get /configurations/{id}/deletion-preview",
             "get /configurations/{id}/file",
             "post /estimates",
+            "get /examples",
             "get /featured",
             "post /mails/off/{secret}",
             "get /objects",

@@ -1,0 +1,21 @@
+import type { AlgorithmResult } from '../api/types'
+import { count, estimated, significant } from '../ui/format'
+
+/** What a finished run found, in sentences: who is fastest among the right ones, and who is wrong. */
+export function found(results: readonly AlgorithmResult[]): string[] {
+  const right = results
+    .flatMap(({ name, rank, time, n }) => (rank !== null && rank !== undefined && time ? [{ name, n, median: time.median_ns }] : []))
+    .toSorted((a, b) => a.median.value - b.median.value)
+  const sentences: string[] = []
+  const [first] = right
+  const last = right.at(-1)
+  if (first) {
+    const { value, interval } = estimated(first.median)
+    const more = last && last !== first ? `, ${last.name} ${significant(last.median.value / first.median.value, 2)}× as long` : ''
+    sentences.push(`${first.name} takes ${value} at the median (${interval}, n = ${count(first.n)})${more}.`)
+  }
+  for (const { name, wrong, n } of results) {
+    if (wrong > 0) sentences.push(`${name} is wrong in ${count(wrong)} of ${count(n)} configurations.`)
+  }
+  return sentences
+}
