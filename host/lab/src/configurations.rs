@@ -4,9 +4,11 @@ mod affordable;
 mod coverage;
 mod file;
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
-use ocb_core::configuration::{Class, Configuration, ConfigurationSet, Method, Placed, Separation};
+use ocb_core::configuration::{Class, Configuration, ConfigurationSet, Method, Placed, Sampling, Separation};
 use ocb_core::oracle::{self, Pair, Shape};
 use ocb_core::sampling::{self, Found, Plan, SamplingError};
 use rayon::prelude::*;
@@ -49,6 +51,13 @@ pub struct Gauge {
     pub stop: AtomicBool,
 }
 
+/// Units of work whose configurations are a first look's, and how long the rest must take to be waited for less than that.
+const BEGINNING: u64 = 300;
+const LONG: Duration = Duration::from_secs(1);
+
+/// Whoever wants to see the beginning of a set for which the rest takes long. It has the numbers that it has in the whole.
+pub type Beginning<'s> = &'s mut (dyn FnMut(&ConfigurationSet) + Send);
+
 /// Finds the set, or certifies the given poses. `None` when it was stopped. `longest_side` is that of A's bounding box.
 pub fn make(
     a: &Shape,
@@ -57,6 +66,7 @@ pub fn make(
     spec: &RunSpec,
     poses: Option<&[Configuration]>,
     gauge: &Gauge,
+    beginning: Option<Beginning>,
 ) -> Result<Option<ConfigurationSet>> {
     let mut set = ConfigurationSet {
         method: spec.finding(),
@@ -71,11 +81,12 @@ pub fn make(
         affordable::check(a, b, poses)
             .map_err(|why| LabError::Invalid(format!("These configurations are too expensive: {why}.")))?;
         let pair = Pair::new(a, b);
-        let units = on_all_cpus(poses.len() as u64, gauge, |i| {
+        let place = |i: u64| {
             let configuration = poses[i as usize];
             let truth = pair.truth(&configuration);
             Found { placed: vec![Placed { configuration, truth, root_index: 0, wanted: None }], missed: 0 }
-        });
+        };
+        let units = from_the_beginning(poses.len() as u64, gauge, place, &set, beginning);
         Found { placed: units.into_iter().flat_map(|unit| unit.placed).collect(), missed: 0 }
     } else {
         let separation = set.separation.unwrap_or(Separation::Relative { distance: 0.0 });
@@ -85,7 +96,11 @@ pub fn make(
             Err(e) => return Err(LabError::Invalid(format!("These configurations cannot be found: {e}."))),
         };
         (set.box_side, set.spacing) = (plan.box_side(), plan.spacing());
-        plan.gather(on_all_cpus(plan.units(), gauge, |unit| plan.place(unit)))
+        // A grid is thinned at the end, and the paper's pattern begins on one side.
+        let begins_evenly =
+            !matches!(set.method, Method::Grid { .. } | Method::Sphere { sampling: Sampling::PaperCompat { .. }, .. });
+        let beginning = beginning.filter(|_| begins_evenly);
+        plan.gather(from_the_beginning(plan.units(), gauge, |unit| plan.place(unit), &set, beginning))
     };
     if gauge.stop.load(Ordering::Relaxed) {
         return Ok(None);
@@ -97,8 +112,29 @@ pub fn make(
     Ok(Some(set))
 }
 
-fn on_all_cpus(units: u64, gauge: &Gauge, place: impl Fn(u64) -> Found + Sync) -> Vec<Found> {
-    (0..units)
+/// All units in their order. The first of them are shown where the others take long.
+fn from_the_beginning(
+    units: u64,
+    gauge: &Gauge,
+    place: impl Fn(u64) -> Found + Sync,
+    set: &ConfigurationSet,
+    beginning: Option<Beginning>,
+) -> Vec<Found> {
+    let Some(show) = beginning.filter(|_| units > BEGINNING) else { return on_all_cpus(0..units, gauge, place) };
+    let begun = Instant::now();
+    let mut all = on_all_cpus(0..BEGINNING, gauge, &place);
+    if begun.elapsed() / BEGINNING as u32 * (units - BEGINNING) as u32 > LONG {
+        let placed: Vec<Placed> = all.iter().flat_map(|unit| &unit.placed).copied().collect();
+        if !placed.is_empty() && !gauge.stop.load(Ordering::Relaxed) {
+            show(&ConfigurationSet { placed, ..set.clone() });
+        }
+    }
+    all.extend(on_all_cpus(BEGINNING..units, gauge, place));
+    all
+}
+
+fn on_all_cpus(units: Range<u64>, gauge: &Gauge, place: impl Fn(u64) -> Found + Sync) -> Vec<Found> {
+    units
         .into_par_iter()
         .map(|unit| {
             if gauge.stop.load(Ordering::Relaxed) {

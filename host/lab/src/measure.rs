@@ -21,6 +21,7 @@ mod by_unit;
 mod contract;
 mod controls;
 mod lane;
+mod look;
 mod order;
 mod pace;
 mod preview;
@@ -51,6 +52,8 @@ use crate::model::{OutcomeInfo, OutcomeName, Preview, RunSpec};
 pub use by_unit::asked_in_another_unit;
 pub use controls::draw as draw_controls;
 pub use lane::{Lane, Measured, precision};
+use look::Showing;
+pub use look::{Preliminary, QUESTIONS, first_look, worth_a_look};
 pub use summary::{Asked, environment, rank, summarise};
 use turn::{Pass, Turn};
 use weave::Piece;
@@ -156,6 +159,8 @@ pub struct Task<'a> {
     pub reference: Option<&'a Arc<Contestant>>,
     /// Where to stop before all configurations are measured.
     pub part: Part,
+    /// Somebody may look at it before it has ended.
+    pub watched: bool,
 }
 
 /// What is wanted of a run that need not measure everything.
@@ -199,6 +204,13 @@ pub enum News {
     },
     /// The run has ended before all configurations were measured.
     Preview(Preview),
+    /// A lane has something to show that may still change.
+    Preliminary {
+        /// Which contestant.
+        lane: usize,
+        /// What is known of it.
+        preliminary: Box<Preliminary>,
+    },
     /// A lane will not change any more.
     Finished {
         /// Which contestant; their number stands for a reference that is none of them.
@@ -222,12 +234,11 @@ impl Task<'_> {
 /// Measures all contestants and sends what happens; returns early when stopped.
 pub fn measure(task: &Task, runner: &Runner, machine: &Machine, stop: &Stop, news: &Sender<News>) {
     let _quiet = machine.keep_off();
-    let apart = task.reference.filter(|r| task.contestants.iter().all(|c| c.info.id != r.info.id));
-    let all = task.contestants.iter().chain(apart);
-    let n = task.set.placed.len() as u32;
-    let mut lanes: Vec<Lane> = all.map(|c| Lane::new(c.clone(), &task.slack(c), n as usize)).collect();
-    let base = if task.coherent() { (0..n).collect() } else { task.stratified() };
-    let turns = Turns { task, runner, machine, stop, news, base, elsewhere: task.instance(0).scale() != 1.0 };
+    let n = task.set.placed.len();
+    let mut lanes: Vec<Lane> = task.lanes().map(|c| Lane::new(c.clone(), &task.slack(c), n)).collect();
+    let base = task.first(n);
+    let mut showing = Showing::new(task, news, &base);
+    let turns = Turns { task, runner, machine, stop, news, base: &base, elsewhere: task.instance(0).scale() != 1.0 };
     let mut steady = true;
     let (mut measured, mut looks) = (0, 0);
     for end in task.looks() {
@@ -235,7 +246,8 @@ pub fn measure(task: &Task, runner: &Runner, machine: &Machine, stop: &Stop, new
             let process = OTHER_UNITS.len() as u32 + looks * task.passes + round;
             let pass = Pass::Official(round);
             let shown = task.instance(process);
-            for (index, lane) in lanes.iter_mut().enumerate() {
+            for index in 0..lanes.len() {
+                let lane = &mut lanes[index];
                 let turn = turns.turn(index, pass, process, task.piece(measured, end), &shown);
                 let part = turn.part(lane);
                 if lane.ended() || part.is_empty() {
@@ -252,6 +264,7 @@ pub fn measure(task: &Task, runner: &Runner, machine: &Machine, stop: &Stop, new
                 if stop.asked() {
                     return;
                 }
+                showing.after_turn(&lanes, index);
             }
         }
         (measured, looks) = (end, looks + 1);
@@ -293,14 +306,14 @@ struct Turns<'a> {
     machine: &'a Machine,
     stop: &'a Stop,
     news: &'a Sender<News>,
-    base: Vec<u32>,
+    base: &'a [u32],
     /// The coordinates can be scaled, so other units are asked as well.
     elsewhere: bool,
 }
 
 impl Turns<'_> {
     fn turn<'t>(&'t self, index: usize, pass: Pass, process: u32, piece: Piece, shown: &'t Presentation) -> Turn<'t> {
-        let Self { task, runner, machine, stop, news, ref base, elsewhere } = *self;
+        let Self { task, runner, machine, stop, news, base, elsewhere } = *self;
         Turn { task, runner, machine, stop, news, index, pass, elsewhere, process, base, piece, shown }
     }
 
@@ -367,8 +380,21 @@ impl Task<'_> {
         self.part.precision.map_or_else(|| vec![most], |_| sequential::looks(most))
     }
 
-    fn stratified(&self) -> Vec<u32> {
-        order::stratified(&self.set.placed.iter().map(order::hardness).collect::<Vec<_>>(), self.seed)
+    /// The first so many configurations of the order that all algorithms share.
+    fn first(&self, most: usize) -> Vec<u32> {
+        let n = self.set.placed.len();
+        let mut order = match self.coherent() {
+            true => (0..n as u32).collect(),
+            false => order::stratified(&self.set.placed.iter().map(order::hardness).collect::<Vec<_>>(), self.seed),
+        };
+        order.truncate(most);
+        order
+    }
+
+    /// The algorithms, and behind them the reference where it is none of them.
+    fn lanes(&self) -> impl Iterator<Item = &Arc<Contestant>> {
+        let apart = self.reference.filter(|r| self.contestants.iter().all(|c| c.info.id != r.info.id));
+        self.contestants.iter().chain(apart)
     }
 
     /// Two right distances may lie so far apart: both may miss the certified interval by tau.

@@ -160,6 +160,10 @@ pub struct Heatmap {
     pub n: u32,
     /// Smallest and largest value; absent when no vertex has one.
     pub range: Option<[f64; 2]>,
+    /// The run is still being measured and this will change: it comes from the answers so far.
+    #[serde(default)]
+    #[schema(required = true)]
+    pub preliminary: bool,
 }
 
 /// The value at one vertex of a heatmap.
@@ -175,6 +179,10 @@ pub struct VertexValue {
     pub dropped: u32,
     /// Unit of the value, as in the heatmap.
     pub unit: String,
+    /// As the heatmap is.
+    #[serde(default)]
+    #[schema(required = true)]
+    pub preliminary: bool,
 }
 
 impl Heatmap {
@@ -187,6 +195,7 @@ impl Heatmap {
             count: *self.counts.get(i)?,
             dropped: *self.dropped.get(i)?,
             unit: self.unit.clone(),
+            preliminary: self.preliminary,
         })
     }
 }
@@ -202,6 +211,10 @@ pub struct Ecdf {
     pub time_ns: Vec<f64>,
     /// Share of queries at most that long, 0 to 1.
     pub share: Vec<f64>,
+    /// The run is still being measured and this will change: it comes from the answers so far.
+    #[serde(default)]
+    #[schema(required = true)]
+    pub preliminary: bool,
 }
 
 #[cfg(test)]

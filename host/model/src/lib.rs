@@ -403,6 +403,10 @@ pub struct AlgorithmResult {
     pub load_ms: Option<f64>,
     /// Peak memory of the runner above its baseline, bytes.
     pub memory_bytes: Option<u64>,
+    /// The run is still being measured and this will change: it comes from the answers so far, and has no rank.
+    #[serde(default)]
+    #[schema(required = true)]
+    pub preliminary: bool,
 }
 
 impl AlgorithmResult {

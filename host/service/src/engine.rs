@@ -19,6 +19,7 @@ use crate::measure::Stop;
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;
 use crate::runs::log::RunEvents;
+use crate::runs::preliminary::UnderWay;
 use crate::store::Store;
 use crate::suite::Suite;
 use crate::{EngineConfig, EngineError, Result};
@@ -50,6 +51,8 @@ pub struct Inner {
     pub registry: Registry,
     pub machine: Machine,
     pub run_events: RunEvents,
+    /// What the run at work can show.
+    pub under_way: UnderWay,
     /// What public plugins are measured on.
     pub suite: Suite,
     /// Held while it is found out what of the suite is missing, until that is in the queue.

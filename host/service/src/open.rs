@@ -17,6 +17,7 @@ use crate::objects::Objects;
 use crate::plugins::registry::Registry;
 use crate::runs::dispatcher;
 use crate::runs::log::RunEvents;
+use crate::runs::preliminary::UnderWay;
 use crate::runs::priority::BACKGROUND;
 use crate::store::Store;
 use crate::suite::Suite;
@@ -42,6 +43,7 @@ impl Engine {
             objects: Objects::new(store.clone(), blobs.clone(), config.stock_dir.clone()),
             machine: Machine::observe()?.noted(config.machine_note.as_deref()),
             run_events: RunEvents::new(),
+            under_way: UnderWay::default(),
             suite,
             planning: tokio::sync::Mutex::default(),
             publishing: tokio::sync::Mutex::default(),

@@ -19,7 +19,7 @@ use ocb_core::statistics::{self, Outliers, Statistic};
 use crate::blocking::blocking;
 use crate::columns::{self, RecordColumns};
 use crate::engine::Inner;
-use crate::model::{Ecdf, Heatmap, HeatmapRequest, Measure, Side};
+use crate::model::{AlgorithmResult, Ecdf, Heatmap, HeatmapRequest, Measure, Side};
 use crate::results::sql::StoredResult;
 use crate::runs::sql::RunRow;
 use crate::{EngineError, Result};
@@ -76,18 +76,19 @@ impl Inner {
             return self.triangle_map(run, algorithm, request).await;
         }
         let row = self.run_row(run).await?;
-        let set_blob = row.set_blob.clone().ok_or_else(|| not_yet(run))?;
-        let (mesh, map) = self.vertex_map(&row, &set_blob, request.side).await?;
+        let set = self.set_so_far(&row).await?;
+        let (mesh, map) = self.vertex_map(&row, &set, request.side).await?;
         let selection = request.selection.as_deref().map(selected::read).transpose()?;
         let column = request.measure.column();
         let table = match (column, &selection) {
             (None, None) => None,
             _ => {
                 let all = column == Some(Column::Disputed);
-                Some(self.table(run, algorithm, selection.as_ref(), all).await?)
+                Some(self.table_so_far(&row, set.clone(), algorithm, selection.as_ref(), all).await?)
             }
         };
-        let configurations = self.set(&set_blob).await?.placed.len();
+        let configurations = set.placed.len();
+        let preliminary = row.set_blob.is_none() || table.as_ref().is_some_and(|table| table.preliminary);
         let request = request.clone();
         let heatmap = blocking(move || {
             let chosen = match (&table, &selection) {
@@ -101,7 +102,8 @@ impl Inner {
             if let (Some(values), Some(chosen)) = (&mut values, &chosen) {
                 values.iter_mut().zip(chosen).filter(|(_, is)| !**is).for_each(|(x, _)| *x = f64::NAN);
             }
-            Ok(aggregate(&map, values.as_deref(), chosen.as_deref(), request, configurations))
+            let heatmap = aggregate(&map, values.as_deref(), chosen.as_deref(), request, configurations);
+            Ok(Heatmap { preliminary, ..heatmap })
         })
         .await?;
         Ok((heatmap, mesh))
@@ -146,16 +148,28 @@ impl Inner {
         self.blobs.get(&blob).await
     }
 
+    /// The run's configurations, or the beginning of them while the others are still being found.
+    pub async fn set_so_far(&self, row: &RunRow) -> Result<Arc<ConfigurationSet>> {
+        match &row.set_blob {
+            Some(blob) => self.set(blob).await,
+            None => self.under_way.beginning(&row.id).ok_or_else(|| not_yet(&row.id)),
+        }
+    }
+
     /// Which configurations each vertex hears of.
-    async fn vertex_map(&self, row: &RunRow, set_blob: &str, side: Side) -> Result<(Arc<Mesh>, Arc<VertexMap>)> {
+    async fn vertex_map(
+        &self,
+        row: &RunRow,
+        set: &Arc<ConfigurationSet>,
+        side: Side,
+    ) -> Result<(Arc<Mesh>, Arc<VertexMap>)> {
         let [a, b] = self.both_meshes(row).await?;
         let mesh = if side == Side::A { a } else { b };
-        let key = format!("{set_blob} {side:?}");
-        if let Some(map) = self.maps.get(&key) {
+        let key = row.set_blob.as_ref().map(|blob| format!("{blob} {side:?}"));
+        if let Some(map) = key.as_ref().and_then(|key| self.maps.get(key)) {
             return Ok((mesh, map));
         }
-        let set = self.set(set_blob).await?;
-        let for_map = mesh.clone();
+        let (for_map, set) = (mesh.clone(), set.clone());
         let map = blocking(move || {
             let witness = |p: &ocb_core::configuration::Placed| match side {
                 Side::A => p.truth.witness.triangle_a,
@@ -164,7 +178,20 @@ impl Inner {
             Ok(VertexMap::new(&for_map, &set.placed.iter().map(witness).collect::<Vec<u32>>()))
         })
         .await?;
-        Ok((mesh, self.maps.put(&key, map)))
+        let map = match key {
+            Some(key) => self.maps.put(&key, map),
+            None => Arc::new(map),
+        };
+        Ok((mesh, map))
+    }
+
+    /// The same, or what a run under way has so far.
+    pub async fn records_so_far(&self, run: &str, algorithm: &str) -> Result<(AlgorithmResult, Arc<RecordColumns>)> {
+        match self.records(run, algorithm).await {
+            Ok((stored, records)) => Ok((stored.result, records)),
+            Err(EngineError::NotFound(why)) => self.under_way.records(run, algorithm).ok_or(EngineError::NotFound(why)),
+            Err(e) => Err(e),
+        }
     }
 
     /// The columns of one algorithm's records that charts need, from memory when they were used lately.
@@ -209,11 +236,12 @@ impl Inner {
 
     /// The same over all, or the `chosen`.
     pub async fn ecdf_of(&self, run: &str, algorithm: &str, chosen: Option<&[bool]>) -> Result<Ecdf> {
-        let (_, records) = self.records(run, algorithm).await?;
+        let (result, records) = self.records_so_far(run, algorithm).await?;
         let mut times: Vec<f64> = records.rows(chosen).map(|row| records.time_ns[row]).collect();
         times.sort_unstable_by(f64::total_cmp);
         let (time_ns, share) = statistics::ecdf(&times, ECDF_POINTS).into_iter().unzip();
-        Ok(Ecdf { algorithm: algorithm.to_owned(), n: times.len() as u32, time_ns, share })
+        let preliminary = result.preliminary;
+        Ok(Ecdf { algorithm: algorithm.to_owned(), n: times.len() as u32, time_ns, share, preliminary })
     }
 
     /// The records file as it is stored.
@@ -244,6 +272,9 @@ impl Inner {
         format: Format,
     ) -> Result<Vec<u8>> {
         let (heatmap, mesh) = self.values(run, request).await?;
+        if heatmap.preliminary {
+            return Err(still_measured(run));
+        }
         let request = &heatmap.request;
         let against = request.subtrahend().map(|(other_run, algorithm)| {
             other_run.map_or_else(|| algorithm.to_owned(), |run| format!("{run}/{algorithm}"))
@@ -316,6 +347,7 @@ fn aggregate(
         values: result.values,
         counts: result.counts,
         dropped: result.dropped,
+        preliminary: false,
         request,
     }
 }
@@ -344,6 +376,7 @@ fn subtract(map: &mut Heatmap, other: &Heatmap) {
     if let Some(difference) = of(map).minus(&of(other)) {
         map.range = difference.range();
         map.n = map.n.min(other.n);
+        map.preliminary |= other.preliminary;
         (map.values, map.counts, map.dropped) = (difference.values, difference.counts, difference.dropped);
     }
 }
@@ -351,6 +384,11 @@ fn subtract(map: &mut Heatmap, other: &Heatmap) {
 /// Nothing is known of the run's configurations yet.
 pub fn not_yet(run: &str) -> EngineError {
     EngineError::NotFound(format!("The run {run:?} has no configurations yet; wait until they are found."))
+}
+
+/// What leaves the service is final.
+fn still_measured(run: &str) -> EngineError {
+    EngineError::NotFound(format!("The run {run:?} is still being measured; wait for its end."))
 }
 
 /// The name that the JSON has for it.

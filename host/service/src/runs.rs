@@ -9,7 +9,9 @@ pub mod estimate;
 pub mod featured;
 pub mod follow;
 pub mod log;
+pub mod looking;
 pub mod places;
+pub mod preliminary;
 pub mod priority;
 pub mod queue;
 pub mod repro;
@@ -22,10 +24,12 @@ use std::time::{Duration, Instant};
 
 use crate::boxed;
 use crate::engine::Engine;
-use crate::model::{AccountInfo, Cursor, Page, Part, Role, RunInfo, RunSpec, Stage, State, Visibility};
+use crate::model::{
+    AccountInfo, AlgorithmResult, Cursor, Page, Part, Role, RunInfo, RunSpec, Stage, State, Visibility,
+};
 use crate::quotas::{Visitor, granted, turn};
 use crate::runs::log::{fresh_stages, plain_event};
-use crate::runs::priority::INTERACTIVE;
+use crate::runs::priority::{IDLE, INTERACTIVE};
 use crate::runs::sql::RunRow;
 use crate::store::now_us;
 use crate::{EngineError, Result};
@@ -194,7 +198,7 @@ impl Engine {
         Ok(Part { entries, next: part.next })
     }
 
-    /// The newest finished run for the start page, if there is one already.
+    /// The newest finished run for the start page; while there is none, the one that is being measured for it.
     #[boxed]
     pub async fn featured(&self) -> Result<Option<RunInfo>> {
         match self.inner.store.newest_featured().await? {
@@ -262,9 +266,12 @@ impl Engine {
             let open = |stage: &&mut Stage| matches!(stage.state, State::Queued | State::Running);
             stages.iter_mut().filter(open).for_each(|stage| stage.state = State::Cancelled);
         }
+        let mut results: Vec<_> = store.results(&row.id).await?.into_iter().map(|stored| stored.result).collect();
+        let so_far = self.inner.under_way.results(&row.id).into_iter();
+        results.extend(so_far.filter(|new| store_has_none(&results, new)).collect::<Vec<_>>());
         Ok(RunInfo {
             stages,
-            results: store.results(&row.id).await?.into_iter().map(|stored| stored.result).collect(),
+            results,
             mine: viewer.is_some() && row.owner.as_deref() == viewer,
             visibility: self.inner.visibility_of(&row).await?,
             runs_ahead,
@@ -285,4 +292,8 @@ impl Engine {
             spec: row.spec,
         })
     }
+}
+
+fn store_has_none(stored: &[AlgorithmResult], new: &AlgorithmResult) -> bool {
+    stored.iter().all(|known| known.algorithm != new.algorithm)
 }

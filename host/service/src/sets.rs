@@ -35,7 +35,7 @@ impl SetJob {
     /// Finds and certifies it on all CPUs; `None` when it was stopped.
     pub fn find(&self, gauge: &Gauge) -> Result<Option<ConfigurationSet>> {
         let [a, b] = self.meshes.each_ref().map(|mesh| Shape::new(mesh.clone()));
-        Ok(make(&a, &b, self.meshes[0].longest_side(), &self.spec, self.poses.as_deref(), gauge)?)
+        Ok(make(&a, &b, self.meshes[0].longest_side(), &self.spec, self.poses.as_deref(), gauge, None)?)
     }
 }
 

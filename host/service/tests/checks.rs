@@ -3,7 +3,7 @@
 mod common;
 
 use std::collections::HashSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use ocb_core::query::Query;
@@ -17,19 +17,6 @@ use tokio::sync::{Mutex, MutexGuard};
 async fn alone() -> MutexGuard<'static, ()> {
     static ALONE: Mutex<()> = Mutex::const_new(());
     ALONE.lock().await
-}
-
-/// A right plugin that takes so many milliseconds to build an object and to answer, under so many names.
-#[expect(clippy::disallowed_methods, reason = "the test compiles a plugin")]
-fn slow(folder: &Path, build: u32, query: u32, algorithms: u32) -> PathBuf {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let file = folder.join(format!("slow-{build}-{query}-{algorithms}.so"));
-    let mut cc = std::process::Command::new("cc");
-    cc.args(["-std=gnu11", "-O1", "-fPIC", "-shared", "-fvisibility=hidden"]);
-    cc.args([("BUILD_MS", build), ("QUERY_MS", query), ("OFFERED", algorithms)].map(|(k, v)| format!("-D{k}={v}")));
-    cc.arg("-I").arg(here.join("../../plugin-api/include")).arg("-I").arg(here.join("../../plugin-api/templates/c"));
-    assert!(cc.arg(here.join("tests/fixtures/slow.c")).arg("-o").arg(&file).status().unwrap().success());
-    file
 }
 
 fn config(data: &Path) -> EngineConfig {
@@ -84,7 +71,7 @@ async fn many_slow_algorithms_share_one_limit() {
     let _alone = alone().await;
     let folder = tempfile::tempdir().unwrap();
     let limit = Duration::from_secs(12);
-    let (report, took) = checked_within(limit, &slow(folder.path(), 0, 800, 64), false).await;
+    let (report, took) = checked_within(limit, &common::slow(folder.path(), 0, 800, 64), false).await;
     // Where nothing is shared it takes 64 times 36 questions of 0.8 s, half an hour.
     assert!(took < 5 * limit, "{took:?}");
     assert!(!report.passed);
@@ -100,7 +87,7 @@ async fn one_slow_algorithm_is_asked_as_long_as_there_is_time() {
     let _alone = alone().await;
     let folder = tempfile::tempdir().unwrap();
     let limit = Duration::from_secs(30);
-    let (report, took) = checked_within(limit, &slow(folder.path(), 0, 60, 1), false).await;
+    let (report, took) = checked_within(limit, &common::slow(folder.path(), 0, 60, 1), false).await;
     assert!(report.passed, "{:?}", report.lines);
     // All of its questions would take hours.
     assert!(took < 5 * limit, "{took:?}");
@@ -130,14 +117,14 @@ async fn check_stopped(file: &Path) {
 async fn a_stop_ends_a_slow_answer_within_a_second() {
     let _alone = alone().await;
     let folder = tempfile::tempdir().unwrap();
-    check_stopped(&slow(folder.path(), 0, 800, 1)).await;
+    check_stopped(&common::slow(folder.path(), 0, 800, 1)).await;
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_stop_ends_a_slow_build_within_a_second() {
     let _alone = alone().await;
     let folder = tempfile::tempdir().unwrap();
-    check_stopped(&slow(folder.path(), 15_000, 0, 1)).await;
+    check_stopped(&common::slow(folder.path(), 15_000, 0, 1)).await;
 }
 
 fn end(reason: &str) -> Decision {
@@ -152,9 +139,9 @@ async fn author_and_curators_end_a_check() {
     let (author, other) = (developer(&engine, "author").await, developer(&engine, "other").await);
     let curator = engine.add_account("curator", "a long enough password", Role::Curator).await.unwrap();
     // One under way, and one that waits behind it.
-    let first = sent(&engine, &author, &slow(data.path(), 0, 800, 1)).await;
+    let first = sent(&engine, &author, &common::slow(data.path(), 0, 800, 1)).await;
     under_way(&engine, &first.id, &author).await;
-    let second = sent(&engine, &author, &slow(data.path(), 0, 801, 1)).await;
+    let second = sent(&engine, &author, &common::slow(data.path(), 0, 801, 1)).await;
     let refused = engine.decide(&second.id, &other, end("")).await.unwrap_err();
     assert!(matches!(refused, EngineError::NotFound(_)), "{refused:?}");
 
@@ -175,7 +162,7 @@ async fn author_and_curators_end_a_check() {
     assert!(notices[0].subject.ends_with("was not checked") && notices[0].text.contains("Too slow."), "{notices:?}");
 
     // The queue goes on at once, and what was ended stays so.
-    let third = sent(&engine, &other, &slow(data.path(), 0, 802, 1)).await;
+    let third = sent(&engine, &other, &common::slow(data.path(), 0, 802, 1)).await;
     under_way(&engine, &third.id, &other).await;
     assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
     let again = engine.decide(&first.id, &author, end("")).await.unwrap_err();
@@ -199,7 +186,7 @@ async fn a_fault_of_the_database_costs_a_check_no_attempt() {
                   BEGIN SELECT RAISE(ABORT, 'disk I/O error'); END";
     sqlx::query(refuse).execute(&database).await.unwrap();
     let author = developer(&engine, "author").await;
-    let plugin = sent(&engine, &author, &slow(data.path(), 0, 800, 1)).await;
+    let plugin = sent(&engine, &author, &common::slow(data.path(), 0, 800, 1)).await;
     // Begun three times, which is as often as a check may end the service.
     let (begun, mut starts) = (Instant::now(), HashSet::new());
     while starts.len() < 3 {

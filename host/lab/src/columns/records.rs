@@ -66,10 +66,42 @@ pub struct RecordColumns {
 }
 
 impl RecordColumns {
+    /// Those of records that no file has.
+    pub fn of(records: &[Record]) -> Self {
+        let mut all = Self::default();
+        for (row, record) in records.iter().enumerate() {
+            let flat = Flat::from(&record.answer);
+            all.configuration.push(record.configuration);
+            all.time_ns.push(record.time_ns);
+            all.bv_tests.push(record.counters.and_then(|c| c.bv_tests));
+            all.primitive_tests.push(record.counters.and_then(|c| c.primitive_tests));
+            all.verdict.push(record.verdict);
+            all.said.push(said(flat.hit, flat.distance));
+            all.flips.push(Some(record.flips));
+            if record.verdict.is_wrong() {
+                let points = flat.points.map(|both| both.map(|p| [p.x, p.y, p.z]));
+                all.claims.extend(claim(flat.triangles, points).map(|claim| (row, claim)));
+            }
+        }
+        all
+    }
+
     /// All rows, or those of the configurations that are `chosen`.
     pub fn rows(&self, chosen: Option<&[bool]>) -> impl Iterator<Item = usize> {
         let is_chosen = move |row: &usize| chosen.is_none_or(|all| all[self.configuration[*row] as usize]);
         (0..self.configuration.len()).filter(is_chosen)
+    }
+}
+
+fn claim(triangles: Option<[u32; 2]>, points: Option<[[f64; 3]; 2]>) -> Option<Claim> {
+    (triangles.is_some() || points.is_some()).then_some(Claim { triangles, points })
+}
+
+fn said(hit: Option<bool>, distance: Option<f64>) -> Said {
+    match (hit, distance) {
+        (Some(hit), _) => Said::Decision(hit),
+        (None, Some(distance)) if distance.is_finite() => Said::Distance(distance),
+        _ => Said::Nothing,
     }
 }
 
@@ -150,11 +182,7 @@ impl RecordColumns {
         }
         let hits = column::<BooleanArray>(batch, "hit")?.iter();
         let distances = column::<Float64Array>(batch, "distance")?.iter();
-        self.said.extend(hits.zip(distances).map(|(hit, distance)| match (hit, distance) {
-            (Some(hit), _) => Said::Decision(hit),
-            (None, Some(distance)) if distance.is_finite() => Said::Distance(distance),
-            _ => Said::Nothing,
-        }));
+        self.said.extend(hits.zip(distances).map(|(hit, distance)| said(hit, distance)));
         match column::<UInt32Array>(batch, "flips") {
             Ok(flips) => self.flips.extend(flips.iter()),
             Err(_) => self.flips.extend(std::iter::repeat_n(None, batch.num_rows())),
@@ -162,10 +190,7 @@ impl RecordColumns {
         let pointers = Pointers::of(batch)?;
         for row in (0..batch.num_rows()).filter(|row| self.verdict[before + row].is_wrong()) {
             let points = pointers.points(row).map(|both| both.map(|p| [p.x, p.y, p.z]));
-            let claim = Claim { triangles: pointers.triangles(row), points };
-            if claim.triangles.is_some() || claim.points.is_some() {
-                self.claims.insert(before + row, claim);
-            }
+            self.claims.extend(claim(pointers.triangles(row), points).map(|claim| (before + row, claim)));
         }
         Ok(())
     }
@@ -213,7 +238,9 @@ mod tests {
         let records =
             [record(0, hit(Some([1, 2])), None), wrong(1, hit(Some([3, 4]))), wrong(2, hit(None)), wrong(3, near)];
         let of = RecordsOf { run: "r", algorithm: "a", plugin_sha256: "p", hardware_class: "h", set_sha256: "s" };
-        let claims = read_records(&records_parquet(&of, &records).unwrap()).unwrap().claims;
+        let read = read_records(&records_parquet(&of, &records).unwrap()).unwrap();
+        assert_eq!(read, RecordColumns::of(&records));
+        let claims = read.claims;
         let points = Some([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
         let expected = [(1, Claim { triangles: Some([3, 4]), points: None }), (3, Claim { triangles: None, points })];
         assert_eq!(claims, HashMap::from(expected));
@@ -234,6 +261,7 @@ mod tests {
         let of = RecordsOf { run: "r", algorithm: "a", plugin_sha256: "p", hardware_class: "h", set_sha256: "s" };
         let file = records_parquet(&of, &records).unwrap();
         let columns = read_records(&file).unwrap();
+        assert_eq!(columns, RecordColumns::of(&records));
         assert_eq!(columns.configuration, [7, 1, 2, 3]);
         assert_eq!(columns.time_ns, [127.5, 121.5, 122.5, 123.5]);
         assert_eq!(columns.bv_tests, [Some(9), None, None, None]);

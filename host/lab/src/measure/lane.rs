@@ -93,6 +93,24 @@ impl Cell {
         tally.missed += u32::from(verdict == Verdict::FalseNegative);
     }
 
+    /// The same without other units, and without the pairs of a list of contacts, of which there may be many.
+    fn sketch(&self) -> Self {
+        let short = |answer: &Answer| match answer {
+            Answer::Contacts { total, .. } => Answer::Contacts { total: *total, pairs: Vec::new() },
+            other => other.clone(),
+        };
+        Self {
+            times: self.times.clone(),
+            below: self.below,
+            late: self.late.clone(),
+            judged: self.judged.as_ref().map(|(answer, judged)| (short(answer), *judged)),
+            asked: self.asked,
+            counters: self.counters,
+            flips: self.flips,
+            ..Self::default()
+        }
+    }
+
     fn keep(&mut self, asked: AskedAs, answer: Answer, judged: Judged) {
         let graver = |(_, known): &(Answer, Judged)| judged.verdict.gravity() > known.verdict.gravity();
         if self.judged.as_ref().is_none_or(graver) {
@@ -204,6 +222,7 @@ impl Lane {
                     cell.below += u32::from(time.below_resolution);
                     self.asked.push((seen.configuration, time.ns));
                 }
+                Pass::Look => cell.times.push((0, time.ns)),
                 Pass::Elsewhere | Pass::Counting => cell.elsewhere.push((process, time.ns)),
             }
             self.done += 1;
@@ -292,6 +311,16 @@ impl Lane {
     /// The answers that stand for its configurations.
     pub fn answers(&self) -> impl Iterator<Item = &Answer> {
         self.cells[..self.own].iter().filter_map(|cell| cell.judged.as_ref()).map(|(answer, _)| answer)
+    }
+
+    /// What was measured of these configurations so far; in its records, their places stand for them. Whether the times fit
+    /// together is found out at the end.
+    pub fn so_far(&self, numbers: &[u32]) -> Measured {
+        let cells = numbers.iter().map(|number| self.cells[*number as usize].sketch()).collect();
+        let mut lane = Self { cells, ..Self::new(self.contestant.clone(), &[], numbers.len()) };
+        lane.set_ups.clone_from(&self.set_ups);
+        (lane.cut, lane.memory_bytes, lane.outcome) = (self.cut, self.memory_bytes, self.outcome.clone());
+        lane.into_measured()
     }
 
     /// The medians over the passes. Times that do not fit together are not believed, and that is its outcome.

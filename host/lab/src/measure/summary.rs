@@ -90,7 +90,21 @@ pub fn summarise(
         load_ms: set_up(|s| s.load_ns),
         build_ms: set_up(|s| s.build_ns),
         memory_bytes: measured.memory_bytes,
+        preliminary: false,
         outcome,
+    }
+}
+
+/// The numbers of one algorithm while it is measured: nothing of what only the whole run decides.
+pub fn preliminary(measured: &Measured, asked: Asked, compared: Option<Comparison>) -> AlgorithmResult {
+    AlgorithmResult {
+        preliminary: true,
+        unranked: None,
+        controls: None,
+        timing: None,
+        by_unit: Vec::new(),
+        depends_on_unit: None,
+        ..summarise(measured, asked, compared, None)
     }
 }
 

@@ -10,7 +10,7 @@ use ocb_sandbox::{Killer, Observation, Outcome, PassPlan, Policy, Session};
 
 use super::pace::Pace;
 use super::weave::{self, Piece, Reach};
-use super::{Lane, News, Stop, Task, order, outcome_info};
+use super::{Lane, News, Stop, Task, look, order, outcome_info};
 use crate::contestant::Runner;
 use crate::machine::Machine;
 use crate::model::OutcomeInfo;
@@ -27,6 +27,8 @@ pub enum Pass {
     Elsewhere,
     /// Counters, without a clock.
     Counting,
+    /// A first look, of which nothing counts.
+    Look,
 }
 
 /// One algorithm's pass in a fresh process.
@@ -91,7 +93,7 @@ impl Turn<'_> {
         }
         // Both are drawn anew, so that no question always follows the same one.
         let seed = task.process_seed(process).rotate_left(2);
-        if self.pass == Pass::Official(0) {
+        if matches!(self.pass, Pass::Official(0) | Pass::Look) {
             return weave::evenly(own, &controls, seed);
         }
         let again = |part: &[u32]| order::reshuffled(part, task.seed, process);
@@ -200,15 +202,21 @@ impl Turn<'_> {
 
     fn start(&self, lane: &Lane, killer: &Killer) -> Result<Session, OutcomeInfo> {
         let contestant = &lane.contestant;
+        let limits = match self.pass {
+            Pass::Look => look::limits(),
+            _ => Policy {
+                // A single question may take a whole turn (brute force on large objects), and no more.
+                query_seconds: self.task.budget.as_secs_f64().max(Policy::default().query_seconds),
+                // The turn ends by its allowance; this only catches a runner that never comes back.
+                trial_seconds: 4.0 * self.task.budget.as_secs_f64() + Policy::default().trial_seconds,
+                ..Policy::default()
+            },
+        };
         let policy = Policy {
             runner_cpu: Some(self.machine.measuring_cpu()),
             supervisor_cpu: Some(self.machine.supervisor_cpu()),
             threads: contestant.threads,
-            // A single question may take a whole turn (brute force on large objects), and no more.
-            query_seconds: self.task.budget.as_secs_f64().max(Policy::default().query_seconds),
-            // The turn ends by its allowance; this only catches a runner that never comes back.
-            trial_seconds: 4.0 * self.task.budget.as_secs_f64() + Policy::default().trial_seconds,
-            ..Policy::default()
+            ..limits
         };
         let trial = contestant.trial(self.shown.first(), self.shown.second(), self.task.semantics);
         let launcher = self.runner.launcher(contestant, policy);
@@ -226,6 +234,7 @@ impl Turn<'_> {
             Pass::Official(_) => left.max(share),
             Pass::Elsewhere => share / 2,
             Pass::Counting => share * 2,
+            Pass::Look => look::TIME,
         }
     }
 

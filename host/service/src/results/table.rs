@@ -12,7 +12,7 @@ use ocb_core::query::{Query, Semantics};
 use ocb_core::record::Verdict;
 use ocb_core::selection::{Body, Column, Columns, Selection, distances};
 
-use super::not_yet;
+use super::{not_yet, still_measured};
 use crate::columns::RecordColumns;
 use crate::engine::Inner;
 use crate::runs::sql::RunRow;
@@ -32,6 +32,8 @@ pub struct Table {
     pub looked_at: String,
     /// The algorithms whose records were loaded.
     pub lanes: Vec<Lane>,
+    /// Some of them are still being measured.
+    pub preliminary: bool,
 }
 
 /// The records of one algorithm.
@@ -49,24 +51,45 @@ impl Inner {
     pub async fn table(&self, run: &str, looked_at: &str, selection: Option<&Selection>, all: bool) -> Result<Table> {
         let row = self.run_row(run).await?;
         let set = self.set(row.set_blob.as_deref().ok_or_else(|| not_yet(run))?).await?;
+        let table = self.table_so_far(&row, set, looked_at, selection, all).await?;
+        if table.preliminary { Err(still_measured(run)) } else { Ok(table) }
+    }
+
+    /// The same, with what a run under way has so far, over its configurations so far.
+    pub async fn table_so_far(
+        &self,
+        row: &RunRow,
+        set: Arc<ConfigurationSet>,
+        looked_at: &str,
+        selection: Option<&Selection>,
+        all: bool,
+    ) -> Result<Table> {
+        let run = row.id.as_str();
         let all = all || selection.is_some_and(|selection| selection.uses(Column::Disputed));
         let mut wanted: Vec<String> = (!looked_at.is_empty()).then(|| looked_at.to_owned()).into_iter().collect();
         wanted.extend(selection.iter().flat_map(|selection| selection.algorithms()).map(str::to_owned));
         if all {
             let with_records = self.store.results(run).await?.into_iter().filter(|r| r.records.is_some());
             wanted.extend(with_records.map(|r| r.result.algorithm));
+            wanted.extend(self.under_way.results(run).into_iter().map(|result| result.algorithm));
         }
         let mut lanes: Vec<Lane> = Vec::new();
+        let mut preliminary = false;
         for algorithm in wanted {
             if lanes.iter().all(|lane| lane.algorithm != algorithm) {
-                let (stored, records) = self.records(run, &algorithm).await?;
-                let bits = stored.result.class.map_or(64, |class| class.bits);
+                let (result, records) = self.records_so_far(run, &algorithm).await?;
+                if records.configuration.iter().any(|configuration| *configuration as usize >= set.placed.len()) {
+                    // The whole set has come meanwhile.
+                    return Err(not_yet(run));
+                }
+                preliminary |= result.preliminary;
+                let bits = result.class.map_or(64, |class| class.bits);
                 lanes.push(Lane { algorithm, bits, records });
             }
         }
-        let meshes = self.both_meshes(&row).await?;
+        let meshes = self.both_meshes(row).await?;
         let (query, semantics) = (row.spec.query, row.spec.semantics);
-        Ok(Table { query, semantics, set, meshes, looked_at: looked_at.to_owned(), lanes })
+        Ok(Table { query, semantics, set, meshes, looked_at: looked_at.to_owned(), lanes, preliminary })
     }
 
     /// Object A and object B.

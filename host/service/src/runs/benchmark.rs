@@ -25,6 +25,7 @@ use crate::model::{AlgorithmResult, Environment, Preview, RunSpec, SetInfo, Stat
 use crate::results::sql::StoredResult;
 use crate::runs::draw;
 use crate::runs::log::RunLog;
+use crate::runs::looking::Looking;
 use crate::runs::sql::RunRow;
 use crate::suite::{Suite, drawn_anew};
 use crate::{EngineError, Result};
@@ -50,6 +51,7 @@ pub fn run(inner: &Arc<Inner>, id: &str, stop: &Stop, handle: &Handle) -> Result
     let row =
         handle.block_on(inner.store.run(id))?.ok_or_else(|| EngineError::Fault(format!("The run {id} is gone.")))?;
     let log = RunLog::begin(id, &row.spec.algorithms, inner.store.clone(), inner.run_events.clone(), handle.clone())?;
+    let _shown = inner.under_way.begin(id);
     let mut bench = Bench { inner, row, stop, log };
     let ended = bench.stages().map_err(EngineError::for_visitors);
     match &ended {
@@ -79,23 +81,24 @@ struct All {
 }
 
 /// The two objects, and whether they are one.
-struct Pairing {
-    mesh_a: Arc<Mesh>,
-    mesh_b: Arc<Mesh>,
-    a: Shape,
-    b: Shape,
-    same: bool,
+pub struct Pairing {
+    pub mesh_a: Arc<Mesh>,
+    pub mesh_b: Arc<Mesh>,
+    pub a: Shape,
+    pub b: Shape,
+    pub same: bool,
 }
 
-impl Bench<'_> {
+impl<'a> Bench<'a> {
     fn stages(&mut self) -> Result<End> {
         self.draw_configurations()?;
         let pairing = self.objects()?;
         if self.stop.asked() {
             return Ok(End::Stopped);
         }
-        let Some((set, info)) = self.configurations(&pairing)? else { return Ok(End::Stopped) };
-        if self.measuring(&pairing, &set, &info)? == End::Stopped {
+        let looking = self.looking()?;
+        let Some((set, info)) = self.configurations(&pairing, &looking)? else { return Ok(End::Stopped) };
+        if self.measuring(&pairing, &looking, &set, &info)? == End::Stopped {
             return Ok(End::Stopped);
         }
         self.heatmaps()?;
@@ -129,7 +132,11 @@ impl Bench<'_> {
     }
 
     /// Stored positions when somebody found them before, else new ones; `None` when stopped.
-    fn configurations(&mut self, pairing: &Pairing) -> Result<Option<(Arc<ConfigurationSet>, SetInfo)>> {
+    fn configurations(
+        &mut self,
+        pairing: &Pairing,
+        looking: &Looking,
+    ) -> Result<Option<(Arc<ConfigurationSet>, SetInfo)>> {
         let (a, b) = (&pairing.mesh_a, &pairing.mesh_b);
         let (sha_a, sha_b) = (a.sha256(), b.sha256());
         let key = configurations::set_key(&sha_a, &sha_b, &self.row.spec)?;
@@ -150,7 +157,7 @@ impl Bench<'_> {
         drop(keeping);
         let started = Instant::now();
         let poses = file.map(|file| file.poses);
-        let Some(set) = self.find(pairing, poses.as_deref())? else { return Ok(None) };
+        let Some(set) = self.find(pairing, looking, poses.as_deref())? else { return Ok(None) };
         let seconds = started.elapsed().as_secs_f64();
         let _keeping = self.log.wait(self.inner.blobs.keeping());
         let info = self.log.wait(self.inner.keep_set(&key, [a, b], &set, seconds))?;
@@ -169,7 +176,12 @@ impl Bench<'_> {
     }
 
     /// Finds the set on all CPUs while this thread reports.
-    fn find(&mut self, pairing: &Pairing, poses: Option<&[Configuration]>) -> Result<Option<ConfigurationSet>> {
+    fn find(
+        &mut self,
+        pairing: &Pairing,
+        looking: &Looking,
+        poses: Option<&[Configuration]>,
+    ) -> Result<Option<ConfigurationSet>> {
         let spec: &RunSpec = &self.row.spec.clone();
         let total = match poses {
             Some(poses) => poses.len() as u64,
@@ -180,9 +192,13 @@ impl Bench<'_> {
         let gauge = Gauge::default();
         let longest_side = pairing.mesh_a.longest_side();
         let gauge = &gauge;
+        let beginning = &mut |set: &ConfigurationSet| looking.at_beginning(pairing, set, total);
         let set = thread::scope(|scope| -> Result<_> {
             let mut way = MakingWay::begin(&self.inner.machine);
-            let worker = scope.spawn(|| configurations::make(&pairing.a, &pairing.b, longest_side, spec, poses, gauge));
+            let worker = scope.spawn(move || {
+                let (a, b) = (&pairing.a, &pairing.b);
+                configurations::make(a, b, longest_side, spec, poses, gauge, Some(beginning))
+            });
             while !worker.is_finished() {
                 thread::sleep(TICK.min(Duration::from_millis(20)));
                 way.look();
@@ -201,7 +217,13 @@ impl Bench<'_> {
         Ok(set)
     }
 
-    fn measuring(&mut self, pairing: &Pairing, set: &ConfigurationSet, info: &SetInfo) -> Result<End> {
+    fn measuring(
+        &mut self,
+        pairing: &Pairing,
+        looking: &Looking,
+        set: &ConfigurationSet,
+        info: &SetInfo,
+    ) -> Result<End> {
         let known = self.log.wait(self.inner.store.results(&self.row.id))?;
         let complete = self.row.spec.algorithms.iter().all(|a| known.iter().any(|k| k.result.algorithm == *a));
         if complete && !self.row.is_refined() {
@@ -219,23 +241,7 @@ impl Bench<'_> {
         let (seed, part) = (draw::seed(&self.row, &info.sha256, &contestants), Part::of(&spec, set));
         let controls = self.controls(pairing, set, seed, part.most(set))?;
         let Some(_right) = self.right_to_measure()? else { return Ok(End::Stopped) };
-        let task = Task {
-            mesh_a: &pairing.mesh_a,
-            mesh_b: &pairing.mesh_b,
-            a: &pairing.a,
-            b: &pairing.b,
-            same: pairing.same,
-            set,
-            controls: &controls,
-            query: spec.query,
-            semantics: spec.semantics,
-            passes: spec.passes,
-            budget: Duration::from_secs_f64(spec.budget_seconds),
-            seed,
-            contestants: &contestants,
-            reference: reference.as_ref(),
-            part,
-        };
+        let task = Task { controls: &controls, seed, ..looking.task(pairing, set, part) };
         let (of, asked_for) = (task.part.of, contestants.len());
         let name = reference.as_ref().map_or("", |reference| reference.info.name.as_str());
         let mut preview = None;
@@ -247,7 +253,10 @@ impl Bench<'_> {
             let (runner, machine, stop) = (self.inner.registry.runner(), &self.inner.machine, self.stop);
             let worker = thread::Builder::new()
                 .name("measuring".into())
-                .spawn_scoped(scope, move || measure::measure(&task, runner, machine, stop, &sender))
+                .spawn_scoped(scope, move || {
+                    looking.before_the_rounds(pairing, set, part);
+                    measure::measure(&task, runner, machine, stop, &sender);
+                })
                 .map_err(|e| EngineError::fault("Starting the measuring thread failed", e))?;
             loop {
                 match news.recv_timeout(TICK) {
@@ -262,6 +271,7 @@ impl Bench<'_> {
                         noted = true;
                     }
                     Ok(News::Preview(found)) => preview = Some(found),
+                    Ok(News::Preliminary { lane, preliminary }) => looking.show(lane, *preliminary),
                     Ok(News::Finished { lane, measured }) => finished.push((lane, *measured)),
                     Err(RecvTimeoutError::Timeout) => {}
                     Err(RecvTimeoutError::Disconnected) => break,
@@ -403,7 +413,14 @@ impl Bench<'_> {
                 .then(|| format!("The time limit was reached after {} of {} configurations.", result.n, result.of))
         };
         let state = if failed { State::Failed } else { State::Done };
+        self.inner.under_way.stored(lane);
         self.log.end(FIRST_MEASURING + lane, state, message, Some(result))
+    }
+
+    /// What is needed to look at this run before it has ended.
+    fn looking(&self) -> Result<Looking<'a>> {
+        let reference = crate::runs::spec::reference(&self.row.spec, &self.inner.registry);
+        Ok(Looking::new(self.inner, self.stop, &self.row, self.contestants()?, reference))
     }
 
     /// The algorithms may have changed since the run was asked for, by a restart with other plugins.

@@ -42,6 +42,7 @@ impl Engine {
             read: VecDeque::new(),
             changes,
             place: None,
+            shown: 0,
             ended: false,
         };
         Ok(futures::stream::unfold(follower, async |mut follower| {
@@ -59,6 +60,8 @@ struct Follower {
     changes: Receiver<std::sync::Arc<str>>,
     /// The runs ahead of a waiting one that were told last. Places are computed when somebody looks, and no event is kept.
     place: Option<u32>,
+    /// The version of what the run shows before it has ended that was told last; no event of that is kept.
+    shown: u64,
     ended: bool,
 }
 
@@ -80,6 +83,9 @@ impl Follower {
                     return Some(Err(e));
                 }
             }
+            if self.read.is_empty() {
+                self.look_at_preliminary_results();
+            }
             if self.read.is_empty() && self.place_has_changed().await {
                 let event = plain_event(State::Queued, self.place.unwrap_or(0));
                 return Some(Ok(RunEvent { seq: self.after, at_us: now_us(), ..event }));
@@ -88,6 +94,19 @@ impl Follower {
                 return None;
             }
         }
+    }
+
+    /// Tells what is newer of the run's algorithms than what was told of them.
+    fn look_at_preliminary_results(&mut self) {
+        let (results, version) = self.engine.inner.under_way.newer(&self.id, self.shown);
+        self.shown = version;
+        let seq = self.after;
+        self.read.extend(results.into_iter().map(|result| RunEvent {
+            seq,
+            at_us: now_us(),
+            result: Some(result),
+            ..plain_event(State::Running, 0)
+        }));
     }
 
     /// Looks at the place of a run that waits.

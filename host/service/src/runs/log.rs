@@ -38,12 +38,17 @@ impl RunEvents {
         let _ = self.sender.send(QUEUE.into());
     }
 
+    /// There is something new of a run that no event has.
+    pub fn ring(&self, run: &str) {
+        let _ = self.sender.send(run.into());
+    }
+
     /// Writes an event and rings.
     pub async fn tell(&self, store: &Store, run: &str, mut event: RunEvent) -> Result<()> {
         event.at_us = now_us();
         store.add_event(run, &mut event).await?;
         // Nobody listening is no error.
-        let _ = self.sender.send(run.into());
+        self.ring(run);
         Ok(())
     }
 }

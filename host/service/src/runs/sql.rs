@@ -227,10 +227,11 @@ impl Store {
         rows.iter().map(read_run).collect()
     }
 
-    /// The newest finished run for the start page.
+    /// The newest finished run for the start page, or while there is none, the one that is to become it.
     pub async fn newest_featured(&self) -> Result<Option<RunRow>> {
         let row = sqlx::query(select_runs!(
-            "WHERE featured = 1 AND state = 'done' ORDER BY finished_us DESC, id DESC LIMIT 1"
+            "WHERE featured = 1 AND state IN ('queued', 'running', 'done') \
+             ORDER BY CASE state WHEN 'done' THEN 0 ELSE 1 END, finished_us DESC, id DESC LIMIT 1"
         ))
         .fetch_optional(&self.pool)
         .await?;

@@ -19,7 +19,7 @@ use ocb_core::query::Query;
 
 mod campaigns;
 mod deletion;
-mod fixtures;
+pub(crate) mod fixtures;
 mod lists;
 mod mails;
 mod owned;

@@ -55,6 +55,19 @@ pub fn files(folder: &Path) -> usize {
     entries.flatten().map(|e| if e.path().is_dir() { files(&e.path()) } else { 1 }).sum()
 }
 
+/// A right plugin that takes so many milliseconds to build an object and to answer, under so many names.
+#[expect(clippy::disallowed_methods, reason = "the test compiles a plugin")]
+pub fn slow(folder: &Path, build: u32, query: u32, algorithms: u32) -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let file = folder.join(format!("slow-{build}-{query}-{algorithms}.so"));
+    let mut cc = std::process::Command::new("cc");
+    cc.args(["-std=gnu11", "-O1", "-fPIC", "-shared", "-fvisibility=hidden"]);
+    cc.args([("BUILD_MS", build), ("QUERY_MS", query), ("OFFERED", algorithms)].map(|(k, v)| format!("-D{k}={v}")));
+    cc.arg("-I").arg(here.join("../../plugin-api/include")).arg("-I").arg(here.join("../../plugin-api/templates/c"));
+    assert!(cc.arg(here.join("tests/fixtures/slow.c")).arg("-o").arg(&file).status().unwrap().success());
+    file
+}
+
 /// A check of a second.
 pub fn quick() -> ocb_service::Extent {
     ocb_service::Extent { quick: true, ..ocb_service::Extent::default() }

@@ -126,6 +126,7 @@ pub(crate) fn result(algorithm: &str, n: u32) -> StoredResult {
             build_ms: None,
             load_ms: None,
             memory_bytes: Some(u64::from(u32::MAX) + 1),
+            preliminary: false,
         },
         records: None,
         triangle_tests: None,

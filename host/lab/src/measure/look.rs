@@ -1,0 +1,191 @@
+//! What is shown of a run before it has ended: a first look at every algorithm before the rounds, and then what the rounds
+//! have so far. None of it is stored, ranked or used again.
+//!
+//! A first look asks a fresh process of its own, in a lane that is thrown away, so that no process of the rounds has seen a
+//! question before and no number of theirs has an answer of it. It gives an algorithm a moment and no more: one that builds
+//! or answers slowly is seen later, and does not keep the others from being seen.
+//!
+//! The rounds are shown between two turns, when nothing is measured.
+
+use std::sync::mpsc::{Sender, channel};
+use std::time::{Duration, Instant};
+
+use ocb_core::comparison::compare;
+use ocb_core::configuration::ConfigurationSet;
+use ocb_core::oracle::Pair;
+use ocb_sandbox::Policy;
+
+use super::summary::preliminary;
+use super::turn::{Pass, Turn};
+use super::{Asked, Lane, Measured, News, Part, Stop, Task};
+use crate::columns::RecordColumns;
+use crate::contestant::Runner;
+use crate::machine::Machine;
+use crate::model::AlgorithmResult;
+
+/// A first look asks so many questions at most: a few hundred colour an object.
+pub const QUESTIONS: usize = 300;
+/// It asks for so long at most.
+pub const TIME: Duration = Duration::from_millis(150);
+/// It gives an algorithm so long to load, to build, and to answer one question.
+const PATIENCE: Duration = Duration::from_millis(700);
+/// A run of fewer configurations than this is not looked at before it has ended.
+const LEAST: usize = 100;
+
+/// What the rounds have so far is shown no more often than this, and never for more than a twentieth of the time.
+const SHOW_EVERY: Duration = Duration::from_secs(1);
+const SHARE: u32 = 20;
+/// And so many configurations of it at most: the beginning of the shared order, which is a fair sample.
+const MOST: usize = 10_000;
+
+/// Number of the processes that only look. No round has it.
+const PROCESS: u32 = u32::MAX;
+
+/// What is known of an algorithm while it is measured.
+#[derive(Clone, Debug)]
+pub struct Preliminary {
+    /// Its numbers, without a rank.
+    pub result: AlgorithmResult,
+    /// Its records so far.
+    pub records: RecordColumns,
+}
+
+/// The limits of a process that only looks.
+pub fn limits() -> Policy {
+    let patience = PATIENCE.as_secs_f64();
+    Policy {
+        load_seconds: patience,
+        build_seconds: patience,
+        query_seconds: patience,
+        trial_seconds: 4.0 * patience,
+        ..Policy::default()
+    }
+}
+
+/// Is there anything to see before a run of so many configurations has ended?
+pub fn worth_a_look(configurations: u64) -> bool {
+    configurations >= LEAST as u64
+}
+
+/// Shows what each algorithm answers to the first questions of the task's order. The task may have the beginning of its set
+/// only. The algorithms that answered nothing in time are left out.
+pub fn first_look(
+    task: &Task,
+    runner: &Runner,
+    machine: &Machine,
+    stop: &Stop,
+    show: &mut dyn FnMut(usize, Preliminary),
+) {
+    let _quiet = machine.keep_off();
+    let numbers = task.first(QUESTIONS);
+    let placed = numbers.iter().map(|number| *task.placed(*number)).collect();
+    let set = &ConfigurationSet { placed, ..empty(task.set) };
+    let part = Part { precision: None, at_most: usize::MAX, of: task.part.of };
+    let task = &Task { set, controls: &[], passes: 1, budget: TIME, part, ..*task };
+    let (shown, base) = (task.instance(PROCESS), (0..set.placed.len() as u32).collect::<Vec<_>>());
+    let mut of_reference: Option<Measured> = None;
+    for (index, contestant) in task.lanes().enumerate() {
+        let mut lane = Lane::new(contestant.clone(), &task.slack(contestant), base.len());
+        // How far it is stays untold: it is not under way yet.
+        let (news, _) = channel();
+        let (piece, pass) = (task.piece(0, base.len()), Pass::Look);
+        let (base, shown, process) = (&base, &shown, PROCESS);
+        let turn = Turn {
+            task,
+            runner,
+            machine,
+            stop,
+            news: &news,
+            index,
+            pass,
+            elsewhere: false,
+            process,
+            base,
+            piece,
+            shown,
+        };
+        turn.play(&mut lane, &turn.piece);
+        if stop.asked() {
+            return;
+        }
+        if lane.ended() || lane.done == 0 {
+            continue;
+        }
+        let measured = lane.so_far(base);
+        if index < task.contestants.len() {
+            show(index, task.preliminary(&measured, of_reference.as_ref(), &numbers));
+        }
+        if task.reference.is_some_and(|reference| reference.info.id == contestant.info.id) {
+            of_reference = Some(measured);
+        }
+    }
+}
+
+/// The same set without its configurations.
+fn empty(set: &ConfigurationSet) -> ConfigurationSet {
+    ConfigurationSet { method: set.method.clone(), placed: Vec::new(), ..*set }
+}
+
+/// Shows now and then what the rounds have so far.
+pub struct Showing<'a> {
+    task: &'a Task<'a>,
+    news: &'a Sender<News>,
+    /// The configurations that are shown.
+    numbers: &'a [u32],
+    /// Lanes with something new.
+    waiting: Vec<usize>,
+    shown: Instant,
+    took: Duration,
+}
+
+impl<'a> Showing<'a> {
+    /// In this order.
+    pub fn new(task: &'a Task, news: &'a Sender<News>, base: &'a [u32]) -> Self {
+        let numbers = &base[..task.most().min(MOST)];
+        Self { task, news, numbers, waiting: Vec::new(), shown: Instant::now(), took: Duration::ZERO }
+    }
+
+    /// A lane has ended a turn, and nothing is measured now.
+    pub fn after_turn(&mut self, lanes: &[Lane], index: usize) {
+        if !self.task.watched || !worth_a_look(self.numbers.len() as u64) {
+            return;
+        }
+        if index < self.task.contestants.len() && !self.waiting.contains(&index) {
+            self.waiting.push(index);
+        }
+        if self.shown.elapsed() < SHOW_EVERY.max(SHARE * self.took) {
+            return;
+        }
+        let begun = Instant::now();
+        let named = |lane: &&Lane| self.task.reference.is_some_and(|it| it.info.id == lane.contestant.info.id);
+        let of_reference = lanes.iter().find(named).map(|lane| lane.so_far(self.numbers));
+        for lane in self.waiting.drain(..) {
+            let measured = lanes[lane].so_far(self.numbers);
+            if !measured.records.is_empty() {
+                let preliminary = self.task.preliminary(&measured, of_reference.as_ref(), self.numbers);
+                let _ = self.news.send(News::Preliminary { lane, preliminary: Box::new(preliminary) });
+            }
+        }
+        (self.took, self.shown) = (begun.elapsed(), Instant::now());
+    }
+}
+
+impl Task<'_> {
+    /// What there is to show of these configurations, whose places in `numbers` the records have.
+    fn preliminary(&self, measured: &Measured, reference: Option<&Measured>, numbers: &[u32]) -> Preliminary {
+        let compared = compare(&measured.times, reference.map(|r| &r.times[..]), self.passes, self.part.of);
+        let placed: Vec<_> = numbers.iter().map(|number| *self.placed(*number)).collect();
+        let asked = Asked {
+            pair: Pair::new(self.a, self.b),
+            placed: &placed,
+            query: self.query,
+            semantics: self.semantics,
+            controls: &[],
+            coherent: self.coherent(),
+        };
+        let result = AlgorithmResult { of: self.part.of as u32, ..preliminary(measured, asked, compared) };
+        let mut records = RecordColumns::of(&measured.records);
+        records.configuration.iter_mut().for_each(|place| *place = numbers[*place as usize]);
+        Preliminary { result, records }
+    }
+}

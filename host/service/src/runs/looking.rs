@@ -1,0 +1,104 @@
+//! Looking at a run before it has ended: who may be looked at, and where that is shown.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use ocb_core::configuration::ConfigurationSet;
+use ocb_lab::contestant::Contestant;
+
+use crate::engine::Inner;
+use crate::machine::MeasuringRight;
+use crate::measure::{self, Part, Preliminary, Stop, Task};
+use crate::model::RunSpec;
+use crate::runs::benchmark::Pairing;
+use crate::runs::draw;
+use crate::runs::sql::RunRow;
+
+/// One run while it is looked at.
+pub struct Looking<'a> {
+    inner: &'a Inner,
+    stop: &'a Stop,
+    run: String,
+    spec: RunSpec,
+    contestants: Vec<Arc<Contestant>>,
+    reference: Option<Arc<Contestant>>,
+    /// Of the processes that look; those that measure have another.
+    seed: u64,
+    watched: bool,
+    looked: AtomicBool,
+}
+
+impl<'a> Looking<'a> {
+    /// Nobody waits in front of the suite's and a campaign's runs, and a run whose numbers are there is not looked at anew.
+    pub fn new(
+        inner: &'a Inner,
+        stop: &'a Stop,
+        row: &RunRow,
+        contestants: Vec<Arc<Contestant>>,
+        reference: Option<Arc<Contestant>>,
+    ) -> Self {
+        Self {
+            inner,
+            stop,
+            run: row.id.clone(),
+            spec: row.spec.clone(),
+            seed: draw::seed(row, "first look", &contestants),
+            contestants,
+            reference,
+            watched: row.suite.is_none() && row.campaign.is_none() && !row.is_refined(),
+            looked: AtomicBool::new(false),
+        }
+    }
+
+    /// The run's task on this set, without controls.
+    pub fn task<'t>(&'t self, pairing: &'t Pairing, set: &'t ConfigurationSet, part: Part) -> Task<'t> {
+        Task {
+            mesh_a: &pairing.mesh_a,
+            mesh_b: &pairing.mesh_b,
+            a: &pairing.a,
+            b: &pairing.b,
+            same: pairing.same,
+            set,
+            controls: &[],
+            query: self.spec.query,
+            semantics: self.spec.semantics,
+            passes: self.spec.passes,
+            budget: Duration::from_secs_f64(self.spec.budget_seconds),
+            seed: self.seed,
+            contestants: &self.contestants,
+            reference: self.reference.as_ref(),
+            part,
+            watched: self.watched,
+        }
+    }
+
+    /// Where the rest of the set takes long: looks at its beginning. The machine may belong to another process now.
+    pub fn at_beginning(&self, pairing: &Pairing, set: &ConfigurationSet, of: u64) {
+        let Ok(Some(_right)) = MeasuringRight::try_take() else { return };
+        self.inner.under_way.begins_with(set.clone());
+        self.look(pairing, set, Part { precision: None, at_most: usize::MAX, of });
+    }
+
+    /// Looks, unless that was done.
+    pub fn before_the_rounds(&self, pairing: &Pairing, set: &ConfigurationSet, part: Part) {
+        if measure::worth_a_look(part.most(set) as u64) {
+            self.look(pairing, set, part);
+        }
+    }
+
+    fn look(&self, pairing: &Pairing, set: &ConfigurationSet, part: Part) {
+        if !self.watched || self.looked.swap(true, Ordering::Relaxed) {
+            return;
+        }
+        let task = self.task(pairing, set, part);
+        let (runner, machine) = (self.inner.registry.runner(), &self.inner.machine);
+        measure::first_look(&task, runner, machine, self.stop, &mut |place, seen| self.show(place, seen));
+    }
+
+    /// The algorithm at this place of the run's list has something to show.
+    pub fn show(&self, place: usize, seen: Preliminary) {
+        self.inner.under_way.show(place, seen);
+        self.inner.run_events.ring(&self.run);
+    }
+}

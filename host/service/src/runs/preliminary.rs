@@ -1,0 +1,140 @@
+//! What the run under way can show before it has ended. It is kept in memory alone and goes with the run's end, however that
+//! comes; an algorithm's part goes when its result is stored.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use ocb_core::configuration::ConfigurationSet;
+use ocb_lab::columns::RecordColumns;
+use ocb_lab::measure::Preliminary;
+
+use crate::model::AlgorithmResult;
+
+/// One run is under way at a time, so there is one at most.
+#[derive(Default)]
+pub struct UnderWay {
+    run: Mutex<Option<Showing>>,
+}
+
+struct Showing {
+    run: String,
+    /// The configurations that the records are of, while the whole set is being found.
+    beginning: Option<Arc<ConfigurationSet>>,
+    lanes: Vec<Lane>,
+    /// Grows with each change.
+    version: u64,
+}
+
+struct Lane {
+    place: usize,
+    version: u64,
+    result: AlgorithmResult,
+    records: Arc<RecordColumns>,
+}
+
+/// Until it is dropped, this run may show something.
+pub struct Shown<'a> {
+    under_way: &'a UnderWay,
+}
+
+impl Drop for Shown<'_> {
+    fn drop(&mut self) {
+        *self.under_way.lock() = None;
+    }
+}
+
+impl UnderWay {
+    /// This run is under way now.
+    pub fn begin(&self, run: &str) -> Shown<'_> {
+        *self.lock() = Some(Showing { run: run.to_owned(), beginning: None, lanes: Vec::new(), version: 0 });
+        Shown { under_way: self }
+    }
+
+    /// The records will be of these configurations, until the whole set is stored.
+    pub fn begins_with(&self, set: ConfigurationSet) {
+        if let Some(showing) = &mut *self.lock() {
+            showing.beginning = Some(Arc::new(set));
+        }
+    }
+
+    /// The algorithm at this place of the run's list has something to show.
+    pub fn show(&self, place: usize, Preliminary { result, records }: Preliminary) {
+        if let Some(showing) = &mut *self.lock() {
+            showing.version += 1;
+            showing.lanes.retain(|lane| lane.place != place);
+            showing.lanes.push(Lane { place, version: showing.version, result, records: Arc::new(records) });
+            showing.lanes.sort_by_key(|lane| lane.place);
+        }
+    }
+
+    /// The result of the algorithm at this place is stored.
+    pub fn stored(&self, place: usize) {
+        if let Some(showing) = &mut *self.lock() {
+            showing.lanes.retain(|lane| lane.place != place);
+        }
+    }
+
+    /// What is newer than a version, and the version that this is.
+    pub fn newer(&self, run: &str, than: u64) -> (Vec<AlgorithmResult>, u64) {
+        self.of(run, |showing| {
+            let newer = showing.lanes.iter().filter(|lane| lane.version > than);
+            (newer.map(|lane| lane.result.clone()).collect(), showing.version)
+        })
+        .unwrap_or((Vec::new(), than))
+    }
+
+    /// The numbers of the run's algorithms so far.
+    pub fn results(&self, run: &str) -> Vec<AlgorithmResult> {
+        self.newer(run, 0).0
+    }
+
+    /// Numbers and records of one algorithm so far.
+    pub fn records(&self, run: &str, algorithm: &str) -> Option<(AlgorithmResult, Arc<RecordColumns>)> {
+        self.of(run, |showing| {
+            let lane = showing.lanes.iter().find(|lane| lane.result.algorithm == algorithm)?;
+            Some((lane.result.clone(), lane.records.clone()))
+        })?
+    }
+
+    /// The beginning of a set that is still being found.
+    pub fn beginning(&self, run: &str) -> Option<Arc<ConfigurationSet>> {
+        self.of(run, |showing| showing.beginning.clone())?
+    }
+
+    fn of<T>(&self, run: &str, read: impl FnOnce(&Showing) -> T) -> Option<T> {
+        self.lock().as_ref().filter(|showing| showing.run == run).map(read)
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<Showing>> {
+        self.run.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::store::tests::fixtures;
+
+    fn preliminary(algorithm: &str, n: u32) -> Preliminary {
+        let result = AlgorithmResult { preliminary: true, ..fixtures::result(algorithm, n).result };
+        Preliminary { result, records: RecordColumns::default() }
+    }
+
+    #[test]
+    fn what_is_shown_is_of_one_run_and_goes_with_it() {
+        let under_way = UnderWay::default();
+        under_way.show(0, preliminary("a", 9));
+        let shown = under_way.begin("run");
+        assert!(under_way.results("run").is_empty(), "nothing is under way that it could be of");
+        under_way.show(1, preliminary("b", 1));
+        under_way.show(0, preliminary("a", 2));
+        let n = |run, than| under_way.newer(run, than).0.iter().map(|r| r.n).collect::<Vec<_>>();
+        assert_eq!((n("run", 0), n("run", 1), n("other", 0)), (vec![2, 1], vec![2], vec![]));
+        under_way.show(1, preliminary("b", 5));
+        assert_eq!((n("run", 2), under_way.newer("run", 3)), (vec![5], (vec![], 3)));
+        assert!(under_way.records("run", "b").is_some() && under_way.records("other", "b").is_none());
+        under_way.stored(0);
+        assert_eq!(n("run", 0), [5]);
+        drop(shown);
+        assert!(under_way.results("run").is_empty() && under_way.records("run", "b").is_none());
+    }
+}

@@ -1,0 +1,125 @@
+//! What a run shows before it has ended, in real processes.
+
+mod common;
+
+use std::time::Duration;
+
+use futures::StreamExt;
+use ocb_core::statistics::{Outliers, Statistic};
+use ocb_service::model::{Heatmap, HeatmapRequest, Measure, RunEvent, RunSpec, StageKind, State};
+use ocb_service::{Engine, EngineConfig, EngineError};
+use tokio::sync::{Mutex, MutexGuard};
+
+/// One run at a time on a machine.
+async fn alone() -> MutexGuard<'static, ()> {
+    static ALONE: Mutex<()> = Mutex::const_new(());
+    ALONE.lock().await
+}
+
+async fn times(engine: &Engine, run: &str, algorithm: &str) -> Result<Heatmap, EngineError> {
+    let request = HeatmapRequest::new(algorithm, Measure::Time, Statistic::Median, Outliers::Keep);
+    engine.heatmap(run, &request).await
+}
+
+/// How far an algorithm is, and what there is to show of it.
+fn told<'e>(event: &'e RunEvent, algorithm: &str) -> (u64, Option<&'e ocb_service::model::AlgorithmResult>) {
+    let stage = event.stage.as_ref().filter(|stage| stage.algorithm.as_deref() == Some(algorithm));
+    (stage.map_or(0, |stage| stage.done), event.result.as_ref().filter(|result| result.algorithm == algorithm))
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_fast_algorithm_is_seen_while_a_slow_one_builds_and_nothing_of_it_counts() {
+    let _alone = alone().await;
+    let data = tempfile::tempdir().unwrap();
+    let mut config = common::config(data.path());
+    config.plugins.push(common::slow(data.path(), 1500, 0, 1));
+    let engine = Engine::open(config).await.unwrap();
+    let algorithms: Vec<String> = ["slow-0", "box-tree", "parry"].map(Into::into).to_vec();
+    let spec = RunSpec { algorithms, ..common::spec("collision_first", 3000, 7) };
+    let run = engine.submit(spec, Some("guest")).await.unwrap().id;
+    let mut events = Box::pin(engine.follow(&run, 0).await.unwrap());
+    let mut seen: Vec<RunEvent> = Vec::new();
+    let mut n = Vec::new();
+    while let Some(event) = events.next().await {
+        let event = event.unwrap();
+        if let (_, Some(result)) = told(&event, "box-tree")
+            && result.preliminary
+        {
+            n.push(result.n);
+            if n.len() == 1 {
+                assert!(seen.iter().all(|event| told(event, "slow-0").0 == 0), "the slow one was waited for");
+                let map = times(&engine, &run, "box-tree").await.unwrap();
+                assert!(map.preliminary && map.n == result.n && map.range.is_some(), "{:?}", map.n);
+                let ecdf = engine.ecdf(&run, "box-tree", None).await.unwrap();
+                assert!(ecdf.preliminary && ecdf.n == result.n);
+                // What leaves the service, and what it remembers, is final.
+                for refused in [
+                    engine.records_parquet(&run, "box-tree").await.err(),
+                    engine.columns_arrow(&run, "box-tree").await.err(),
+                    engine.heatmap_ply(&run, &map.request, Default::default(), Default::default()).await.err(),
+                ] {
+                    assert!(matches!(refused, Some(EngineError::NotFound(_))), "{refused:?}");
+                }
+                let info = engine.run(&run, None).await.unwrap();
+                let so_far = info.results.iter().find(|r| r.algorithm == "box-tree").unwrap();
+                assert!(so_far.preliminary && so_far.rank.is_none() && so_far.of == 3000, "{so_far:?}");
+                let median = so_far.time.unwrap().median_ns;
+                assert!(median.lo <= median.value && median.value <= median.hi && median.lo < median.hi);
+            }
+        }
+        seen.push(event);
+    }
+    assert!((1..=300).contains(&n[0]), "{n:?}");
+    assert!(n.len() > 1 && n.last() > n.first(), "it becomes finer: {n:?}");
+
+    let last = engine.run(&run, None).await.unwrap();
+    assert_eq!(last.state, State::Done, "{:?}", last.message);
+    assert_eq!(last.results.len(), 3);
+    for result in &last.results {
+        assert!(!result.preliminary && (result.n, result.of, result.wrong) == (3000, 3000, 0), "{result:?}");
+        assert_eq!(result.timing.as_ref().unwrap().processes, 2, "a look is no pass");
+        assert!(result.rank.is_some() && result.controls.is_some(), "{:?}", result.unranked);
+    }
+    let stored = engine.events(&run, 0).await.unwrap();
+    assert!(stored.iter().filter_map(|event| event.result.as_ref()).all(|result| !result.preliminary));
+    let map = times(&engine, &run, "box-tree").await.unwrap();
+    assert_eq!((map.preliminary, map.n), (false, 3000));
+    engine.shutdown().await;
+}
+
+/// The set takes many seconds to be found.
+#[tokio::test(flavor = "multi_thread")]
+async fn the_beginning_of_a_large_set_is_seen_and_goes_when_the_run_is_cancelled() {
+    let _alone = alone().await;
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(EngineConfig { featured: false, ..common::config(data.path()) }).await.unwrap();
+    // Another process may measure at the very moment.
+    for attempt in 1.. {
+        let algorithms = vec!["parry".into()];
+        let spec = RunSpec { algorithms, ..common::spec("proximity", 2_000_000, attempt) };
+        let run = engine.submit(spec, Some("guest")).await.unwrap().id;
+        let mut events = Box::pin(engine.follow(&run, 0).await.unwrap());
+        let next = async {
+            while let Some(event) = events.next().await {
+                if told(&event.unwrap(), "parry").1.is_some() {
+                    return;
+                }
+            }
+        };
+        let seen = tokio::time::timeout(Duration::from_secs(10), next).await.is_ok();
+        let info = engine.run(&run, None).await.unwrap();
+        if !seen && attempt < 6 {
+            engine.cancel(&run, Some("guest")).await.unwrap();
+            continue;
+        }
+        let finding = info.stages.iter().find(|stage| stage.kind == StageKind::Configurations).unwrap();
+        assert_eq!((finding.state, info.results.len()), (State::Running, 1));
+        let map = times(&engine, &run, "parry").await.unwrap();
+        assert!(map.preliminary && map.n == info.results[0].n && (1..=300).contains(&map.n), "{}", map.n);
+        let cancelled = engine.cancel(&run, Some("guest")).await.unwrap();
+        assert_eq!((cancelled.state, cancelled.results.len()), (State::Cancelled, 0));
+        assert!(matches!(times(&engine, &run, "parry").await, Err(EngineError::NotFound(_))));
+        break;
+    }
+    engine.shutdown().await;
+}
