@@ -185,7 +185,7 @@ impl Guest {
         let end = Instant::now() + Duration::from_secs(180);
         loop {
             let answer = self.look(service, "/featured");
-            if answer.status().is_success() && answer.json::<Value>().is_ok_and(|run| run.is_object()) {
+            if answer.status().is_success() && answer.json::<Value>().is_ok_and(|run| run["state"] == "done") {
                 return;
             }
             assert!(Instant::now() < end, "the run of the start page does not end");

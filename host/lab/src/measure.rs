@@ -54,6 +54,7 @@ pub use controls::draw as draw_controls;
 pub use lane::{Lane, Measured, precision};
 use look::Showing;
 pub use look::{Preliminary, QUESTIONS, first_look, worth_a_look};
+pub use pace::{Cost, cost};
 pub use summary::{Asked, environment, rank, summarise};
 use turn::{Pass, Turn};
 use weave::Piece;

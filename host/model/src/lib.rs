@@ -246,6 +246,9 @@ pub struct RunInfo {
     pub created_us: i64,
     /// When it ended.
     pub finished_us: Option<i64>,
+    /// Expected seconds until its end, from what it has measured so far; known while it is running.
+    #[serde(default)]
+    pub seconds_left: Option<f64>,
 }
 
 /// Which lane.
@@ -471,8 +474,11 @@ pub struct RunEvent {
     pub runs_ahead: u32,
     /// The lane that changed, as it is now.
     pub stage: Option<Stage>,
-    /// The algorithm's summary, when it has just been finished.
+    /// The algorithm's summary, when it has just been finished, or when there is a newer one that is preliminary.
     pub result: Option<AlgorithmResult>,
+    /// Expected seconds until the run's end, from what it has measured so far; known while it is running.
+    #[serde(default)]
+    pub seconds_left: Option<f64>,
 }
 
 /// The service at a glance.

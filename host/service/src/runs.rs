@@ -14,6 +14,7 @@ pub mod places;
 pub mod preliminary;
 pub mod priority;
 pub mod queue;
+pub mod remaining;
 pub mod repro;
 pub mod spec;
 pub mod sql;
@@ -269,6 +270,7 @@ impl Engine {
         let mut results: Vec<_> = store.results(&row.id).await?.into_iter().map(|stored| stored.result).collect();
         let so_far = self.inner.under_way.results(&row.id).into_iter();
         results.extend(so_far.filter(|new| store_has_none(&results, new)).collect::<Vec<_>>());
+        let seconds_left = self.inner.under_way.seconds_left(&row.id);
         Ok(RunInfo {
             stages,
             results,
@@ -289,6 +291,7 @@ impl Engine {
             attempts: row.attempts,
             created_us: row.created_us,
             finished_us: row.finished_us,
+            seconds_left,
             spec: row.spec,
         })
     }

@@ -93,6 +93,13 @@ test('a stock object becomes a heatmap whose picked value is the API\'s', async 
   }
   await v.picture('live')
   await v.at('viewer-0').waitFor({ timeout: 120_000 })
+  await until('a coloured object while it is measured', async () => (await v.colours(v.at('viewer-0'))).hues >= 2)
+  const marks = [await v.at('preliminary').count(), await v.at('result-table').locator('[data-preliminary="true"]').count()]
+  if ((await v.api(`/runs/${id}`)).state !== 'done') assert.ok(marks.every((n) => n > 0), `${marks} marks`)
+  await v.picture('preliminary')
+  await v.accessible('a run while it is measured')
+  await until('the end of the run', async () => (await v.api(`/runs/${id}`)).state === 'done', 120)
+  await until('no mark', async () => (await v.at('preliminary').count()) === 0)
   await v.picture('explorer')
   // One picture of its own scale: side by side, a fast algorithm is dark beside a slow one.
   for (const slow of run.spec.algorithms.filter((a) => a !== 'box-tree')) await v.at(`show-${slow}`).uncheck()

@@ -319,7 +319,8 @@ impl Lane {
         let cells = numbers.iter().map(|number| self.cells[*number as usize].sketch()).collect();
         let mut lane = Self { cells, ..Self::new(self.contestant.clone(), &[], numbers.len()) };
         lane.set_ups.clone_from(&self.set_ups);
-        (lane.cut, lane.memory_bytes, lane.outcome) = (self.cut, self.memory_bytes, self.outcome.clone());
+        (lane.cut, lane.spent) = (self.cut, self.spent);
+        (lane.memory_bytes, lane.outcome) = (self.memory_bytes, self.outcome.clone());
         lane.into_measured()
     }
 

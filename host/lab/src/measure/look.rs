@@ -17,7 +17,7 @@ use ocb_sandbox::Policy;
 
 use super::summary::preliminary;
 use super::turn::{Pass, Turn};
-use super::{Asked, Lane, Measured, News, Part, Stop, Task};
+use super::{Asked, Lane, Measured, News, Part, Stop, Task, pace};
 use crate::columns::RecordColumns;
 use crate::contestant::Runner;
 use crate::machine::Machine;
@@ -38,6 +38,9 @@ const SHARE: u32 = 20;
 /// And so many configurations of it at most: the beginning of the shared order, which is a fair sample.
 const MOST: usize = 10_000;
 
+/// Seconds to begin a process beside what the plugin does.
+const START: f64 = 0.2;
+
 /// Number of the processes that only look. No round has it.
 const PROCESS: u32 = u32::MAX;
 
@@ -48,6 +51,8 @@ pub struct Preliminary {
     pub result: AlgorithmResult,
     /// Its records so far.
     pub records: RecordColumns,
+    /// After a first look: seconds that all of its measuring will take.
+    pub seconds: Option<f64>,
 }
 
 /// The limits of a process that only looks.
@@ -81,6 +86,7 @@ pub fn first_look(
     let placed = numbers.iter().map(|number| *task.placed(*number)).collect();
     let set = &ConfigurationSet { placed, ..empty(task.set) };
     let part = Part { precision: None, at_most: usize::MAX, of: task.part.of };
+    let whole = task;
     let task = &Task { set, controls: &[], passes: 1, budget: TIME, part, ..*task };
     let (shown, base) = (task.instance(PROCESS), (0..set.placed.len() as u32).collect::<Vec<_>>());
     let mut of_reference: Option<Measured> = None;
@@ -113,7 +119,10 @@ pub fn first_look(
         }
         let measured = lane.so_far(base);
         if index < task.contestants.len() {
-            show(index, task.preliminary(&measured, of_reference.as_ref(), &numbers));
+            let mut seen = task.preliminary(&measured, of_reference.as_ref(), base);
+            seen.records.configuration.iter_mut().for_each(|place| *place = numbers[*place as usize]);
+            seen.seconds = Some(whole.seconds(index, &measured));
+            show(index, seen);
         }
         if task.reference.is_some_and(|reference| reference.info.id == contestant.info.id) {
             of_reference = Some(measured);
@@ -171,6 +180,15 @@ impl<'a> Showing<'a> {
 }
 
 impl Task<'_> {
+    /// Seconds that the algorithm will take for everything, by what it took in a first look.
+    fn seconds(&self, index: usize, seen: &Measured) -> f64 {
+        let counted = seen.contestant.info.counters && index < self.contestants.len();
+        let start: f64 = seen.set_ups.iter().map(|it| (it.load_ns + it.build_ns) / 1e9).sum::<f64>() + START;
+        let query = seen.seconds_per_query.unwrap_or(f64::INFINITY);
+        let configurations = self.part.of.min(self.part.at_most as u64);
+        pace::cost(configurations, self.passes, self.budget.as_secs_f64(), counted, query, start).seconds
+    }
+
     /// What there is to show of these configurations, whose places in `numbers` the records have.
     fn preliminary(&self, measured: &Measured, reference: Option<&Measured>, numbers: &[u32]) -> Preliminary {
         let compared = compare(&measured.times, reference.map(|r| &r.times[..]), self.passes, self.part.of);
@@ -186,6 +204,6 @@ impl Task<'_> {
         let result = AlgorithmResult { of: self.part.of as u32, ..preliminary(measured, asked, compared) };
         let mut records = RecordColumns::of(&measured.records);
         records.configuration.iter_mut().for_each(|place| *place = numbers[*place as usize]);
-        Preliminary { result, records }
+        Preliminary { result, records, seconds: None }
     }
 }

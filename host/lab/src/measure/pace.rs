@@ -2,8 +2,35 @@
 
 use std::time::Duration;
 
+use ocb_core::instance::OTHER_UNITS;
+use ocb_core::sampling::controls;
+
+use super::asked_in_another_unit;
+
 /// Less of a turn says little of the rest.
 const EARLIEST: Duration = Duration::from_millis(100);
+
+/// What an algorithm costs in a whole run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cost {
+    /// Seconds, starts included.
+    pub seconds: f64,
+    /// The budget ends its measuring.
+    pub budget_limited: bool,
+}
+
+/// What an algorithm costs that takes `query` seconds to answer and `start` seconds to begin, in a run of so many passes over so
+/// many configurations.
+pub fn cost(configurations: u64, passes: u32, budget: f64, counted: bool, query: f64, start: f64) -> Cost {
+    let asked = configurations + controls::count(configurations);
+    let timed = asked as f64 * f64::from(passes) * query;
+    let budget_limited = timed > budget;
+    let timed = timed.min(budget);
+    let in_other_units = OTHER_UNITS.len() / 2 * asked_in_another_unit(configurations as usize);
+    let further = in_other_units as f64 / configurations.max(1) as f64 + f64::from(u8::from(counted));
+    let starts = passes + OTHER_UNITS.len() as u32 + u32::from(counted);
+    Cost { seconds: timed + timed / f64::from(passes) * further + start * f64::from(starts), budget_limited }
+}
 
 /// One algorithm's turn so far.
 #[derive(Clone, Copy, Debug)]

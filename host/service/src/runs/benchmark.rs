@@ -50,8 +50,12 @@ pub enum End {
 pub fn run(inner: &Arc<Inner>, id: &str, stop: &Stop, handle: &Handle) -> Result<End> {
     let row =
         handle.block_on(inner.store.run(id))?.ok_or_else(|| EngineError::Fault(format!("The run {id} is gone.")))?;
-    let log = RunLog::begin(id, &row.spec.algorithms, inner.store.clone(), inner.run_events.clone(), handle.clone())?;
-    let _shown = inner.under_way.begin(id);
+    let log = RunLog::begin(id, &row.spec.algorithms, inner.clone(), handle.clone())?;
+    let lanes = row.spec.algorithms.len();
+    // Where the reference is none of them, it takes turns, too.
+    let apart = crate::runs::spec::reference(&row.spec, &inner.registry)
+        .filter(|reference| !row.spec.algorithms.contains(&reference.info.id));
+    let _shown = inner.under_way.begin(id, lanes + usize::from(apart.is_some()), row.expected_seconds);
     let mut bench = Bench { inner, row, stop, log };
     let ended = bench.stages().map_err(EngineError::for_visitors);
     match &ended {
@@ -190,7 +194,7 @@ impl<'a> Bench<'a> {
         };
         self.log.start(CONFIGURATIONS, total)?;
         let gauge = Gauge::default();
-        let longest_side = pairing.mesh_a.longest_side();
+        let (longest_side, begun) = (pairing.mesh_a.longest_side(), Instant::now());
         let gauge = &gauge;
         let beginning = &mut |set: &ConfigurationSet| looking.at_beginning(pairing, set, total);
         let set = thread::scope(|scope| -> Result<_> {
@@ -206,11 +210,14 @@ impl<'a> Bench<'a> {
                     gauge.stop.store(true, Ordering::Relaxed);
                 }
                 // A grid looks for some more than wanted.
-                self.log.progress_slowly(CONFIGURATIONS, gauge.done.load(Ordering::Relaxed).min(total), total)?;
+                let done = gauge.done.load(Ordering::Relaxed).min(total);
+                self.inner.under_way.estimate(|it| it.finding(done, total, begun.elapsed().as_secs_f64()));
+                self.log.progress_slowly(CONFIGURATIONS, done, total)?;
             }
             let found = worker.join();
             Ok(found.map_err(|_| EngineError::Fault("Finding the configurations failed.".into()))??)
         })?;
+        self.inner.under_way.estimate(|it| it.finding(total, total, 0.0));
         if set.is_some() {
             self.log.progress(CONFIGURATIONS, total, total)?;
         }
@@ -261,12 +268,14 @@ impl<'a> Bench<'a> {
             loop {
                 match news.recv_timeout(TICK) {
                     Ok(News::Progress { lane, done, total, worked }) if lane < asked_for => {
+                        looking.progress(lane, done, total, worked);
                         if std::mem::take(&mut noted) {
                             self.log.note(FIRST_MEASURING, None)?;
                         }
                         self.log.progress_after(FIRST_MEASURING + lane, done, total, worked)?;
                     }
-                    Ok(News::Progress { done, total, .. }) => {
+                    Ok(News::Progress { lane, done, total, worked }) => {
+                        looking.progress(lane, done, total, worked);
                         self.log.note(FIRST_MEASURING, Some(&turn_of_reference(name, done, total)))?;
                         noted = true;
                     }

@@ -1,12 +1,10 @@
 //! What a run would cost, from what earlier ones did.
 
-use ocb_core::instance::OTHER_UNITS;
-use ocb_core::sampling::controls;
 use ocb_lab::contestant::Contestant;
 
 use crate::configurations::set_key;
 use crate::engine::{Engine, Inner};
-use crate::measure::asked_in_another_unit;
+use crate::measure::{self, Cost};
 use crate::model::{AlgorithmSeconds, Estimate, RunSpec};
 use crate::runs::spec;
 use crate::runs::spec::Checked;
@@ -64,16 +62,10 @@ pub async fn estimate_alone(inner: &Inner, checked: &Checked) -> Result<Estimate
         None => configurations as f64 * nearest(&inner.store.set_rates().await?, triangles, FIRST_CONFIGURATION),
     };
     let measured = configurations.min(spec.at_most.map_or(u64::MAX, u64::from));
-    let asked = measured + controls::count(measured);
     let cost = |contestant: &Contestant, counted: bool, rates: &[(u64, f64)]| {
-        let timed = asked as f64 * f64::from(spec.passes) * nearest(rates, triangles, FIRST_QUERY);
-        let budget_limited = timed > spec.budget_seconds;
-        let timed = timed.min(spec.budget_seconds);
-        let round = timed / f64::from(spec.passes);
-        let in_other_units = OTHER_UNITS.len() / 2 * asked_in_another_unit(measured as usize);
-        let further_seconds = round * (in_other_units as f64 / measured.max(1) as f64 + f64::from(u8::from(counted)));
-        let starts = spec.passes + OTHER_UNITS.len() as u32 + u32::from(counted);
-        let seconds = timed + further_seconds + START * f64::from(starts);
+        let query = nearest(rates, triangles, FIRST_QUERY);
+        let Cost { seconds, budget_limited } =
+            measure::cost(measured, spec.passes, spec.budget_seconds, counted, query, START);
         AlgorithmSeconds { algorithm: contestant.info.id.clone(), seconds, budget_limited }
     };
     let mut measuring_seconds = Vec::new();

@@ -100,11 +100,12 @@ impl Follower {
     fn look_at_preliminary_results(&mut self) {
         let (results, version) = self.engine.inner.under_way.newer(&self.id, self.shown);
         self.shown = version;
-        let seq = self.after;
+        let (seq, seconds_left) = (self.after, self.engine.inner.under_way.seconds_left(&self.id));
         self.read.extend(results.into_iter().map(|result| RunEvent {
             seq,
             at_us: now_us(),
             result: Some(result),
+            seconds_left,
             ..plain_event(State::Running, 0)
         }));
     }

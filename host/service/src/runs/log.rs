@@ -7,6 +7,7 @@ use tokio::runtime::Handle;
 use tokio::sync::broadcast;
 
 use crate::Result;
+use crate::engine::Inner;
 use crate::model::{AlgorithmResult, RunEvent, Stage, StageKind, State};
 use crate::store::{Store, now_us};
 
@@ -55,7 +56,7 @@ impl RunEvents {
 
 /// An event without lane and result.
 pub fn plain_event(state: State, runs_ahead: u32) -> RunEvent {
-    RunEvent { seq: 0, at_us: 0, state, runs_ahead, stage: None, result: None }
+    RunEvent { seq: 0, at_us: 0, state, runs_ahead, stage: None, result: None, seconds_left: None }
 }
 
 /// The lanes of a run that waits for its turn.
@@ -79,8 +80,7 @@ pub fn fresh_stages(algorithms: &[String]) -> Vec<Stage> {
 /// The run under way. Lives on the run's own thread, so its database calls may block.
 pub struct RunLog {
     run: String,
-    store: Store,
-    run_events: RunEvents,
+    inner: Arc<Inner>,
     handle: Handle,
     stages: Vec<Stage>,
     meters: Vec<Meter>,
@@ -88,20 +88,14 @@ pub struct RunLog {
 
 impl RunLog {
     /// All lanes begin anew: what an earlier attempt left is found again in the store, quickly.
-    pub fn begin(
-        run: &str,
-        algorithms: &[String],
-        store: Store,
-        run_events: RunEvents,
-        handle: Handle,
-    ) -> Result<Self> {
+    pub fn begin(run: &str, algorithms: &[String], inner: Arc<Inner>, handle: Handle) -> Result<Self> {
         let stages = fresh_stages(algorithms);
         let meters = stages.iter().map(|_| Meter::new()).collect();
-        let log = Self { run: run.to_owned(), store, run_events, handle, stages, meters };
+        let log = Self { run: run.to_owned(), inner, handle, stages, meters };
         for lane in 0..log.stages.len() {
             log.write(lane)?;
         }
-        log.handle.block_on(log.run_events.tell(&log.store, &log.run, plain_event(State::Running, 0)))?;
+        log.send(plain_event(State::Running, 0))?;
         Ok(log)
     }
 
@@ -179,12 +173,17 @@ impl RunLog {
     fn tell(&self, lane: usize, result: Option<AlgorithmResult>) -> Result<()> {
         self.write(lane)?;
         let stage = Some(self.stages[lane].clone());
-        let event = RunEvent { stage, result, ..plain_event(State::Running, 0) };
-        self.handle.block_on(self.run_events.tell(&self.store, &self.run, event))
+        self.send(RunEvent { stage, result, ..plain_event(State::Running, 0) })
+    }
+
+    fn send(&self, event: RunEvent) -> Result<()> {
+        let Inner { run_events, store, under_way, .. } = &*self.inner;
+        let event = RunEvent { seconds_left: under_way.seconds_left(&self.run), ..event };
+        self.handle.block_on(run_events.tell(store, &self.run, event))
     }
 
     fn write(&self, lane: usize) -> Result<()> {
-        self.handle.block_on(self.store.put_stage(&self.run, lane, &self.stages[lane]))
+        self.handle.block_on(self.inner.store.put_stage(&self.run, lane, &self.stages[lane]))
     }
 }
 

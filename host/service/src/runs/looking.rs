@@ -96,6 +96,11 @@ impl<'a> Looking<'a> {
         measure::first_look(&task, runner, machine, self.stop, &mut |place, seen| self.show(place, seen));
     }
 
+    /// An algorithm is so far in the rounds.
+    pub fn progress(&self, lane: usize, done: u64, total: u64, worked: Duration) {
+        self.inner.under_way.estimate(|it| it.progress(lane, done, total, worked.as_secs_f64()));
+    }
+
     /// The algorithm at this place of the run's list has something to show.
     pub fn show(&self, place: usize, seen: Preliminary) {
         self.inner.under_way.show(place, seen);

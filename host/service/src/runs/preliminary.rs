@@ -2,12 +2,14 @@
 //! comes; an algorithm's part goes when its result is stored.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
 
 use ocb_core::configuration::ConfigurationSet;
 use ocb_lab::columns::RecordColumns;
 use ocb_lab::measure::Preliminary;
 
 use crate::model::AlgorithmResult;
+use crate::runs::remaining::Remaining;
 
 /// One run is under way at a time, so there is one at most.
 #[derive(Default)]
@@ -22,6 +24,9 @@ struct Showing {
     lanes: Vec<Lane>,
     /// Grows with each change.
     version: u64,
+    begun: Instant,
+    remaining: Remaining,
+    seconds_left: f64,
 }
 
 struct Lane {
@@ -43,10 +48,32 @@ impl Drop for Shown<'_> {
 }
 
 impl UnderWay {
-    /// This run is under way now.
-    pub fn begin(&self, run: &str) -> Shown<'_> {
-        *self.lock() = Some(Showing { run: run.to_owned(), beginning: None, lanes: Vec::new(), version: 0 });
+    /// This run is under way now. So many algorithms take turns, and earlier runs would have taken so many seconds.
+    pub fn begin(&self, run: &str, lanes: usize, expected: f64) -> Shown<'_> {
+        let mut remaining = Remaining::new(lanes, expected);
+        *self.lock() = Some(Showing {
+            run: run.to_owned(),
+            beginning: None,
+            lanes: Vec::new(),
+            version: 0,
+            begun: Instant::now(),
+            seconds_left: remaining.tell(0.0),
+            remaining,
+        });
         Shown { under_way: self }
+    }
+
+    /// Something is known that tells how long it will still take.
+    pub fn estimate(&self, from: impl FnOnce(&mut Remaining)) {
+        if let Some(showing) = &mut *self.lock() {
+            from(&mut showing.remaining);
+            showing.seconds_left = showing.remaining.tell(showing.begun.elapsed().as_secs_f64());
+        }
+    }
+
+    /// How long the run will still take.
+    pub fn seconds_left(&self, run: &str) -> Option<f64> {
+        self.of(run, |showing| showing.seconds_left)
     }
 
     /// The records will be of these configurations, until the whole set is stored.
@@ -57,7 +84,10 @@ impl UnderWay {
     }
 
     /// The algorithm at this place of the run's list has something to show.
-    pub fn show(&self, place: usize, Preliminary { result, records }: Preliminary) {
+    pub fn show(&self, place: usize, Preliminary { result, records, seconds }: Preliminary) {
+        if let Some(seconds) = seconds {
+            self.estimate(|remaining| remaining.looked(place, seconds));
+        }
         if let Some(showing) = &mut *self.lock() {
             showing.version += 1;
             showing.lanes.retain(|lane| lane.place != place);
@@ -116,14 +146,15 @@ mod tests {
 
     fn preliminary(algorithm: &str, n: u32) -> Preliminary {
         let result = AlgorithmResult { preliminary: true, ..fixtures::result(algorithm, n).result };
-        Preliminary { result, records: RecordColumns::default() }
+        Preliminary { result, records: RecordColumns::default(), seconds: Some(f64::from(n)) }
     }
 
     #[test]
     fn what_is_shown_is_of_one_run_and_goes_with_it() {
         let under_way = UnderWay::default();
         under_way.show(0, preliminary("a", 9));
-        let shown = under_way.begin("run");
+        let shown = under_way.begin("run", 2, 50.0);
+        assert_eq!((under_way.seconds_left("run"), under_way.seconds_left("other")), (Some(50.0), None));
         assert!(under_way.results("run").is_empty(), "nothing is under way that it could be of");
         under_way.show(1, preliminary("b", 1));
         under_way.show(0, preliminary("a", 2));
@@ -132,6 +163,7 @@ mod tests {
         under_way.show(1, preliminary("b", 5));
         assert_eq!((n("run", 2), under_way.newer("run", 3)), (vec![5], (vec![], 3)));
         assert!(under_way.records("run", "b").is_some() && under_way.records("other", "b").is_none());
+        assert_eq!(under_way.seconds_left("run"), Some(2.0 + 5.0));
         under_way.stored(0);
         assert_eq!(n("run", 0), [5]);
         drop(shown);

@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest'
 import { applyEvent, RunStream, type Connection } from './run-stream'
-import type { RunEvent, RunInfo, Stage } from './types'
+import type { AlgorithmResult, RunEvent, RunInfo, Stage } from './types'
 
 const stage = (kind: Stage['kind'], algorithm: string | null, state: Stage['state'], done: number): Stage => ({
   kind, algorithm, state, done, total: 10, rate: 1, seconds_left: null, message: null,
@@ -17,6 +17,15 @@ describe('applyEvent', () => {
     expect(after.stages.map((s) => s.done)).toEqual([0, 0, 4])
     expect([after.state, after.runs_ahead]).toEqual(['running', 0])
     expect(run.stages[2]?.done).toBe(0)
+  })
+
+  it('keeps the newest numbers of each algorithm, in the order of the request', () => {
+    const result = (algorithm: string, n: number, preliminary: boolean) => ({ algorithm, n, preliminary }) as AlgorithmResult
+    const asked = { ...run, spec: { algorithms: ['a', 'b'] } } as RunInfo
+    const all = [result('b', 300, true), result('a', 200, true), result('b', 5000, false)]
+    const after = all.reduce((before, one) => applyEvent(before, event({ result: one, seconds_left: one.n / 100 })), asked)
+    expect(after.results.map(({ algorithm, n }) => [algorithm, n])).toEqual([['a', 200], ['b', 5000]])
+    expect(after.seconds_left).toBe(50)
   })
 })
 

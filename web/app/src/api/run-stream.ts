@@ -1,4 +1,4 @@
-import type { RunEvent, RunInfo, Stage, State } from './types'
+import type { AlgorithmResult, RunEvent, RunInfo, Stage, State } from './types'
 
 /** How the page hears of a run. */
 export type Connection = 'live' | 'reconnecting' | 'polling'
@@ -71,9 +71,16 @@ export function applyEvent(run: RunInfo, event: RunEvent): RunInfo {
     ...run,
     state: event.state,
     runs_ahead: event.runs_ahead,
+    seconds_left: event.seconds_left ?? null,
     stages: stage ? replace(run.stages, stage, sameLane) : run.stages,
-    results: result ? replace(run.results, result, (a, b) => a.algorithm === b.algorithm) : run.results,
+    results: result ? inOrder(run, replace(run.results, result, (a, b) => a.algorithm === b.algorithm)) : run.results,
   }
+}
+
+/** In the order of the request, whichever was seen first. */
+function inOrder({ spec }: RunInfo, results: AlgorithmResult[]): AlgorithmResult[] {
+  const place = ({ algorithm }: AlgorithmResult) => (spec.algorithms ?? []).indexOf(algorithm)
+  return results.toSorted((a, b) => place(a) - place(b))
 }
 
 function sameLane(a: Stage, b: Stage): boolean {

@@ -23,7 +23,7 @@ async function mount<T>(component: Component, props: Record<string, unknown>) {
 describe('EcdfChart', () => {
   const curves: { name: string; curve: Ecdf }[] = ['Box <tree>', 'Parry'].map((name, i) => ({
     name,
-    curve: { algorithm: name, n: 4, time_ns: [1000, 2000, 4000, 8000].map((t) => t * (i + 1)), share: [0.25, 0.5, 0.75, 1] },
+    curve: { algorithm: name, n: 4, time_ns: [1000, 2000, 4000, 8000].map((t) => t * (i + 1)), share: [0.25, 0.5, 0.75, 1], preliminary: false },
   }))
 
   it('is told apart by dash, marker and colour, and read aloud', async () => {
@@ -48,7 +48,7 @@ describe('EcdfChart', () => {
 it('lists what failed without a place, and with the reason', async () => {
   const failed: AlgorithmResult = {
     algorithm: 'crashy', name: 'Crashy', outcome: { name: 'Signaled', message: 'It crashed with SIGSEGV.', ours: false }, n: 0, of: 9,
-    budget_limited: false, time: null, verdicts: [], wrong: 0, bv_tests_mean: null, primitive_tests_mean: null, build_ms: null, memory_bytes: null,
+    budget_limited: false, time: null, verdicts: [], wrong: 0, bv_tests_mean: null, primitive_tests_mean: null, build_ms: null, memory_bytes: null, preliminary: false,
   }
   const { host } = await mount(ResultTable, { results: [failed] })
   const row = host.querySelector('tr[data-algorithm=crashy]')
@@ -72,7 +72,7 @@ it('shows each unit of length, the file’s first, and names what depends on it'
   })
   const result: AlgorithmResult = {
     algorithm: 'ruler', name: 'Ruler', outcome: { name: 'Completed', message: '', ours: false }, n: 9, of: 9, budget_limited: false, time: null,
-    verdicts: [], wrong: 7, bv_tests_mean: null, primitive_tests_mean: null, build_ms: null, memory_bytes: null,
+    verdicts: [], wrong: 7, bv_tests_mean: null, primitive_tests_mean: null, build_ms: null, memory_bytes: null, preliminary: false,
     by_unit: [unit(0, 1000, 0), unit(-3, 5000, 7), unit(3, 1000, 0)],
     depends_on_unit: { time: [-3], answers: [-3], message: 'Depends on the unit of length: with all coordinates times 1/8, so.' },
   }

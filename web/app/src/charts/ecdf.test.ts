@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest'
 import { ecdfAxes, ecdfPath, timeAtShare, timeTicks } from './ecdf'
 
 const box = { left: 40, right: 240, top: 0, bottom: 100 }
-const curve = { algorithm: 'a', n: 3, time_ns: [10, 100, 1000], share: [0.25, 0.5, 1] }
+const curve = { algorithm: 'a', n: 3, time_ns: [10, 100, 1000], share: [0.25, 0.5, 1], preliminary: false }
 
 describe('ecdfPath', () => {
   it('is a staircase that rises at each time, from 0 to 1', () => {
@@ -13,12 +13,12 @@ describe('ecdfPath', () => {
   })
 
   it('has nothing to draw without times', () => {
-    const empty = { algorithm: 'a', n: 0, time_ns: [], share: [] }
+    const empty = { algorithm: 'a', n: 0, time_ns: [], share: [], preliminary: false }
     expect(ecdfPath(empty, ecdfAxes([empty], box))).toBe('')
   })
 
   it('leaves out what a logarithmic axis has no place for', () => {
-    const zero = { algorithm: 'a', n: 2, time_ns: [0, 10], share: [0.5, 1] }
+    const zero = { algorithm: 'a', n: 2, time_ns: [0, 10], share: [0.5, 1], preliminary: false }
     expect(ecdfPath(zero, ecdfAxes([zero], box))).not.toMatch(/NaN|Infinity/)
   })
 })

@@ -8,7 +8,7 @@ function result(algorithm: string, place: number | null, ratio: number, more: Pa
     algorithm, name: algorithm, outcome: { name: 'Completed', message: 'Completed.', ours: false }, n: 10, of: 10, budget_limited: false,
     rank: place, ratio: estimated,
     time: { mean_ns: estimated, median_ns: estimated, p95_ns: estimated, max_ns: estimated, below_resolution: 0 },
-    verdicts: [], wrong: 0, bv_tests_mean: null, primitive_tests_mean: null, build_ms: null, memory_bytes: null, ...more,
+    verdicts: [], wrong: 0, bv_tests_mean: null, primitive_tests_mean: null, build_ms: null, memory_bytes: null, preliminary: false, ...more,
   }
 }
 
@@ -21,7 +21,7 @@ describe('rank', () => {
   it('gives no place to what failed, answered wrong or was not measured, and says why', () => {
     const crashed = result('crashed', null, 1, { outcome: { name: 'Signaled', message: 'It crashed.', ours: false } })
     const modest = result('modest', null, 1, { verdicts: [{ verdict: 'correct', count: 7 }, { verdict: 'gave_up', count: 2 }, { verdict: 'unsupported', count: 1 }] })
-    const { ranked, unranked } = rank([modest, crashed, result('wrong', null, 2, { wrong: 1 }), result('silent', null, 3, { time: null }), result('old', null, 1), result('guessing', null, 1, { unranked: { cause: 'wrong_controls', wrong: 9, n: 30, message: '9 of 30 control questions were answered wrongly.' } }), result('sound', 1, 4)])
+    const { ranked, unranked } = rank([modest, crashed, result('wrong', null, 2, { wrong: 1 }), result('silent', null, 3, { time: null }), result('old', null, 1), result('measured', null, 1, { preliminary: true }), result('guessing', null, 1, { unranked: { cause: 'wrong_controls', wrong: 9, n: 30, message: '9 of 30 control questions were answered wrongly.' } }), result('sound', 1, 4)])
     expect(ranked.map((r) => r.result.algorithm)).toEqual(['sound'])
     expect(unranked.map((r) => [r.result.algorithm, r.reason])).toEqual([
       ['modest', 'It did not answer 3 of 10 queries, so its time is not ranked.'],
@@ -29,6 +29,7 @@ describe('rank', () => {
       ['wrong', 'It gave wrong answers, so its time is not ranked.'],
       ['silent', 'Nothing was measured.'],
       ['old', 'It was not compared with a reference: it was measured in the development profile, or by an older version.'],
+      ['measured', 'Still being measured.'],
       ['guessing', '9 of 30 control questions were answered wrongly.'],
     ])
   })

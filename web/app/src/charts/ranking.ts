@@ -57,6 +57,7 @@ function unanswered(result: AlgorithmResult): number {
 }
 
 function whyNot(result: AlgorithmResult): string | null {
+  if (result.preliminary) return 'Still being measured.'
   if (result.outcome.name !== 'Completed') return result.outcome.message
   if (result.unranked) return result.unranked.message
   if (onlyElsewhere(result)) return 'It gave wrong answers in another unit of length, and none in the unit of the files.'

@@ -7,7 +7,7 @@ type Resolution = NonNullable<AlgorithmResult['resolution']>
 function result(resolution: Resolution | null, more: Partial<AlgorithmResult> = {}): AlgorithmResult {
   return {
     algorithm: 'a', name: 'A', outcome: { name: 'Completed', message: 'Completed.', ours: false }, n: 10, of: 10, budget_limited: false,
-    time: null, verdicts: [], wrong: 0, bv_tests_mean: null, primitive_tests_mean: null, build_ms: null, memory_bytes: null, resolution, ...more,
+    time: null, verdicts: [], wrong: 0, bv_tests_mean: null, primitive_tests_mean: null, build_ms: null, memory_bytes: null, preliminary: false, resolution, ...more,
   }
 }
 

@@ -4,7 +4,7 @@ import { finding } from './finding'
 
 const map = (values: (number | null)[], n = 20): Heatmap => ({
   request: { algorithm: 'a', side: 'a', measure: 'time', statistic: 'median', outliers: 'keep' },
-  unit: 'ns', values, counts: values.map(() => n), dropped: values.map(() => 0), n: 1000, range: null,
+  unit: 'ns', values, counts: values.map(() => n), dropped: values.map(() => 0), n: 1000, range: null, preliminary: false,
 })
 
 it('says how much more the slow part costs', () => {

@@ -5,7 +5,7 @@ import { failureWords, legendName, scaleKind } from './use-legend'
 
 const map = (values: (number | null)[], unit = 'share'): Heatmap => ({
   request: { algorithm: 'a', side: 'a', measure: 'wrong', statistic: 'mean', outliers: 'keep' },
-  unit, values, counts: values.map(() => 9), dropped: values.map(() => 0), n: 9, range: null,
+  unit, values, counts: values.map(() => 9), dropped: values.map(() => 0), n: 9, range: null, preliminary: false,
 })
 
 describe('the legend', () => {

@@ -1,7 +1,8 @@
-import { useQueries } from '@tanstack/vue-query'
-import { computed, type ComputedRef } from 'vue'
+import { useQueries, useQueryClient } from '@tanstack/vue-query'
+import { computed, watch, type ComputedRef } from 'vue'
 import { getEcdf, getHeatmap } from '../api/client'
-import type { Ecdf, Heatmap, HeatmapRequest, RunInfo } from '../api/types'
+import type { AlgorithmResult, Ecdf, Heatmap, HeatmapRequest, RunInfo } from '../api/types'
+import { count } from '../ui/format'
 import { differs, MAX_PANES, type ExplorerState } from './url-state'
 
 /** One picture: whose values, and the map when it is there. */
@@ -17,6 +18,18 @@ export interface PaneData {
 /** Algorithms with values to show: measured on at least one configuration. */
 export function measured(run: RunInfo): { id: string; name: string }[] {
   return run.results.filter((result) => result.n > 0).map(({ algorithm, name }) => ({ id: algorithm, name }))
+}
+
+/** The run is still being measured, and there is something to show of it. */
+export function isPreliminary(run: RunInfo): boolean {
+  return run.results.some(({ preliminary, n }) => preliminary && n > 0)
+}
+
+/** Of how many answers what is shown so far comes: `300`, or `300 to 5,000` where algorithms differ. */
+export function preliminaryN(run: RunInfo): string {
+  const all = run.results.filter(({ n }) => n > 0).map(({ n }) => n)
+  const [least, most] = [Math.min(...all), Math.max(...all)]
+  return least === most ? count(most) : `${count(least)} to ${count(most)}`
 }
 
 /** Fastest first; what has no time comes last. */
@@ -54,17 +67,36 @@ export function heatmapRequest(state: ExplorerState, algorithm: string): Heatmap
   }
 }
 
-/** The heatmaps on the screen; a finished run never changes, so what was fetched stays good. */
+/** Algorithms of which there is something newer than before, where that was preliminary. */
+export function renewed(before: readonly AlgorithmResult[], now: readonly AlgorithmResult[]): string[] {
+  const changed = (old: AlgorithmResult) => old.preliminary && !now.includes(old)
+  return before.filter(changed).map(({ algorithm }) => algorithm)
+}
+
+/** What is preliminary is fetched anew when there is more of it; until then the picture stays. */
+function useRenewal(what: 'heatmap' | 'ecdf', run: ComputedRef<RunInfo>): void {
+  const client = useQueryClient()
+  watch(run, (now, before) => {
+    if (now.id !== before.id) return
+    for (const algorithm of renewed(before.results, now.results)) void client.invalidateQueries({ queryKey: [what, now.id, algorithm] })
+  })
+}
+
+/** A finished run never changes, so what was fetched stays good. */
+const staleTime = ({ state }: { state: { data?: { preliminary: boolean } | undefined } }): number => (state.data?.preliminary ? 0 : Number.POSITIVE_INFINITY)
+
+/** The heatmaps on the screen. */
 export function useHeatmaps(run: ComputedRef<RunInfo>, state: ComputedRef<ExplorerState>): ComputedRef<PaneData[]> {
+  useRenewal('heatmap', run)
   const visible = computed(() => visibleAlgorithms(run.value, state.value))
   const queries = useQueries({
     queries: computed(() =>
       visible.value.map(({ id }) => {
         const request = heatmapRequest(state.value, id)
         return {
-          queryKey: ['heatmap', run.value.id, request],
+          queryKey: ['heatmap', run.value.id, id, request],
           queryFn: () => getHeatmap(run.value.id, request),
-          staleTime: Number.POSITIVE_INFINITY,
+          staleTime,
         }
       }),
     ),
@@ -86,13 +118,14 @@ export function useHeatmaps(run: ComputedRef<RunInfo>, state: ComputedRef<Explor
 
 /** The distributions of the time per query, of the first four measured algorithms. */
 export function useEcdfs(run: ComputedRef<RunInfo>): ComputedRef<{ name: string; curve: Ecdf }[]> {
+  useRenewal('ecdf', run)
   const shown = computed(() => measured(run.value).slice(0, MAX_PANES))
   const queries = useQueries({
     queries: computed(() =>
       shown.value.map(({ id }) => ({
         queryKey: ['ecdf', run.value.id, id],
         queryFn: () => getEcdf(run.value.id, id),
-        staleTime: Number.POSITIVE_INFINITY,
+        staleTime,
       })),
     ),
   })

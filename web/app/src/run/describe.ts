@@ -1,4 +1,4 @@
-import type { Method, RunInfo, RunSpec, Stage } from '../api/types'
+import type { Method, RunInfo, RunSpec } from '../api/types'
 import { asksSeparation, PUBLISHED_FRAMES } from '../builder/form'
 import { count, significant } from '../ui/format'
 import { QUERY } from '../ui/words'
@@ -31,10 +31,4 @@ export function describeSeparation({ method, separation }: RunSpec): string {
   if (separation?.kind === 'ladder') return 'ladder of steps'
   if (separation?.kind === 'step') return `step ${separation.of_size.toExponential()} of S`
   return `distance ${separation?.distance ? significant(separation.distance) : '0'}`
-}
-
-/** Until the lanes at work are through: they take turns, so that their times add up. Null while none of them can tell. */
-export function secondsLeft(stages: readonly Stage[]): number | null {
-  const known = stages.filter(({ state }) => state === 'running').flatMap(({ seconds_left: s }) => (s == null ? [] : [s]))
-  return known.length > 0 ? known.reduce((sum, s) => sum + s) : null
 }
