@@ -88,8 +88,9 @@ async fn a_fast_algorithm_is_seen_while_a_slow_one_builds_and_nothing_of_it_coun
     for result in &last.results {
         assert!(!result.preliminary && result.wrong == 0, "{result:?}");
         assert_eq!(result.timing.as_ref().unwrap().processes, 2, "a look is no pass");
-        assert!(result.rank.is_some() && result.controls.is_some(), "{:?}", result.unranked);
+        assert!(result.controls.is_some());
     }
+    assert!(fast.rank.is_some(), "{:?}", fast.unranked);
     let stored = engine.events(&run, 0).await.unwrap();
     assert!(stored.iter().filter_map(|event| event.result.as_ref()).all(|result| !result.preliminary));
     let map = times(&engine, &run, "box-tree").await.unwrap();
