@@ -157,8 +157,7 @@ async fn examples_come_first_and_only_those_whose_algorithms_are_installed() {
     engine.shutdown().await;
 
     let plain = common::config(data.path());
-    let plugins =
-        ["box_tree", "fast", "parry"].map(|name| plain.runner.with_file_name(format!("libocb_{name}.so")));
+    let plugins = ["box_tree", "fast", "parry"].map(|name| plain.runner.with_file_name(format!("libocb_{name}.so")));
     let plugins = Vec::from(plugins);
     let engine = Engine::open(EngineConfig { plugins, suite: Some(suite), idle: true, ..plain }).await.unwrap();
     let begun = Instant::now();
