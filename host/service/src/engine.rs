@@ -52,7 +52,7 @@ pub struct Inner {
     pub machine: Machine,
     pub run_events: RunEvents,
     /// What the run at work can show.
-    pub under_way: UnderWay,
+    pub under_way: Arc<UnderWay>,
     /// What public plugins are measured on.
     pub suite: Suite,
     /// Held while it is found out what of the suite is missing, until that is in the queue.

@@ -17,7 +17,6 @@ use crate::objects::Objects;
 use crate::plugins::registry::Registry;
 use crate::runs::dispatcher;
 use crate::runs::log::RunEvents;
-use crate::runs::preliminary::UnderWay;
 use crate::runs::priority::BACKGROUND;
 use crate::store::Store;
 use crate::suite::Suite;
@@ -43,7 +42,7 @@ impl Engine {
             objects: Objects::new(store.clone(), blobs.clone(), config.stock_dir.clone()),
             machine: Machine::observe()?.noted(config.machine_note.as_deref()),
             run_events: RunEvents::new(),
-            under_way: UnderWay::default(),
+            under_way: Arc::default(),
             suite,
             planning: tokio::sync::Mutex::default(),
             publishing: tokio::sync::Mutex::default(),

@@ -10,6 +10,7 @@ pub mod featured;
 pub mod follow;
 pub mod log;
 pub mod looking;
+pub mod pairing;
 pub mod places;
 pub mod preliminary;
 pub mod priority;

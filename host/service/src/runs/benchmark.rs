@@ -10,7 +10,6 @@ use std::time::{Duration, Instant};
 
 use ocb_core::comparison::{Comparison, compare};
 use ocb_core::configuration::{Configuration, ConfigurationSet, Method};
-use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::sampling::controls::{self, Control};
 use ocb_lab::contestant::Contestant;
@@ -26,6 +25,7 @@ use crate::results::sql::StoredResult;
 use crate::runs::draw;
 use crate::runs::log::RunLog;
 use crate::runs::looking::Looking;
+use crate::runs::pairing::Pairing;
 use crate::runs::sql::RunRow;
 use crate::suite::{Suite, drawn_anew};
 use crate::{EngineError, Result};
@@ -50,7 +50,8 @@ pub enum End {
 pub fn run(inner: &Arc<Inner>, id: &str, stop: &Stop, handle: &Handle) -> Result<End> {
     let row =
         handle.block_on(inner.store.run(id))?.ok_or_else(|| EngineError::Fault(format!("The run {id} is gone.")))?;
-    let log = RunLog::begin(id, &row.spec.algorithms, inner.clone(), handle.clone())?;
+    let told = (inner.store.clone(), inner.run_events.clone(), inner.under_way.clone());
+    let log = RunLog::begin(id, &row.spec.algorithms, told, handle.clone())?;
     let lanes = row.spec.algorithms.len();
     // Where the reference is none of them, it takes turns, too.
     let apart = crate::runs::spec::reference(&row.spec, &inner.registry)
@@ -82,15 +83,6 @@ struct All {
     /// Configurations of the whole run.
     of: u64,
     preview: Option<Preview>,
-}
-
-/// The two objects, and whether they are one.
-pub struct Pairing {
-    pub mesh_a: Arc<Mesh>,
-    pub mesh_b: Arc<Mesh>,
-    pub a: Shape,
-    pub b: Shape,
-    pub same: bool,
 }
 
 impl<'a> Bench<'a> {

@@ -7,8 +7,8 @@ use tokio::runtime::Handle;
 use tokio::sync::broadcast;
 
 use crate::Result;
-use crate::engine::Inner;
 use crate::model::{AlgorithmResult, RunEvent, Stage, StageKind, State};
+use crate::runs::preliminary::UnderWay;
 use crate::store::{Store, now_us};
 
 /// So often a page learns of progress.
@@ -80,7 +80,9 @@ pub fn fresh_stages(algorithms: &[String]) -> Vec<Stage> {
 /// The run under way. Lives on the run's own thread, so its database calls may block.
 pub struct RunLog {
     run: String,
-    inner: Arc<Inner>,
+    store: Store,
+    run_events: RunEvents,
+    under_way: Arc<UnderWay>,
     handle: Handle,
     stages: Vec<Stage>,
     meters: Vec<Meter>,
@@ -88,10 +90,15 @@ pub struct RunLog {
 
 impl RunLog {
     /// All lanes begin anew: what an earlier attempt left is found again in the store, quickly.
-    pub fn begin(run: &str, algorithms: &[String], inner: Arc<Inner>, handle: Handle) -> Result<Self> {
+    pub fn begin(
+        run: &str,
+        algorithms: &[String],
+        (store, run_events, under_way): (Store, RunEvents, Arc<UnderWay>),
+        handle: Handle,
+    ) -> Result<Self> {
         let stages = fresh_stages(algorithms);
         let meters = stages.iter().map(|_| Meter::new()).collect();
-        let log = Self { run: run.to_owned(), inner, handle, stages, meters };
+        let log = Self { run: run.to_owned(), store, run_events, under_way, handle, stages, meters };
         for lane in 0..log.stages.len() {
             log.write(lane)?;
         }
@@ -177,13 +184,12 @@ impl RunLog {
     }
 
     fn send(&self, event: RunEvent) -> Result<()> {
-        let Inner { run_events, store, under_way, .. } = &*self.inner;
-        let event = RunEvent { seconds_left: under_way.seconds_left(&self.run), ..event };
-        self.handle.block_on(run_events.tell(store, &self.run, event))
+        let event = RunEvent { seconds_left: self.under_way.seconds_left(&self.run), ..event };
+        self.handle.block_on(self.run_events.tell(&self.store, &self.run, event))
     }
 
     fn write(&self, lane: usize) -> Result<()> {
-        self.handle.block_on(self.inner.store.put_stage(&self.run, lane, &self.stages[lane]))
+        self.handle.block_on(self.store.put_stage(&self.run, lane, &self.stages[lane]))
     }
 }
 

@@ -11,8 +11,8 @@ use crate::engine::Inner;
 use crate::machine::MeasuringRight;
 use crate::measure::{self, Part, Preliminary, Stop, Task};
 use crate::model::RunSpec;
-use crate::runs::benchmark::Pairing;
 use crate::runs::draw;
+use crate::runs::pairing::Pairing;
 use crate::runs::sql::RunRow;
 
 /// One run while it is looked at.
