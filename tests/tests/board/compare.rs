@@ -337,7 +337,7 @@ fn the_same_plugin_file_brings_its_stability_and_another_one_none() {
     let info = |id: &str| {
         json!({
             "id": id, "name": id, "sentence": "", "source": "", "parameter": "", "continuous": true,
-            "beyond": id == "beyond",
+            "harder": "small", "beyond": id == "beyond",
         })
     };
     let table = serde_json::from_value(json!({
