@@ -137,7 +137,10 @@ test('a stock object becomes a heatmap whose picked value is the API\'s', async 
 
 test('the explorer changes measure, statistic, outliers, map and scale, and downloads everything', async (t) => {
   const v = await visitor(t)
-  const featured = await v.api('/featured')
+  const featured = await until('the end of the run of the start page', async () => {
+    const run = await v.api('/featured')
+    return run?.state === 'done' && run
+  }, 120)
   await v.go(`/r/${featured.id}`)
   await v.at('viewer-0').waitFor()
   await v.at('ecdf').waitFor()
