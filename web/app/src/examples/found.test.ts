@@ -11,7 +11,7 @@ describe('what an example found', () => {
   })
   it('never calls one that is wrong the fastest, and says how often it is wrong', () => {
     expect(found([result('wrong', 10, null, 7), result('right', 1000, 1)])).toEqual([
-      'right takes 1\u202fµs at the median (0.9–1.1, n = 2,000).', 'wrong is wrong in 7 of 2,000 configurations.',
+      'right takes 1\u202fµs at the median (0.9–1.1, n = 2,000).', 'wrong takes 10\u202fns (9–11) and is wrong in 7 of 2,000 configurations.',
     ])
     expect(found([])).toEqual([])
   })

@@ -14,8 +14,9 @@ export function found(results: readonly AlgorithmResult[]): string[] {
     const more = last && last !== first ? `, ${last.name} ${significant(last.median.value / first.median.value, 2)}× as long` : ''
     sentences.push(`${first.name} takes ${value} at the median (${interval}, n = ${count(first.n)})${more}.`)
   }
-  for (const { name, wrong, n } of results) {
-    if (wrong > 0) sentences.push(`${name} is wrong in ${count(wrong)} of ${count(n)} configurations.`)
+  for (const { name, wrong, n, time } of results) {
+    const takes = time ? ` takes ${estimated(time.median_ns).value} (${estimated(time.median_ns).interval}) and` : ''
+    if (wrong > 0) sentences.push(`${name}${takes} is wrong in ${count(wrong)} of ${count(n)} configurations.`)
   }
   return sentences
 }
