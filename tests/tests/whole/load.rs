@@ -73,7 +73,10 @@ pub async fn follow(service: String, run: String, end: Instant, seen: Arc<Seen>)
     while let Ok(Some(chunk)) = tokio::time::timeout_at(end.into(), stream.next()).await {
         told.push_str(&String::from_utf8_lossy(&chunk.unwrap_or_else(|e| panic!("{path}: {e}"))));
     }
-    let numbers: Vec<u64> = told.lines().filter_map(|line| line.strip_prefix("id: ")?.trim().parse().ok()).collect();
+    // Preliminary results are not kept, and have the number of the event before them.
+    let kept = told.split("\n\n").filter(|event| !event.contains("\"preliminary\":true"));
+    let number = |event: &str| event.lines().find_map(|line| line.strip_prefix("id: ")?.trim().parse().ok());
+    let numbers: Vec<u64> = kept.filter_map(number).collect();
     assert!(!numbers.is_empty() && numbers.iter().zip(1..).all(|(number, at)| *number == at), "{numbers:?}");
     seen.events.fetch_add(numbers.len() as u64, Ordering::Relaxed);
 }

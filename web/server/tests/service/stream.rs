@@ -42,7 +42,8 @@ async fn a_stream_replays_resumes_and_ends() {
     let guest = service.guest();
     let run = guest.start(&small_spec()).await;
     let events = follow(&guest, &run, 0).await;
-    let ids: Vec<i64> = events.iter().map(|event| event.id).collect();
+    // A place in the queue is not kept, and comes before the first that is.
+    let ids: Vec<i64> = events.iter().map(|event| event.id).filter(|id| *id > 0).collect();
     assert_eq!(ids, (1..=ids.len() as i64).collect::<Vec<_>>(), "without gaps from 1");
     assert!(events.iter().all(|event| event.data["seq"] == event.id));
     assert_eq!(events.last().expect("events").data["state"], "done");
