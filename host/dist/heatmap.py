@@ -11,7 +11,7 @@ def ask(path):
 
 
 def wait(what, get):
-    while time.time_ns() - started < 120e9:
+    while time.time_ns() - started < 60e9:
         os.kill(service, 0)
         try:
             if (got := get()):
@@ -19,7 +19,7 @@ def wait(what, get):
         except OSError:
             pass
         time.sleep(0.1)
-    sys.exit(f"dist: {kind}: no {what} within two minutes")
+    sys.exit(f"dist: {kind}: no {what} within a minute")
 
 
 def measured_run():

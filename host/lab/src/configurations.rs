@@ -55,7 +55,7 @@ pub struct Gauge {
 const BEGINNING: u64 = 300;
 const LONG: Duration = Duration::from_secs(1);
 
-/// Whoever wants to see the beginning of a set for which the rest takes long. It has the numbers that it has in the whole.
+/// Receives the beginning of a set whose rest takes long. Its configurations keep their numbers in the whole set.
 pub type Beginning<'s> = &'s mut (dyn FnMut(&ConfigurationSet) + Send);
 
 /// Finds the set, or certifies the given poses. `None` when it was stopped. `longest_side` is that of A's bounding box.

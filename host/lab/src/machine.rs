@@ -197,8 +197,8 @@ impl MeasuringRight {
     /// Waits until nobody has the right and takes it; `None` when stopped. `waits` is called once if it is not free at once.
     pub fn wait(stopped: impl Fn() -> bool, waits: impl FnOnce()) -> Result<Option<Self>> {
         let mut waits = Some(waits);
-        // Of those that wait one is next. Who gives the right back and wants it again comes behind it, else it would have the
-        // right again long before the others look.
+        // One of the waiting processes is next. A process that gives the right back and wants it again queues behind it;
+        // otherwise it would take the right again long before the others look.
         let mut next = None;
         while !stopped() {
             if next.is_none() {
@@ -218,7 +218,7 @@ impl MeasuringRight {
     }
 }
 
-/// The lock of this name if nobody has it now.
+/// The lock of this name, if it is free.
 fn try_lock(name: &str) -> Result<Option<File>> {
     let file =
         open_machine_lock(name).map_err(|e| LabError::fault("Opening the machine's measuring lock failed", e))?;
@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn who_gives_the_right_back_waits_behind_who_waits() {
+    fn a_process_that_measures_again_queues_behind_the_waiting_one() {
         let wait = || MeasuringRight::wait(|| false, || {}).unwrap().unwrap();
         let (done, measured) = (AtomicBool::new(false), AtomicU32::new(0));
         std::thread::scope(|scope| {
@@ -305,14 +305,14 @@ mod tests {
             });
             std::thread::sleep(5 * TICK);
             drop(first);
-            // Measures over and over, with no pause in which somebody who looks now and then would find the right free.
+            // Measures over and over, without a pause in which a process that looks now and then would find the right free.
             while !done.load(Ordering::Relaxed) && measured.fetch_add(1, Ordering::Relaxed) < 50 {
                 let _right = wait();
                 std::thread::sleep(TICK);
             }
             second.join().unwrap();
         });
-        // Others on this machine may want it, too, and which of those that wait is next is chance.
+        // Other processes on this machine may wait, too, and chance decides which of them is next.
         assert!(measured.load(Ordering::Relaxed) < 20, "it was passed over {measured:?} times");
     }
 

@@ -95,7 +95,7 @@ impl Stop {
         if !inner.asked {
             inner.reason = reason;
         }
-        // What is to end for good does not begin again, whoever asked first.
+        // A final stop wins over one for now, in either order.
         inner.for_now = for_now && (inner.for_now || !inner.asked);
         inner.asked = true;
         if let Some(killer) = &inner.killer {
@@ -209,7 +209,7 @@ pub enum News {
     Preliminary {
         /// Which contestant.
         lane: usize,
-        /// What is known of it.
+        /// Its numbers and records so far.
         preliminary: Box<Preliminary>,
     },
     /// A lane will not change any more.

@@ -12,20 +12,20 @@ pub struct Example {
     pub id: String,
     /// The question that it answers.
     pub title: String,
-    /// What to look for, and why it is so.
+    /// What to look for, and the reason.
     pub text: String,
-    /// What its heatmap shows.
+    /// The measure of its heatmap.
     pub measure: Measure,
     /// The algorithm whose heatmap is shown.
     pub algorithm: String,
-    /// What is measured.
+    /// The run that it measures.
     pub spec: RunSpec,
 }
 
-/// An example, and its run on this machine.
+/// An example with its run on this machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ExampleInfo {
-    /// What it is.
+    /// The example.
     pub example: Example,
     /// Its newest run; absent until the service was idle.
     pub run: Option<RunInfo>,

@@ -28,7 +28,7 @@ pub struct SuiteInfo {
     pub hardware_class: String,
     /// Version of the oracle that judges.
     pub oracle: u32,
-    /// The service measures what is missing when nobody asks for anything.
+    /// The service measures missing results while it is idle.
     pub idle: bool,
     /// How far each public algorithm has come, by id.
     pub progress: Vec<SuiteProgress>,

@@ -38,7 +38,7 @@ pub struct Engine {
 pub struct Current {
     pub id: String,
     pub stop: Stop,
-    /// It gives way to whatever anybody asks for.
+    /// It gives way to any request.
     pub idle: bool,
 }
 
@@ -63,9 +63,9 @@ pub struct Inner {
     pub asking: tokio::sync::Mutex<()>,
     /// Rung when the queue has something new.
     pub wake: Notify,
-    /// What is at work.
+    /// Work under way.
     pub current: Mutex<Option<Current>>,
-    /// How often somebody has asked for work.
+    /// Number of requests for work.
     pub asked: AtomicU64,
     pub sets: Cache<ConfigurationSet>,
     pub records: Cache<RecordColumns>,

@@ -8,25 +8,24 @@ use crate::idle::sql::{Tried, TriedSet};
 use crate::model::{Example, ExampleInfo, RunSpec};
 use crate::{EngineError, Result};
 
-/// Seconds per algorithm: somebody who looks at a new service should not wait long for any of them.
-const BUDGET_SECONDS: f64 = 6.0;
-
 static EXAMPLES: LazyLock<Vec<Example>> =
     LazyLock::new(|| serde_json::from_str(include_str!("examples/examples.json")).expect("examples.json is tested"));
 
 impl Engine {
-    /// The examples that this service can measure, each with its run where there is one.
+    /// The examples that this service has measured or will measure, each with its run where there is one.
     #[boxed]
     pub async fn examples(&self) -> Result<Vec<ExampleInfo>> {
         let mut all = Vec::new();
         for example in self.inner.possible_examples() {
             let run = match self.inner.store.run_that_tried(&self.inner.as_tried(&example)).await? {
-                // It may have been deleted, or be hidden.
                 Some(id) => match self.run(&id, None).await {
                     Ok(run) => Some(run),
-                    Err(EngineError::NotFound(_)) => None,
+                    // It could not be queued, or was deleted.
+                    Err(EngineError::NotFound(_)) => continue,
                     Err(e) => return Err(e),
                 },
+                // Without idle work it never comes.
+                None if !self.inner.config.idle => continue,
                 None => None,
             };
             all.push(ExampleInfo { example, run });
@@ -36,24 +35,18 @@ impl Engine {
 }
 
 impl Inner {
-    /// The next example that was not measured on this machine, and what it is noted as.
+    /// The next example that was not tried on this machine, and its entry in the list of tried work.
     pub(crate) fn next_example(&self, tried: &TriedSet) -> Option<(RunSpec, Tried)> {
-        let missing = self.possible_examples().into_iter().map(|example| (self.as_tried(&example), example.spec));
-        missing.into_iter().find(|(what, _)| !tried.contains(what)).map(|(what, spec)| (spec, what))
+        let mut all =
+            self.possible_examples().into_iter().map(|example| (example.spec.clone(), self.as_tried(&example)));
+        all.find(|(_, entry)| !tried.contains(entry))
     }
 
     /// Those whose algorithms are installed.
     fn possible_examples(&self) -> Vec<Example> {
         let installed = self.registry.installed();
         let has = |id: &String| installed.iter().any(|algorithm| algorithm.id == *id);
-        let possible = EXAMPLES.iter().filter(|example| example.spec.algorithms.iter().all(has));
-        possible
-            .cloned()
-            .map(|example| Example {
-                spec: RunSpec { budget_seconds: BUDGET_SECONDS, passes: 3, ..example.spec },
-                ..example
-            })
-            .collect()
+        EXAMPLES.iter().filter(|example| example.spec.algorithms.iter().all(has)).cloned().collect()
     }
 
     fn as_tried(&self, example: &Example) -> Tried {

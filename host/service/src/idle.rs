@@ -1,9 +1,8 @@
-//! Idle work: a service of which nothing is asked measures the examples of its start page and what is missing of the suite, and
-//! tries its algorithms for stability.
+//! Idle work: a service without requests measures the examples of its start page and the missing results of the suite, and
+//! tests its algorithms for stability.
 //!
-//! It queues one thing at a time, at the lowest priority, and gives way to whatever anybody asks for: the work is put back, and
-//! begins again when the service is idle again. What was tried while idle is not tried again, whatever came out: a failure would
-//! be repeated for ever.
+//! It queues one thing at a time, at the lowest priority, and gives way to any request: the work is put back, and begins again
+//! when the service is idle again. It is tried once, whatever its outcome: a failure would be repeated for ever.
 
 pub mod sql;
 
@@ -22,21 +21,21 @@ use crate::store::now_us;
 use crate::suite::planning::{AT_ONCE, scenario};
 use crate::{EngineError, Result};
 
-/// When nothing was missing, or something failed, it is looked again after so long.
+/// When nothing was missing, or something failed, the next look is after so long.
 const LOOK: Duration = Duration::from_secs(300);
-/// What is tried of an algorithm besides the scenarios of the suite.
+/// Name of the stability test in the list of tried work.
 const STABILITY: &str = "stability";
 
 /// The dispatcher's part of it.
 #[derive(Default)]
 pub struct Filling {
-    /// When to look again for what is missing.
+    /// When to look again for missing results.
     next: Option<Instant>,
 }
 
 impl Filling {
-    /// Works on what is missing for a while; false when there is nothing to do, or nothing may be done now. `asked` is how often
-    /// anybody had asked for work when the queue was found empty.
+    /// Carries out one piece of idle work; false when there is none, or none may be done now. `asked` is the number of requests
+    /// when the queue was found empty.
     pub async fn work(&mut self, inner: &Arc<Inner>, asked: u64) -> bool {
         if !inner.config.idle || inner.closing() || !inner.advices.is_empty() {
             return false;
@@ -49,7 +48,7 @@ impl Filling {
     }
 
     async fn go_on(&mut self, inner: &Arc<Inner>, asked: u64) -> Result<bool> {
-        // What gave way before.
+        // Work that gave way before.
         if let Some(id) = inner.store.claim_idle().await? {
             carry_out(inner, &id, Some(asked)).await?;
             return Ok(true);
@@ -68,9 +67,9 @@ impl Filling {
     }
 }
 
-/// Queues the next of what is missing: the examples first, then the suite, then stability. False when nothing is.
+/// Queues the next missing work: the examples first, then the suite, then stability. False when nothing is missing.
 async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
-    // Somebody else who plans queues work, and then this is not idle any more.
+    // Another planner queues work, and then the service is not idle any more.
     let Ok(_alone) = inner.planning.try_lock() else { return Ok(false) };
     let tried = inner.store.tried().await?;
     if let Some((spec, what)) = inner.next_example(&tried) {

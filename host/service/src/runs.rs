@@ -31,7 +31,7 @@ use crate::model::{
 };
 use crate::quotas::{Visitor, granted, turn};
 use crate::runs::log::{fresh_stages, plain_event};
-use crate::runs::priority::{IDLE, INTERACTIVE};
+use crate::runs::priority::INTERACTIVE;
 use crate::runs::sql::RunRow;
 use crate::store::now_us;
 use crate::{EngineError, Result};
@@ -94,11 +94,8 @@ impl Engine {
             owner: owner.map(str::to_owned),
             featured,
             private: checked.contestants.iter().any(|c| self.inner.registry.is_private(c)),
-            visibility: if featured || suite.is_some() || campaign.is_some() || priority == IDLE {
-                Visibility::Public
-            } else {
-                Visibility::default()
-            },
+            // The service's own runs are for everybody.
+            visibility: if priority == INTERACTIVE { Visibility::default() } else { Visibility::Public },
             priority,
             turn: owner.filter(|_| campaign.is_none()).map_or_else(String::new, |owner| turn(owner, address)),
             address: address.map(str::to_owned),

@@ -1,4 +1,4 @@
-//! A service of which nothing is asked measures what is missing, and gives way to whoever asks for something.
+//! An idle service measures missing results, and gives way to any request.
 
 mod common;
 
@@ -49,7 +49,7 @@ async fn until<T: for<'r> sqlx::Decode<'r, sqlx::Any> + sqlx::Type<sqlx::Any> + 
     }
 }
 
-/// One test at a time: while one measures, the process has fewer CPUs, and what is opened then is of another hardware class.
+/// One test at a time: while one measures, the process has fewer CPUs, and an engine opened then has another hardware class.
 static ALONE: tokio::sync::Mutex<()> = tokio::sync::Mutex::const_new(());
 
 /// Runs and stability runs of the service itself.
@@ -67,7 +67,7 @@ async fn an_idle_service_measures_the_suite_and_then_tries_stability() {
     assert_eq!((found.measured, found.waiting, found.failed, found.of), (2, 0, 0, 2));
     assert!(engine.suite().await.unwrap().idle);
     assert_eq!(engine.status().await.unwrap().queued, 0);
-    // It goes on part by part, and is nobody's.
+    // It goes on part by part, and has no owner.
     until(&database, "SELECT LENGTH(done) FROM stability_runs", |length: &i64| *length > 2).await;
     engine.shutdown().await;
     let attempts: i64 = sqlx::query_scalar("SELECT attempts FROM stability_runs").fetch_one(&database).await.unwrap();
@@ -91,7 +91,7 @@ async fn it_gives_way_to_a_visitor_at_once_and_finishes_later() {
 
     let asked = Instant::now();
     let run = engine.submit(common::spec("collision_first", 20, 1), Some("me")).await.unwrap();
-    assert!(run.runs_ahead == 0, "nobody waits for idle work");
+    assert!(run.runs_ahead == 0, "idle work delays no run");
     until(&database, "SELECT COUNT(*) FROM runs WHERE owner = 'me' AND state <> 'queued'", |n: &i64| *n == 1).await;
     let waited = asked.elapsed();
     let state = "SELECT state FROM runs WHERE priority = 9";
@@ -134,7 +134,7 @@ async fn what_failed_is_not_tried_again() {
     sqlx::query("UPDATE stability_runs SET state = 'failed'").execute(&database).await.unwrap();
     engine.shutdown().await;
     let engine = opened(data.path(), &suite, true).await;
-    // It has looked for what is missing when it has done what was asked for, and waits.
+    // After the requested run it has looked for missing results, and waits.
     let run = engine.submit(common::spec("collision_first", 20, 1), Some("me")).await.unwrap();
     common::finish(&engine, &run.id).await;
     tokio::time::sleep(Duration::from_millis(300)).await;
@@ -159,7 +159,12 @@ async fn examples_come_first_and_only_those_whose_algorithms_are_installed() {
     let plain = common::config(data.path());
     let plugins = ["box_tree", "fast", "parry"].map(|name| plain.runner.with_file_name(format!("libocb_{name}.so")));
     let plugins = Vec::from(plugins);
-    let engine = Engine::open(EngineConfig { plugins, suite: Some(suite), idle: true, ..plain }).await.unwrap();
+    let config = EngineConfig { plugins, suite: Some(suite), idle: false, ..plain };
+    let engine = Engine::open(config.clone()).await.unwrap();
+    assert_eq!(engine.examples().await.unwrap(), [], "without idle work none will come");
+    engine.shutdown().await;
+
+    let engine = Engine::open(EngineConfig { idle: true, ..config }).await.unwrap();
     let begun = Instant::now();
     let run = loop {
         let examples = engine.examples().await.unwrap();

@@ -1,4 +1,4 @@
-//! How `make test` counts: a wrong count would show green what is red.
+//! How `make test` counts: a wrong count would hide a failure.
 
 use std::fs;
 use std::process::Command;

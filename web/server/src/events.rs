@@ -26,7 +26,7 @@ const RETRY: Duration = Duration::from_secs(2);
 ///
 /// Each event has the run's sequence number as `id` and a `RunEvent` as `data`. With `Last-Event-ID` the stream begins
 /// behind that event; without it, at the first. It ends with the run; who connects again then gets 204, which tells an
-/// `EventSource` to stop. What is not kept (the place in the queue, preliminary results) has the number of the event before it.
+/// `EventSource` to stop. Events that are not kept (place in the queue, preliminary results) have the number of the event before them.
 #[utoipa::path(get, path = "/runs/{id}/events", tag = "runs",
     params(
         ("id" = String, Path, description = "Run id"),

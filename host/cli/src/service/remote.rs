@@ -18,7 +18,7 @@ impl Service<'_> {
         answer(&self.address(path), self.request(Method::GET, path)).await
     }
 
-    /// Sends this to what is at this path.
+    /// Posts this body to this path.
     pub async fn post<T: DeserializeOwned>(&self, path: &str, body: &Value) -> Result<T> {
         answer(&self.address(path), self.request(Method::POST, path).json(body)).await
     }

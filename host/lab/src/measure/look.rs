@@ -1,5 +1,5 @@
-//! What is shown of a run before it has ended: a first look at every algorithm before the rounds, and then what the rounds
-//! have so far. None of it is stored, ranked or used again.
+//! Preliminary results of a run: a first look at every algorithm before the rounds, and then the results of the rounds so
+//! far. None of it is stored, ranked or used again.
 //!
 //! A first look asks a fresh process of its own, in a lane that is thrown away, so that no process of the rounds has seen a
 //! question before and no number of theirs has an answer of it. It gives an algorithm a moment and no more: one that builds
@@ -32,7 +32,7 @@ const PATIENCE: Duration = Duration::from_millis(700);
 /// A run of fewer configurations than this is not looked at before it has ended.
 const LEAST: usize = 100;
 
-/// What the rounds have so far is shown no more often than this, and never for more than a twentieth of the time.
+/// Results of the rounds so far are shown no more often than this, and never for more than a twentieth of the time.
 const SHOW_EVERY: Duration = Duration::from_secs(1);
 const SHARE: u32 = 20;
 /// And so many configurations of it at most: the beginning of the shared order, which is a fair sample.
@@ -44,7 +44,7 @@ const START: f64 = 0.2;
 /// Number of the processes that only look. No round has it.
 const PROCESS: u32 = u32::MAX;
 
-/// What is known of an algorithm while it is measured.
+/// Preliminary results of one algorithm.
 #[derive(Clone, Debug)]
 pub struct Preliminary {
     /// Its numbers, without a rank.
@@ -135,7 +135,7 @@ fn empty(set: &ConfigurationSet) -> ConfigurationSet {
     ConfigurationSet { method: set.method.clone(), placed: Vec::new(), ..*set }
 }
 
-/// Shows now and then what the rounds have so far.
+/// Shows the results of the rounds so far now and then.
 pub struct Showing<'a> {
     task: &'a Task<'a>,
     news: &'a Sender<News>,
@@ -189,7 +189,7 @@ impl Task<'_> {
         pace::cost(configurations, self.passes, self.budget.as_secs_f64(), counted, query, start).seconds
     }
 
-    /// What there is to show of these configurations, whose places in `numbers` the records have.
+    /// Preliminary results for these configurations; the records have their places in `numbers`.
     fn preliminary(&self, measured: &Measured, reference: Option<&Measured>, numbers: &[u32]) -> Preliminary {
         let compared = compare(&measured.times, reference.map(|r| &r.times[..]), self.passes, self.part.of);
         let placed: Vec<_> = numbers.iter().map(|number| *self.placed(*number)).collect();

@@ -1,4 +1,4 @@
-//! What was tried while idle.
+//! The idle work that was tried.
 
 use std::collections::HashSet;
 
@@ -7,7 +7,7 @@ use crate::model::AlgorithmInfo;
 use crate::runs::priority::IDLE;
 use crate::store::{Store, now_us};
 
-/// What was tried of which plugin file.
+/// A piece of idle work that was tried, and the plugin file.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Tried {
     what: String,
@@ -19,7 +19,7 @@ pub struct Tried {
 pub type TriedSet = HashSet<Tried>;
 
 impl Tried {
-    /// Something that is tried whatever the plugin files are.
+    /// Work that is tried once, independently of the plugin files.
     pub fn apart(what: &str) -> Self {
         Self { what: what.to_owned(), algorithm: String::new(), plugin_sha256: String::new() }
     }
@@ -39,7 +39,7 @@ impl Store {
         Ok(rows.into_iter().map(tried).collect())
     }
 
-    /// Notes what is tried by this run.
+    /// Notes that this run tries it.
     pub async fn note_tried(&self, tried: &Tried, run: &str) -> Result<()> {
         let text = "INSERT INTO idle_tried (what, algorithm, plugin_sha256, run) VALUES ($1, $2, $3, $4) \
                     ON CONFLICT DO NOTHING";
@@ -56,7 +56,7 @@ impl Store {
         Ok(run.fetch_optional(&self.pool).await?)
     }
 
-    /// What this run was to try counts as not tried.
+    /// The work of this run counts as not tried.
     pub async fn forget_tried(&self, run: &str) -> Result<()> {
         sqlx::query("DELETE FROM idle_tried WHERE run = $1").bind(run).execute(&self.pool).await?;
         Ok(())

@@ -418,7 +418,7 @@ impl<'a> Bench<'a> {
         self.log.end(FIRST_MEASURING + lane, state, message, Some(result))
     }
 
-    /// What is needed to look at this run before it has ended.
+    /// Everything that preliminary results of this run need.
     fn looking(&self) -> Result<Looking<'a>> {
         let reference = crate::runs::spec::reference(&self.row.spec, &self.inner.registry);
         Ok(Looking::new(self.inner, self.stop, &self.row, self.contestants()?, reference))

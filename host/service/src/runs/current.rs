@@ -1,4 +1,4 @@
-//! What is at work, and how it is stopped.
+//! Work under way, and how it is stopped.
 
 use std::sync::atomic::Ordering;
 use std::sync::{MutexGuard, PoisonError};
@@ -7,12 +7,12 @@ use crate::engine::{Current, Inner};
 use crate::measure::Stop;
 
 impl Inner {
-    /// Notes what is at work and how it is stopped.
+    /// Notes the work under way and how it is stopped.
     pub(crate) fn set_current(&self, id: &str, stop: &Stop) {
         *self.current() = Some(Current { id: id.to_owned(), stop: stop.clone(), idle: false });
     }
 
-    /// The same for idle work. Who asked for something since found nothing that could give way.
+    /// The same for idle work. A request since then found nothing that could give way.
     pub(crate) fn set_current_idle(&self, id: &str, stop: &Stop, asked: u64) {
         *self.current() = Some(Current { id: id.to_owned(), stop: stop.clone(), idle: true });
         if self.asked.load(Ordering::SeqCst) != asked {

@@ -60,7 +60,7 @@ struct Follower {
     changes: Receiver<std::sync::Arc<str>>,
     /// The runs ahead of a waiting one that were told last. Places are computed when somebody looks, and no event is kept.
     place: Option<u32>,
-    /// The version of what the run shows before it has ended that was told last; no event of that is kept.
+    /// The version of the preliminary results that were sent last; these events are not kept.
     shown: u64,
     ended: bool,
 }
@@ -96,7 +96,7 @@ impl Follower {
         }
     }
 
-    /// Tells what is newer of the run's algorithms than what was told of them.
+    /// Reads preliminary results that are newer than those sent before.
     fn look_at_preliminary_results(&mut self) {
         let (results, version) = self.engine.inner.under_way.newer(&self.id, self.shown);
         self.shown = version;

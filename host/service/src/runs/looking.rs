@@ -1,4 +1,4 @@
-//! Looking at a run before it has ended: who may be looked at, and where that is shown.
+//! Preliminary results of a run: which runs have them, and passing them on.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -30,7 +30,8 @@ pub struct Looking<'a> {
 }
 
 impl<'a> Looking<'a> {
-    /// Nobody waits in front of the suite's and a campaign's runs, and a run whose numbers are there is not looked at anew.
+    /// Runs of the suite and of campaigns have no visitor who waits, and a refined run has results already: none of them is shown
+    /// early.
     pub fn new(
         inner: &'a Inner,
         stop: &'a Stop,

@@ -1,5 +1,5 @@
-//! What the run under way can show before it has ended. It is kept in memory alone and goes with the run's end, however that
-//! comes; an algorithm's part goes when its result is stored.
+//! The preliminary results of the run under way. They are kept in memory only and dropped when the run ends, in whatever way;
+//! those of an algorithm are dropped when its result is stored.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
@@ -63,7 +63,7 @@ impl UnderWay {
         Shown { under_way: self }
     }
 
-    /// Something is known that tells how long it will still take.
+    /// Updates the estimate of the remaining time.
     pub fn estimate(&self, from: impl FnOnce(&mut Remaining)) {
         if let Some(showing) = &mut *self.lock() {
             from(&mut showing.remaining);
@@ -103,7 +103,7 @@ impl UnderWay {
         }
     }
 
-    /// What is newer than a version, and the version that this is.
+    /// The results that are newer than a version, and the newest version.
     pub fn newer(&self, run: &str, than: u64) -> (Vec<AlgorithmResult>, u64) {
         self.of(run, |showing| {
             let newer = showing.lanes.iter().filter(|lane| lane.version > than);
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_shown_is_of_one_run_and_goes_with_it() {
+    fn preliminary_results_belong_to_one_run_and_end_with_it() {
         let under_way = UnderWay::default();
         under_way.show(0, preliminary("a", 9));
         let shown = under_way.begin("run", 2, 50.0);

@@ -1,9 +1,9 @@
 //! How long a run will still take, from what it has measured itself.
 //!
-//! Algorithms work in turns, so what is left of each adds up. Before an algorithm has begun, the first look says what it will
-//! take; before that, what earlier runs took.
+//! Algorithms work in turns, so their remaining times add up. Before an algorithm has begun, its time comes from the first look;
+//! before that, from earlier runs.
 
-/// What is told is never more than this factor away from what was told before, however the run turns out.
+/// Successive estimates differ by at most this factor, however the run turns out.
 const FACTOR: f64 = 1.9;
 /// So long anything may be told: nothing has been measured yet.
 const SETTLING: f64 = 5.0;
@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_measured_replaces_what_was_expected() {
+    fn measured_times_replace_expected_ones() {
         let mut remaining = Remaining::new(2, 40.0);
         assert_eq!(remaining.tell(0.0), 40.0);
         remaining.finding(100, 400, 1.0);

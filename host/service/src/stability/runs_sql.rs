@@ -15,7 +15,7 @@ pub struct StabilityRow {
     pub owner: Option<String>,
     /// Whose turn it takes.
     pub turn: String,
-    /// That of what visitors ask for, or of idle work.
+    /// Of a visitor's request, or of idle work.
     pub priority: i64,
     pub state: State,
     /// How often the part that is next was begun.
@@ -26,7 +26,7 @@ pub struct StabilityRow {
     pub spec: StabilitySpec,
     /// Parts that are done.
     pub done: Vec<String>,
-    /// What these took.
+    /// Seconds that these took.
     pub spent_seconds: f64,
     pub created_us: i64,
     pub finished_us: Option<i64>,
@@ -64,8 +64,8 @@ impl Store {
         Ok(added.rows_affected() == 1)
     }
 
-    /// The one of this priority whose next part is to be tried, and counts the attempt: what is begun first, then whose turn was
-    /// longest ago.
+    /// Claims the run of this priority whose next part is due, and counts the attempt: runs under way first, then the visitor who
+    /// was served longest ago.
     pub async fn claim_stability(&self, priority: i64) -> Result<Option<StabilityRow>> {
         let id: Option<String> = sqlx::query_scalar(
             "UPDATE stability_runs SET state = 'running', attempts = attempts + 1 \
@@ -89,7 +89,7 @@ impl Store {
         Ok(row)
     }
 
-    /// Keeps what the parts found that are done, and what they took; one that was cancelled meanwhile stays as it is.
+    /// Keeps the findings of the finished parts, and their time; a run that was cancelled meanwhile stays as it is.
     pub async fn keep_parts(&self, id: &str, done: &[String], found: &Stability, seconds: f64) -> Result<()> {
         let text = "UPDATE stability_runs SET attempts = 0, done = $1, found = $2, spent_seconds = $3 \
                     WHERE id = $4 AND state = 'running'";

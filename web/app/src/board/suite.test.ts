@@ -19,7 +19,7 @@ describe('the suite', () => {
     expect(unfinished([one('a', 4), one('b', 3), one('c', 0)]).map(({ algorithm }) => algorithm)).toEqual(['b', 'c'])
   })
 
-  it('says what is missing and what becomes of it', () => {
+  it('names missing results and says when they will be measured', () => {
     const words = (idle: boolean, ...progress: ReturnType<typeof one>[]) => missingWords({ progress, idle })
     expect(words(true, one('a', 4))).toBeNull()
     expect(words(true, one('a', 2), one('b', 3))).toBe('3 results of the suite are missing here. They will be measured when this service is idle.')

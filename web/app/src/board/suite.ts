@@ -18,7 +18,7 @@ function describe(separation: Separation): string {
   return `relative distance ${separation.distance}`
 }
 
-/** What is missing, and what becomes of it; null when nothing is. */
+/** Missing results, and when they will be measured; null when none are missing. */
 export function missingWords({ progress, idle }: Pick<SuiteInfo, 'progress' | 'idle'>): string | null {
   const sum = (of: (one: SuiteProgress) => number) => progress.reduce((all, one) => all + of(one), 0)
   const [missing, failed] = [sum(({ of, measured }) => of - measured), sum((one) => one.failed)]

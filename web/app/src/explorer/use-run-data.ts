@@ -25,7 +25,7 @@ export function isPreliminary(run: RunInfo): boolean {
   return run.results.some(({ preliminary, n }) => preliminary && n > 0)
 }
 
-/** Of how many answers what is shown so far comes: `300`, or `300 to 5,000` where algorithms differ. */
+/** Number of answers behind preliminary results: `300`, or `300 to 5,000` where algorithms differ. */
 export function preliminaryN(run: RunInfo): string {
   const all = run.results.filter(({ n }) => n > 0).map(({ n }) => n)
   const [least, most] = [Math.min(...all), Math.max(...all)]
@@ -73,7 +73,7 @@ export function renewed(before: readonly AlgorithmResult[], now: readonly Algori
   return before.filter(changed).map(({ algorithm }) => algorithm)
 }
 
-/** What is preliminary is fetched anew when there is more of it; until then the picture stays. */
+/** Preliminary results are fetched again when there are newer ones; until then the picture stays. */
 function useRenewal(what: 'heatmap' | 'ecdf', run: ComputedRef<RunInfo>): void {
   const client = useQueryClient()
   watch(run, (now, before) => {

@@ -43,7 +43,7 @@ struct ConfigurationsForm {
 
 /// Saves the configurations of a file: one per row, the pose of B relative to A as 12 or 16 numbers of a row-major 4x4 matrix, or
 /// both poses, as JSON, CSV or raw little-endian f64. The method `file` with their `sha256` measures on them. The same file sent
-/// twice is one. Only its owner sees it in the list; whoever knows the `sha256` can measure on it.
+/// twice is one. Only its owner sees it in the list; anyone who knows the `sha256` can measure on it.
 #[utoipa::path(post, path = "/configurations", tag = "configurations",
     request_body(content = inline(ConfigurationsForm), content_type = "multipart/form-data"),
     responses(
