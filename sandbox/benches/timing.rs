@@ -188,15 +188,15 @@ impl Bench {
         }
     }
 
-    /// The same plugin as two contestants, in turn: how often are they told apart?
+    /// The same plugin as two algorithms, in turn: how often are they told apart?
     fn against_itself(&self, repetitions: u64) {
         let (mut apart, mut ratios) = (0, Vec::new());
         for repetition in 0..repetitions {
             let mut times = [(); 2].map(|()| vec![Vec::new(); self.configurations.len()]);
             for round in 0..K as u32 {
-                for contestant in &mut times {
+                for algorithm in &mut times {
                     let seed = 1000 + repetition * 10 + u64::from(round);
-                    for (cell, ns) in contestant.iter_mut().zip(self.process(seed).0) {
+                    for (cell, ns) in algorithm.iter_mut().zip(self.process(seed).0) {
                         cell.push((round, ns));
                     }
                 }

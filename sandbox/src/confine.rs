@@ -155,6 +155,19 @@ pub(crate) fn pin(cpus: &[usize]) -> io::Result<Vec<usize>> {
     Ok(before)
 }
 
+/// Keeps every thread of a process on the given CPUs. One that ends meanwhile is no loss, so nothing here can fail.
+pub(crate) fn pin_process(pid: i32, cpus: &[usize]) {
+    use nix::sched::{CpuSet, sched_setaffinity};
+    let mut set = CpuSet::new();
+    for cpu in cpus {
+        let _ = set.set(*cpu);
+    }
+    let tasks = std::fs::read_dir(format!("/proc/{pid}/task")).into_iter().flatten().flatten();
+    for task in tasks.filter_map(|task| task.file_name().to_str()?.parse().ok()) {
+        let _ = sched_setaffinity(nix::unistd::Pid::from_raw(task), &set);
+    }
+}
+
 /// Where the calling thread may run.
 pub(crate) fn own_cpus() -> io::Result<Vec<usize>> {
     use nix::sched::{CpuSet, sched_getaffinity};

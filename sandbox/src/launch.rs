@@ -79,12 +79,12 @@ impl Killer {
 }
 
 impl Jail {
-    /// Starts a runner for a plugin file and a trial, up to the moment before the plugin is loaded.
+    /// Starts a runner for a plugin file, or a program that loads none, and a trial, up to the moment before the plugin is loaded.
     pub fn start(
         runner: &Path,
         policy: &Policy,
         killer: &Killer,
-        plugin: &Path,
+        plugin: Option<&Path>,
         sheet: &Sheet,
         places: &Places,
         namespaces: bool,
@@ -93,8 +93,11 @@ impl Jail {
         if killer.asked() {
             return Err(Outcome::Cancelled.into());
         }
-        let Opened { path: plugin_path, file: plugin_file, bytes: plugin_bytes } =
-            opened::open(plugin, policy.plugin_sha256.as_deref())?;
+        let opened = match plugin {
+            Some(plugin) => opened::open(plugin, policy.plugin_sha256.as_deref())?,
+            None => opened::nothing(runner)?,
+        };
+        let Opened { path: plugin_path, file: plugin_file, bytes: plugin_bytes } = opened;
         let libraries = if policy.trusted { brought::beside(&plugin_path)? } else { Vec::new() };
         let whole = libc::F_SEAL_SHRINK | libc::F_SEAL_GROW | libc::F_SEAL_SEAL;
         // What is sealed so has no other writable mapping than the one that is there: ours.
@@ -109,7 +112,7 @@ impl Jail {
         (0..sheet.len / PAGE).for_each(|page| trial.u64(page * PAGE).store(0, Ordering::Relaxed));
         trial.store_bytes(0, &sheet.head);
         let (request_file, request) = ours(c"ocb-request", request::BYTES).map_err(fault("SharedMemory"))?;
-        let answer_file = memory_file(c"ocb-answer", answer::bytes(sheet.triangles)).map_err(fault("SharedMemory"))?;
+        let answer_file = memory_file(c"ocb-answer", sheet.answer_bytes).map_err(fault("SharedMemory"))?;
         seal(answer_file.as_fd(), whole).map_err(fault("SharedMemory"))?;
         let answer = Segment::whole(answer_file.as_fd(), false).map_err(fault("SharedMemory"))?;
 
@@ -155,11 +158,11 @@ impl Jail {
             limits: policy.clone(),
         };
         // With a group the address space only has to stop absurd reservations; without one it is the memory limit.
-        let meshes = sheet.len as u64;
+        let shared = (sheet.len + sheet.answer_bytes) as u64;
         let address_space_bytes = match jail.group {
             // glibc reserves a stack and a heap for each thread, of which little is ever touched.
-            Some(_) => 2 * policy.memory_bytes + meshes + (1 << 30) + startable_threads as u64 * (128 << 20),
-            None => policy.memory_bytes + meshes + (64 << 20),
+            Some(_) => 2 * policy.memory_bytes + shared + (1 << 30) + startable_threads as u64 * (128 << 20),
+            None => policy.memory_bytes + shared + (64 << 20),
         };
         let order = Order {
             supervisor: std::process::id() as i32,

@@ -135,7 +135,7 @@ impl Launcher {
         work: impl FnOnce(&mut Exchange) -> Result<T, Outcome>,
     ) -> Result<T, Ending> {
         let places = Places::here(&self.policy)?;
-        let mut exchange = self.jail(plugin, sheet, killer, &places)?;
+        let mut exchange = self.jail(Some(plugin), sheet, killer, &places)?;
         match work(&mut exchange) {
             Ok(found) => {
                 exchange.jail.end(Outcome::Completed);
@@ -159,7 +159,7 @@ impl Launcher {
         let meshes: Vec<&Mesh> = std::iter::once(trial.mesh_a).chain(trial.mesh_b).collect();
         let sheet = Sheet::new(trial.algorithm, trial.parameters, trial.semantics, &meshes);
         let places = Places::here(&self.policy)?;
-        let mut exchange = self.jail(trial.plugin, &sheet, killer, &places)?;
+        let mut exchange = self.jail(Some(trial.plugin), &sheet, killer, &places)?;
         // Not before the jail has started: it would inherit the choice.
         let pinned = match Pinned::to(places.supervisor) {
             Ok(pinned) => pinned,
@@ -204,7 +204,7 @@ impl Launcher {
     }
 
     /// Has the runner put its tighter filters in force? By then the plugin may have taken it over, so that the kernel is asked.
-    fn tighten(&self, exchange: &mut Exchange) -> Result<(), Outcome> {
+    pub(crate) fn tighten(&self, exchange: &mut Exchange) -> Result<(), Outcome> {
         exchange.obeyed(Command::Tighten, Phase::Load, self.policy.load_seconds)?;
         match status_field(exchange.jail.pid, "Seccomp_filters").and_then(|n| n.parse::<usize>().ok()) {
             // Kernels before 5.9 do not count.
@@ -219,7 +219,13 @@ impl Launcher {
 
     /// A jail that has been looked at. Where this machine forbids namespaces, a trusted plugin runs without, and a foreign
     /// one where the profile lets it.
-    fn jail(&self, plugin: &Path, trial: &Sheet, killer: &Killer, places: &Places) -> Result<Exchange, Ending> {
+    pub(crate) fn jail(
+        &self,
+        plugin: Option<&Path>,
+        trial: &Sheet,
+        killer: &Killer,
+        places: &Places,
+    ) -> Result<Exchange, Ending> {
         match self.jail_in(plugin, trial, killer, places, true) {
             Err(Ending { outcome: Outcome::SandboxFault { step, .. }, .. })
                 if (self.policy.trusted || self.policy.profile == Profile::Dev)
@@ -233,7 +239,7 @@ impl Launcher {
 
     fn jail_in(
         &self,
-        plugin: &Path,
+        plugin: Option<&Path>,
         trial: &Sheet,
         killer: &Killer,
         places: &Places,

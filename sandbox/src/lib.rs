@@ -22,6 +22,8 @@ mod evidence;
 mod exchange;
 pub mod gate;
 pub mod given;
+#[doc(hidden)]
+pub mod inside;
 pub mod integrity;
 pub mod launch;
 pub mod launcher;
@@ -45,6 +47,7 @@ pub mod text;
 pub mod trial;
 mod usage;
 mod verify;
+pub mod work;
 
 pub use clock::{ClockFacts, ClockKind};
 pub use descriptor::{Descriptor, Parameter};

@@ -10,6 +10,7 @@ use sha2::{Digest, Sha256};
 use crate::gate::MAX_BYTES;
 use crate::given;
 use crate::outcome::{Ending, Outcome};
+use crate::shared::memory_file;
 
 /// Read at a time.
 const CHUNK: usize = 1 << 20;
@@ -20,6 +21,14 @@ pub(crate) struct Opened {
     pub path: PathBuf,
     pub file: File,
     pub bytes: u64,
+}
+
+/// Where no plugin is to be loaded: an empty file, and the program in its place.
+pub(crate) fn nothing(program: &Path) -> Result<Opened, Ending> {
+    let fault = |error: io::Error| Ending::from(Outcome::fault("Start", format!("{}: {error}", program.display())));
+    let path = program.canonicalize().map_err(fault)?;
+    let file = File::from(memory_file(c"ocb-nothing", 0).map_err(fault)?);
+    Ok(Opened { path, file, bytes: 0 })
 }
 
 /// Opens the file, which must have this SHA-256 if one is given.

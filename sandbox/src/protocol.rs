@@ -73,6 +73,32 @@ pub mod answer {
     }
 }
 
+/// Byte offsets for a program that does one piece of work (`inside/task.rs`), in what is free of the same two files.
+pub mod work {
+    /// u32 of the request: times may be taken.
+    pub const GRANTED: usize = 256;
+    /// u64 of the answer: see [`progress`].
+    pub const PROGRESS: usize = 320;
+    /// u32 of the answer: it waits until times may be taken.
+    pub const ASKS: usize = 328;
+    /// u64 of the answer: 1 + the number of bytes of the result, once that is there.
+    pub const DONE: usize = 336;
+    /// Where the result begins in the answer.
+    pub const RESULT: usize = super::answer::TEXT;
+    /// Largest part of a step.
+    const MOST: u64 = (1 << 28) - 1;
+
+    /// One word, so that no half of it is ever read: the step, what is done of it, and of how much.
+    pub fn progress(step: u8, done: u64, total: u64) -> u64 {
+        u64::from(step) << 56 | done.min(MOST) << 28 | total.min(MOST)
+    }
+
+    /// The parts of such a word, whatever it is.
+    pub fn progress_of(word: u64) -> (u8, u32, u32) {
+        ((word >> 56) as u8, (word >> 28 & MOST) as u32, (word & MOST) as u32)
+    }
+}
+
 /// What the supervisor asks the runner to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u64)]

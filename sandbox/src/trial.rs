@@ -4,6 +4,8 @@ use ocb_core::mesh::Mesh;
 use ocb_core::query::Semantics;
 use serde::{Deserialize, Serialize};
 
+use crate::protocol::answer;
+
 /// Head of the trial file: what the runner needs to know beside the meshes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrialHead {
@@ -42,6 +44,8 @@ pub struct Sheet {
     pub triangles: [u32; 2],
     /// Bytes of the whole file.
     pub len: usize,
+    /// Bytes of the answer file.
+    pub answer_bytes: usize,
 }
 
 /// A stretch of the trial file that is not there from the start.
@@ -88,7 +92,14 @@ impl Sheet {
             TrialHead { algorithm: algorithm.into(), parameters: parameters.to_vec(), semantics, meshes: places };
         let json = serde_json::to_vec(&head).expect("plain data is always JSON");
         let head = [&(json.len() as u64).to_le_bytes()[..], &json].concat();
-        Sheet { head, meshes: parts, triangles, len: at }
+        Sheet { head, meshes: parts, triangles, len: at, answer_bytes: answer::bytes(triangles) }
+    }
+
+    /// Bytes for a program that does one piece of work: their number, then they.
+    pub fn of_bytes(bytes: &[u8], answer_bytes: usize) -> Self {
+        let head = [&(bytes.len() as u64).to_le_bytes()[..], bytes].concat();
+        let len = head.len().next_multiple_of(64);
+        Sheet { head, meshes: Vec::new(), triangles: [0; 2], len, answer_bytes }
     }
 }
 

@@ -38,11 +38,20 @@ impl Meter {
 
     /// Does it sleep in the kernel? Nothing where the kernel does not say.
     pub fn is_asleep(&self) -> Option<bool> {
+        self.state().map(|state| state == b'S')
+    }
+
+    /// Does it compute, or would it if it had its CPU?
+    pub fn is_ready(&self) -> bool {
+        self.state() == Some(b'R')
+    }
+
+    fn state(&self) -> Option<u8> {
         let mut text = [0; 128];
         let len = self.state.as_ref()?.read_at(&mut text, 0).ok()?;
         // Its name is in brackets, and it chose that itself.
         let behind = text[..len].iter().rposition(|c| *c == b')')?;
-        Some(text.get(behind + 2) == Some(&b'S'))
+        text.get(behind + 2).copied()
     }
 
     /// Nothing where the kernel does not count.

@@ -154,6 +154,25 @@ fn a_wait_for_the_cpu_is_taken_off_the_question_that_it_fell_into() {
 }
 
 #[test]
+fn a_limit_does_not_count_waits_for_the_cpu() {
+    let _alone = alone();
+    let on = |cpu, query_seconds| Policy { runner_cpu: Some(cpu), query_seconds, ..common::policy() };
+    let asked = |query_seconds, fault: &str| {
+        let mut session = start(&launcher_with(on(0, query_seconds)), &fixture(&[fault])).unwrap();
+        session.query(Query::CollisionFirst, &apart(0.5)).map(|sample| sample.raw_ns / 1e9)
+    };
+    let work = "WORK=600000000";
+    let seconds = asked(30.0, work).unwrap();
+    let busy = Busy::on(0);
+    // It takes twice as long beside the other thread, and computes no longer than before.
+    let beside = asked(1.6 * seconds, work).unwrap();
+    println!("{seconds} s alone, {beside} s beside a loop");
+    let endless = asked(1.6 * seconds, "ATTACK=loop").unwrap_err();
+    assert!(matches!(endless, Outcome::TimedOut { .. }), "{endless:?}");
+    drop(busy);
+}
+
+#[test]
 fn work_during_the_wake_up_is_not_lost_time() {
     let _alone = alone();
     let others = Others::look();

@@ -12,6 +12,8 @@ use std::time::{Duration, Instant};
 use common::{alive, apart, fixture, groups_of, launcher_with, policy, runner, start};
 use ocb_core::query::Query;
 use ocb_sandbox::doctor::{Diagnosis, State, examine};
+use ocb_sandbox::inside;
+use ocb_sandbox::work::{Seen, Work};
 use ocb_sandbox::{Launcher, Outcome, Policy, Profile};
 
 fn main() {
@@ -19,6 +21,9 @@ fn main() {
     match arguments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
         [_, "hang", plugin] => hang(Path::new(plugin)),
         [_, "ordinary", folder] => ordinary(Path::new(folder)),
+        [_, "launch" | "run", ..] => {
+            inside::task::main(|input, threads, _| format!("{} bytes, {threads}", input.len()).into_bytes())
+        }
         [_, "refused", folder] => where_namespaces_are_refused(Path::new(folder)),
         _ => {
             the_death_of_the_supervisor_ends_the_jail();
@@ -111,7 +116,17 @@ fn another_user(part: &str) {
     println!("test plugins run for an ordinary user ({part}) ... ok");
 }
 
+/// A program of ours does its work in the jail, with threads where these are counted.
+fn work_is_done(program: &Path, threads: bool) {
+    let mut work = Work::start(program, &Policy { threads: 2, ..policy() }, &[0; 5], 64).unwrap();
+    while work.look().unwrap() != Seen::Done {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    assert_eq!(String::from_utf8(work.finish().unwrap()).unwrap(), format!("5 bytes, {threads}"));
+}
+
 fn ordinary(folder: &Path) {
+    work_is_done(&folder.join("test"), true);
     let diagnosis = production_is_what_the_doctor_says(folder);
     assert!(diagnosis.dev && diagnosis.own_plugins, "{diagnosis:#?}");
     let launcher = Launcher::new(folder.join("ocb-runner"), policy());
@@ -150,6 +165,7 @@ fn production_is_what_the_doctor_says(folder: &Path) -> Diagnosis {
 /// Foreign plugins are refused with the reason; the ones we built run under the layers that remain, and a developer may
 /// run others so.
 fn where_namespaces_are_refused(folder: &Path) {
+    work_is_done(&folder.join("test"), false);
     let diagnosis = production_is_what_the_doctor_says(folder);
     assert!(!diagnosis.production && diagnosis.own_plugins, "{diagnosis:#?}");
     let namespaces = diagnosis.facilities.iter().find(|f| f.name == "user namespaces").unwrap();

@@ -1,10 +1,9 @@
 //! `ocb-runner`: started by the sandbox and by nobody else, in three shapes.
 //!
-//! * `launch`: a small process that builds the jail and waits for its end ([`jail`]).
+//! * `launch`: a small process that builds the jail and waits for its end ([`ocb_sandbox::inside`]).
 //! * `probe`: tells what this machine's kernel has ([`probe`]).
 //! * `run`: started fresh inside the jail; closes itself off, loads the plugin and answers ([`serve`]).
 
-mod jail;
 mod library;
 mod measure;
 mod probe;
@@ -14,7 +13,7 @@ fn main() {
     let arguments: Vec<String> = std::env::args().collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match arguments.as_slice() {
-        [_, "launch"] => jail::launch(),
+        [_, "launch"] => ocb_sandbox::inside::launch(),
         [_, "probe"] => probe::probe(),
         [_, "run", mode, plugin, libraries @ ..] => serve::run(mode, plugin, libraries),
         _ => {

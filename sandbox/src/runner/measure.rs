@@ -6,6 +6,7 @@
 
 use ocb_core::query::Semantics;
 use ocb_sandbox::gate::{self, Inspection};
+use ocb_sandbox::inside::{Shared, Slot};
 use ocb_sandbox::protocol::{Command, answer, slot};
 use ocb_sandbox::seccomp;
 use opencollbench_plugin::raw::contacts::{Contact, ContactsRequest, ContactsResult};
@@ -13,7 +14,7 @@ use opencollbench_plugin::raw::distance::{DistanceRequest, DistanceResult};
 use opencollbench_plugin::raw::{self, CollideRequest, CollideResult, Counts, Host, Instance, Object};
 
 use crate::library::{Algorithm, Failure, Mapped, Plugin};
-use crate::serve::{Shared, Slot};
+use crate::serve::head;
 
 /// The plugin and what it has made so far.
 pub struct Measured {
@@ -118,7 +119,7 @@ impl Measured {
     }
 
     fn prepare(&mut self, shared: &Shared, slot: &mut Slot) -> Result<(), Failure> {
-        let head = shared.head()?;
+        let head = head(shared)?;
         let plugin = self.plugin.as_ref().ok_or_else(|| Failure::error("nothing is loaded"))?;
         let algorithm = plugin.algorithm(&head.algorithm)?;
         if head.semantics == Semantics::Solid {
@@ -153,7 +154,7 @@ impl Measured {
 
     fn build(&mut self, shared: &Shared, which: usize) -> Result<(), Failure> {
         let algorithm = self.algorithm()?;
-        let head = shared.head()?;
+        let head = head(shared)?;
         let place = head.meshes.get(which).ok_or_else(|| Failure::error("the trial does not have this mesh"))?;
         let positions = shared.trial_address(place.positions_at).cast();
         let triangles = shared.trial_address(place.triangles_at).cast();

@@ -1,124 +1,31 @@
 //! `ocb-runner run`: closes the process off, then answers commands until it is killed.
 
-use std::os::fd::{AsFd, OwnedFd};
-use std::path::Path;
 use std::sync::atomic::Ordering;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use ocb_sandbox::confine::{ConfineError, close_from, harden, root};
-use ocb_sandbox::control::{Control, Report};
-use ocb_sandbox::doorbell::{futex_wait, futex_wake};
+use ocb_sandbox::inside::{Closed, Shared, Slot, close_off};
 use ocb_sandbox::protocol::{Command, MAX_BATCH, SLOT_WORDS, answer, request, slot};
-use ocb_sandbox::seccomp;
-use ocb_sandbox::shared::Segment;
 use ocb_sandbox::trial::TrialHead;
-use seccompiler::BpfProgram;
 
-use crate::jail::{ANSWER, CONTROL, REQUEST, TRIAL, inherited};
 use crate::library::Failure;
 use crate::measure::Measured;
 
-/// How long the runner watches memory after its last answer before it sleeps.
-const WATCH: Duration = Duration::from_millis(2);
-
-/// The shared memory, from the runner's side.
-pub struct Shared {
-    trial: Segment,
-    request: Segment,
-    /// The slot that answers go to.
-    pub answer: Segment,
-    watch: Duration,
-}
-
-/// What is written for one command.
-pub type Slot = [u64; SLOT_WORDS];
-
 /// Never returns: the process ends by being killed.
 pub fn run(mode: &str, plugin: &str, libraries: &[&str]) -> ! {
-    let control = Control::from_fd(inherited(CONTROL));
-    let shared = match close_off(mode, plugin, libraries) {
-        Ok(shared) => shared,
-        Err(error) => {
-            let _ = control.send(&Report::Fault { step: error.step(), reason: error.to_string() }, &[]);
-            std::process::exit(120);
-        }
-    };
-    // Everything but 0, 1, 2 and the listener, which the supervisor's first command closes.
-    drop(control);
-    let (listener, tighter) = match filters(mode.split(',').any(|part| part == "threads")) {
-        Ok(filters) => filters,
-        Err(error) => {
-            // The socket is gone; the supervisor sees an early end and these words.
-            eprintln!("{error}");
-            std::process::exit(120);
-        }
-    };
-    let word = shared.answer.u32(answer::LISTENER);
-    word.store(listener as u32 + 1, Ordering::Release);
-    futex_wake(word);
+    let closed = close_off(mode, plugin, libraries);
     let libraries = libraries.iter().map(ToString::to_string).collect();
-    serve(&shared, Measured::new(plugin.to_string(), libraries, tighter), listener)
+    let state = Measured::new(plugin.to_string(), libraries, closed.tighter.clone());
+    serve(&closed, state)
 }
 
-/// The listener of the filter, which is in force, and the tighter ones for later.
-fn filters(threads: bool) -> Result<(i32, Vec<BpfProgram>), ConfineError> {
-    let refused = |e: &dyn std::fmt::Display| ConfineError::Seccomp(e.to_string());
-    let program = seccomp::compile(std::process::id() as i32, threads).map_err(|e| refused(&e))?;
-    let tighter = seccomp::compile_tighter().map_err(|e| refused(&e))?;
-    Ok((seccomp::install(&program).map_err(|e| refused(&e))?, tighter))
-}
-
-fn close_off(mode: &str, plugin: &str, libraries: &[&str]) -> Result<Shared, ConfineError> {
-    let has = |flag| mode.split(',').any(|part| part == flag);
-    let own_root = has("jail");
-    let map = |fd: OwnedFd, writable| Segment::whole(fd.as_fd(), writable).map_err(ConfineError::SharedMemory);
-    let shared = Shared {
-        trial: map(inherited(TRIAL), false)?,
-        request: map(inherited(REQUEST), false)?,
-        answer: map(inherited(ANSWER), true)?,
-        watch: if has("futex") { Duration::ZERO } else { WATCH },
-    };
-    close_from(CONTROL as u32 + 1).map_err(ConfineError::Descriptors)?;
-    // What the plugin brings is loaded with it, under the filter.
-    let (optional, required): (Vec<&str>, Vec<&str>) = libraries
-        .iter()
-        .filter(|path| root::is_system(path))
-        .partition(|path| !["libc.so.6", "libm.so.6", "libgcc_s.so.1"].iter().any(|n| path.ends_with(n)));
-    harden::preload(&required, &optional)?;
-    harden::reset_signals()?;
-    // An ordinary user's supervisor could not look at an undumpable process; root can.
-    if has("own") {
-        harden::make_undumpable()?;
-    }
-    let sealed = harden::seal_code();
-    let no_new_code = harden::refuse_new_code();
-    let plugin = Path::new(plugin);
-    let landlock = if own_root {
-        harden::landlock(&[plugin, Path::new("/lib")])
-    } else {
-        let places = libraries.iter().map(Path::new);
-        harden::landlock(&places.chain([plugin]).collect::<Vec<_>>())
-    };
-    let landlock = match landlock {
-        Ok(abi) => abi,
-        // An own root shows the same files. Whether that is enough for this plugin is the supervisor's to say.
-        Err(_) if own_root => 0,
-        Err(error) => return Err(error),
-    };
-    for (i, fact) in [landlock, sealed, u32::from(no_new_code)].into_iter().enumerate() {
-        shared.answer.u32(answer::HARDENING + 4 * i).store(fact, Ordering::Relaxed);
-    }
-    Ok(shared)
-}
-
-fn serve(shared: &Shared, mut state: Measured, listener: i32) -> ! {
+fn serve(closed: &Closed, mut state: Measured) -> ! {
+    let shared = &closed.shared;
     let (mut number, mut watch) = (0, shared.watch);
     loop {
         number = shared.next(number, watch);
         let command = Command::from_word(shared.request.u64(request::COMMAND).load(Ordering::Relaxed));
         if command == Some(Command::CloseListener) {
-            // SAFETY: our own descriptor, closed once.
-            unsafe { libc::close(listener) };
+            closed.close_listener();
         }
         let questions = shared.request.u64(request::QUESTIONS).load(Ordering::Relaxed) as usize;
         for question in 0..questions.clamp(1, MAX_BATCH) {
@@ -129,7 +36,7 @@ fn serve(shared: &Shared, mut state: Measured, listener: i32) -> ! {
             };
             let failed = done.is_err();
             if let Err(failure) = done {
-                shared.fail(&mut slot, failure);
+                fail(shared, &mut slot, failure);
             }
             shared.answer.store(answer::SLOT + answer::SLOT_STRIDE * question, &slot);
             // There is one text, so the first failure ends a batch.
@@ -142,80 +49,15 @@ fn serve(shared: &Shared, mut state: Measured, listener: i32) -> ! {
     }
 }
 
-impl Shared {
-    /// Waits for the command after `number`, so long by watching memory and then asleep.
-    #[inline]
-    fn next(&self, number: u32, watch: Duration) -> u32 {
-        let word = self.request.u32(request::NUMBER);
-        let mut watched_since = None;
-        loop {
-            for _ in 0..256 {
-                let new = word.load(Ordering::Acquire);
-                if new != number {
-                    return new;
-                }
-                if watch.is_zero() {
-                    break;
-                }
-                std::hint::spin_loop();
-            }
-            let since = *watched_since.get_or_insert_with(Instant::now);
-            if since.elapsed() >= watch {
-                // Said before the last look at the number, so that the supervisor cannot miss it.
-                self.answer.u32(answer::RUNNER_SLEEPS).store(1, Ordering::SeqCst);
-                futex_wait(word, number, None);
-                self.answer.u32(answer::RUNNER_SLEEPS).store(0, Ordering::SeqCst);
-                watched_since = None;
-            }
-        }
-    }
+fn fail(shared: &Shared, slot: &mut Slot, failure: Failure) {
+    *slot = [0; SLOT_WORDS];
+    slot[slot::STATUS] = failure.status;
+    shared.say(slot, failure.reason.as_bytes());
+}
 
-    /// Publishes the answers to command `number`.
-    #[inline]
-    fn commit(&self, number: u32) {
-        let word = self.answer.u32(answer::NUMBER);
-        word.swap(number, Ordering::SeqCst);
-        if self.request.u32(request::SUPERVISOR_SLEEPS).load(Ordering::SeqCst) != 0 {
-            futex_wake(word);
-        }
-    }
-
-    fn fail(&self, slot: &mut Slot, failure: Failure) {
-        *slot = [0; SLOT_WORDS];
-        slot[slot::STATUS] = failure.status;
-        self.say(slot, failure.reason.as_bytes());
-    }
-
-    /// Puts text beside the slot, cut to what fits.
-    pub fn say(&self, slot: &mut Slot, text: &[u8]) {
-        let text = &text[..text.len().min(answer::TEXT_BYTES)];
-        self.answer.store_bytes(answer::TEXT, text);
-        slot[slot::TEXT_LEN] = text.len() as u64;
-    }
-
-    /// The poses of one question of the current command.
-    #[inline]
-    pub fn poses(&self, question: usize) -> [f64; 32] {
-        let mut words = [0; 32];
-        self.request.load(request::POSES + request::POSES_STRIDE * question, &mut words);
-        words.map(f64::from_bits)
-    }
-
-    /// Does this question put object B first?
-    #[inline]
-    pub fn swapped(&self, question: usize) -> bool {
-        self.request.u64(request::SWAPPED).load(Ordering::Relaxed) >> question & 1 == 1
-    }
-
-    /// The head of the trial.
-    pub fn head(&self) -> Result<TrialHead, Failure> {
-        let len = self.trial.u64(0).load(Ordering::Relaxed) as usize;
-        serde_json::from_slice(&self.trial.load_bytes(8, len))
-            .map_err(|e| Failure::error(format!("the trial's head is not readable ({e})")))
-    }
-
-    /// Address of a byte of the trial file.
-    pub fn trial_address(&self, offset: usize) -> *const u8 {
-        self.trial.address(offset)
-    }
+/// The head of the trial.
+pub fn head(shared: &Shared) -> Result<TrialHead, Failure> {
+    let len = shared.trial.u64(0).load(Ordering::Relaxed) as usize;
+    serde_json::from_slice(&shared.trial.load_bytes(8, len))
+        .map_err(|e| Failure::error(format!("the trial's head is not readable ({e})")))
 }

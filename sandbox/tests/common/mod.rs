@@ -87,7 +87,7 @@ pub fn judged(query: Query, configuration: &Configuration, answer: &Answer) -> V
     let shape = Shape::new(Arc::new(mesh()));
     let pair = Pair::new(&shape, &shape);
     let truth = pair.truth(configuration);
-    let placed = Placed { configuration: *configuration, truth, root_index: 0, wanted: None };
+    let placed = Placed { configuration: *configuration, truth, rounded: None, root_index: 0, wanted: None };
     let terms = Terms { query, semantics: Semantics::Surface, precision: Precision::Double };
     judge(&pair, &placed, terms, answer).verdict
 }

@@ -1,4 +1,4 @@
-//! Builds the jail: launcher (outside) -> init (first process inside) -> runner.
+//! Builds the jail: launcher (outside) -> init (first process inside) -> runner, all of them the program that was started.
 //!
 //! The launcher is exec'd fresh and single-threaded, so that it may fork and run Rust code in the child, which the host
 //! process with its threads may not. It stays outside as the parent whose death kills the jail. Init builds the root,
@@ -8,8 +8,8 @@ use std::fs::File;
 use std::io::{self, Read, Write};
 use std::os::fd::{AsFd, AsRawFd, BorrowedFd, FromRawFd, OwnedFd};
 
-use ocb_sandbox::confine::{self, ConfineError, root};
-use ocb_sandbox::control::{Control, Order, Report};
+use crate::confine::{self, ConfineError, root};
+use crate::control::{Control, Order, Report};
 
 /// Exit status of a jail process that could not do its step; the report on the control socket says which.
 const FAULT: i32 = 120;
@@ -26,7 +26,7 @@ struct Files {
     plugin: OwnedFd,
 }
 
-/// `ocb-runner launch`: descriptor 0 is the control socket, 2 the pipe of the plugin's messages.
+/// `PROGRAM launch`: descriptor 0 is the control socket, 2 the pipe of the plugin's messages.
 pub fn launch() -> ! {
     // SAFETY: the sandbox starts this program with the control socket as descriptor 0, which nothing else here owns.
     let control = Control::from_fd(unsafe { OwnedFd::from_raw_fd(0) });
@@ -203,7 +203,7 @@ fn inside(
     Ok(Report::RunnerEnded { status })
 }
 
-/// Gives up what is left and becomes `ocb-runner run`.
+/// Gives up what is left and becomes `PROGRAM run`.
 fn become_runner(
     order: &Order,
     control: &Control,
@@ -253,7 +253,7 @@ fn arguments(order: &Order, libraries: &[root::Library], own_ids: bool) -> Vec<S
         true => format!("{}/{}", root::LIBRARIES, l.name),
         false => l.path.to_string_lossy().into_owned(),
     });
-    ["ocb-runner", "run", &mode.join(","), plugin].map(str::to_string).into_iter().chain(libraries).collect()
+    [&super::program(), "run", &mode.join(","), plugin].map(str::to_string).into_iter().chain(libraries).collect()
 }
 
 /// Where the loader looks: in the jail's own folder, or, where there is no own root, beside the libraries that are brought.
@@ -285,7 +285,8 @@ fn exec(arguments: &[String], search_path: &str) -> Result<std::convert::Infalli
     };
     let error = io::Error::last_os_error();
     Err(ConfineError::EnterRoot(io::Error::other(format!(
-        "ocb-runner cannot be executed inside the jail ({error}); its file must be readable and executable by all users"
+        "{} cannot be executed inside the jail ({error}); its file must be readable and executable by all users",
+        super::program()
     ))))
 }
 
