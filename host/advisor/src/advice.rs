@@ -3,92 +3,20 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
+use ocb_advice::{Advice, HeldOut, LevelFacts, Levels, Question, Share, Watch};
 use ocb_core::configuration::Placed;
 use ocb_core::lod::LodPair;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
-use crate::choice::{Ladders, Levels, fastest, smallest};
-use crate::detail::{Detail, detail};
+use crate::choice::{Ladders, fastest, smallest};
+use crate::detail::detail;
 use crate::ladder::Level;
-use crate::point::Point;
 use crate::points::{Plot, points};
-use crate::question::{Question, Told};
-use crate::share::Share;
-use crate::stand_ins::LeftOut;
-use crate::timing::{Measured, ratio};
-use crate::watch::Watch;
+use crate::question::Told;
+use crate::timing::ratio;
 
 /// Medians of so many times are told.
 const PASSES: usize = 3;
-
-/// What is advised for a scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
-pub struct Advice {
-    /// What was asked.
-    pub question: Question,
-    /// Relative distances at which configurations were looked for.
-    pub distances: Vec<f64>,
-    /// Configurations from which the advice was made.
-    pub configurations: u32,
-    /// L, the longest side of A's bounding box.
-    pub longest_side: f64,
-    /// The levels of A, finest first; the first is the object.
-    pub levels_a: Vec<LevelFacts>,
-    /// The levels of B.
-    pub levels_b: Vec<LevelFacts>,
-    /// Levels to ask one after the other before the whole objects; none when those are the fastest.
-    #[schema(value_type = Vec<Vec<u32>>)]
-    pub stages: Vec<Levels>,
-    /// Triangles of both objects.
-    pub triangles_before: u32,
-    /// Triangles of the first stage.
-    pub triangles_after: u32,
-    /// Time of the whole objects, asked for the distance, over that of the advice.
-    pub faster: Measured,
-    /// The same, the whole objects being asked the same question: a yes or no, or a distance only within the tolerance.
-    pub faster_than_same_question: Measured,
-    /// Half the widest interval on the configurations, for a distance: no answer was or could have been further off.
-    pub guaranteed_error: Option<f64>,
-    /// The same for any configuration whatever, if the whole objects were never asked.
-    pub guaranteed_anywhere: Option<f64>,
-    /// What advice says of configurations it was not made from.
-    pub held_out: HeldOut,
-    /// Ways to answer, measured on the same configurations.
-    pub points: Vec<Point>,
-    /// Ways that are missing among them.
-    #[serde(default)]
-    #[schema(required = true)]
-    pub left_out: Vec<LeftOut>,
-    /// Where on the objects detail is needed.
-    pub detail: [Detail; 2],
-    /// What the work took, seconds.
-    pub seconds: f64,
-}
-
-/// One level of one object.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
-pub struct LevelFacts {
-    /// Its triangles.
-    pub triangles: u32,
-    /// The largest thickness; 0 of the object.
-    pub thickness: f64,
-    /// The largest deviation.
-    pub deviation: f64,
-}
-
-/// Fresh configurations, compared with the oracle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
-pub struct HeldOut {
-    /// Intervals or answers of the levels themselves that contradict the oracle.
-    pub violations: Share,
-    /// Wrong answers of the advice as a whole.
-    pub wrong: Share,
-    /// Configurations for which the whole objects had to be asked.
-    pub falls_back: Share,
-    /// The largest difference to the oracle's distance, where a distance was asked.
-    pub observed_error: Option<f64>,
-}
 
 /// What advice is made from.
 pub struct Scene<'a> {

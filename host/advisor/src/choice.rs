@@ -1,17 +1,14 @@
 //! Which levels of detail are enough for a question on some configurations.
 
+use ocb_advice::{Levels, Question, Watch};
 use ocb_core::configuration::{Configuration, Placed};
 use ocb_core::lod::{Answer, LodPair};
 use ocb_core::oracle::Pair;
 use rayon::prelude::*;
 
 use crate::ladder::Level;
-use crate::question::{Hybrid, Question};
+use crate::question::Hybrid;
 use crate::timing::{Way, times, way};
-use crate::watch::Watch;
-
-/// Numbers of levels, of A and of B; `[0, 0]` are the objects themselves.
-pub type Levels = [usize; 2];
 
 /// Configurations on which the steps of a choice are timed; the result is measured on all of them afterwards.
 const TRIED: usize = 200;

@@ -1,25 +1,12 @@
 //! Where on the objects detail is needed: the coarsest level that would have been enough, at each vertex.
 
+use ocb_advice::{Detail, Question, Watch};
 use ocb_core::configuration::Placed;
 use ocb_core::heatmap::VertexMap;
 use ocb_core::statistics::{Outliers, Statistic};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use crate::choice::Ladders;
-use crate::question::Question;
-use crate::watch::Watch;
-
-/// One object's vertices.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
-#[schema(as = AdviceDetail)]
-pub struct Detail {
-    /// Triangles of the coarsest level of the object that was enough for every configuration whose witness point is at
-    /// the vertex; absent where there is none.
-    pub triangles: Vec<Option<f64>>,
-    /// Configurations at the vertex.
-    pub counts: Vec<u32>,
-}
 
 /// For both objects; `None` when it was stopped. The levels are those where both objects are at the same step.
 pub(crate) fn detail(

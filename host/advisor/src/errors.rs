@@ -1,12 +1,11 @@
 //! What the answers of a way are worth, seen beside the truth.
 
+use ocb_advice::{Point, Question, Share};
 use ocb_core::configuration::{Configuration, Placed};
 use ocb_core::lod::Interval;
 use rayon::prelude::*;
 
-use crate::point::Point;
-use crate::question::{Question, Told};
-use crate::share::Share;
+use crate::question::Told;
 
 /// The errors of a way that gives certified distances, where these are asked.
 pub(crate) fn certified(

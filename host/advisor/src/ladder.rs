@@ -3,13 +3,10 @@
 use std::sync::Arc;
 
 use meshopt::{SimplifyOptions, simplify_decoder};
-use ocb_core::lod::Lod;
+use ocb_advice::{Certificate, Watch};
+use ocb_core::lod::{Lod, LodError};
 use ocb_core::mesh::Mesh;
 use ocb_core::oracle::Shape;
-
-use crate::certificate::Certificate;
-use crate::shelf::Shelf;
-use crate::watch::Watch;
 
 /// No level has fewer triangles than this.
 const FEWEST: usize = 32;
@@ -34,31 +31,33 @@ impl Level {
     }
 
     /// A mesh that stands for the object; `None` when it was stopped.
-    pub fn certified(object: &Mesh, mesh: Mesh, shelf: &Shelf, watch: &dyn Watch) -> Option<Self> {
-        let certificate = match shelf.get(object, &mesh) {
-            Some(certificate) => certificate,
-            None => {
-                let found = Certificate::find(object, &mesh, watch)?;
-                shelf.put(&found);
-                found
-            }
+    pub fn certified(object: &Mesh, mesh: Mesh, known: &[Certificate], watch: &dyn Watch) -> Option<Self> {
+        let hash = mesh.sha256();
+        let certificate = match known.iter().find(|certificate| certificate.reduced == hash) {
+            Some(certificate) => certificate.clone(),
+            None => Certificate::find(object, &mesh, watch)?,
         };
+        Some(Self::known(mesh, certificate).expect("what was found fits"))
+    }
+
+    /// A mesh that stands for the object, of which this is known.
+    pub fn known(mesh: Mesh, certificate: Certificate) -> Result<Self, LodError> {
         let mesh = Arc::new(mesh);
-        let lod = certificate.lod(mesh.clone()).expect("what was found fits");
-        Some(Self { mesh, certificate: Some(certificate), lod })
+        let lod = certificate.lod(mesh.clone())?;
+        Ok(Self { mesh, certificate: Some(certificate), lod })
     }
 }
 
-/// The object and its levels, finest first; `None` when it was stopped.
-pub fn ladder(name: &str, object: &Arc<Mesh>, shelf: &Shelf, watch: &dyn Watch) -> Option<Vec<Level>> {
+/// The object and its levels, finest first, where certificates of some of them are known; `None` when it was stopped.
+pub fn ladder(object: &Arc<Mesh>, known: &[Certificate], watch: &dyn Watch) -> Option<Vec<Level>> {
     let meshes = meshes(object);
     let mut levels = vec![Level::whole(object.clone())];
     let total = meshes.len() as u64;
     for (done, mesh) in meshes.into_iter().enumerate() {
-        watch.step(&format!("levels of {name}"), done as u64, total);
-        levels.push(Level::certified(object, mesh, shelf, watch)?);
+        watch.step("levels", done as u64, total);
+        levels.push(Level::certified(object, mesh, known, watch)?);
     }
-    watch.step(&format!("levels of {name}"), total, total);
+    watch.step("levels", total, total);
     Some(levels)
 }
 

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use ocb_advice::Question;
 use ocb_core::configuration::Configuration;
 use ocb_core::lod::Interval;
 use ocb_core::mesh::Mesh;
@@ -11,7 +12,7 @@ use ocb_methods::parry::{double, single};
 use ocb_methods::voxmap_pointshell::VoxmapPointshell;
 use opencollbench_plugin::{Algorithm, Answer, Collision, Distance, Placed, Pose, Refusal, Uncounted};
 
-use crate::question::{Question, Told};
+use crate::question::Told;
 
 /// Asks a method about a configuration.
 pub(crate) type Ask = Box<dyn FnMut(&Configuration) -> Result<Told, String> + Send>;

@@ -2,19 +2,17 @@
 
 use std::cell::RefCell;
 
+use ocb_advice::{Kind, LeftOut, Levels, Point, Question, Share, Watch};
 use ocb_core::configuration::{Configuration, Placed};
 use ocb_core::lod::Interval;
 use rayon::prelude::*;
 
-use crate::choice::{Ladders, Levels};
+use crate::choice::Ladders;
 use crate::errors::{certified, seen};
-use crate::point::{Kind, Point};
 use crate::proxy::{self, Proxy};
-use crate::question::{Question, Told};
-use crate::share::Share;
-use crate::stand_ins::{LeftOut, leave_out, stand_ins};
+use crate::question::Told;
+use crate::stand_ins::{leave_out, stand_ins};
 use crate::timing::{Way, mean, ratio, times, way, way_of};
-use crate::watch::Watch;
 
 /// Nanoseconds of every configuration.
 pub(crate) struct Times {

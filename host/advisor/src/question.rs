@@ -1,36 +1,9 @@
-//! What a scene asks, and answers to it that never rest on a level of detail that cannot know.
+//! Answers to what a scene asks that never rest on a level of detail that cannot know.
 
+use ocb_advice::Question;
 use ocb_core::configuration::Configuration;
 use ocb_core::lod::{Answer, Interval, LodPair};
 use ocb_core::oracle::Pair;
-use serde::{Deserialize, Serialize};
-
-/// What is asked of every configuration; lengths are the objects' own.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
-#[serde(rename_all = "snake_case", tag = "kind")]
-#[schema(as = AdviceQuestion)]
-pub enum Question {
-    /// How far apart are they, give or take the tolerance?
-    Distance {
-        /// Largest error of an answer; more than 0.
-        tolerance: f64,
-    },
-    /// Are they further apart than this?
-    Clearance {
-        /// The distance; 0 asks whether the surfaces meet.
-        clearance: f64,
-    },
-}
-
-impl Question {
-    /// What a yes or no is about: the clearance, or where a distance is asked, its tolerance.
-    pub(crate) fn reach(self) -> f64 {
-        match self {
-            Self::Distance { tolerance } => tolerance,
-            Self::Clearance { clearance } => clearance,
-        }
-    }
-}
 
 /// An answer.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,29 +1,10 @@
 //! The configurations for which advice is given: what the scene will ask, as far as anybody can say beforehand.
 
+use ocb_advice::Watch;
 use ocb_core::configuration::{Method, Placed, Sampling, Separation};
 use ocb_core::oracle::Shape;
 use ocb_core::sampling::{Plan, SamplingError};
 use rayon::prelude::*;
-
-use crate::question::Question;
-use crate::watch::Watch;
-
-/// So many configurations are a good sample to choose by.
-pub const CONFIGURATIONS: u32 = 400;
-/// And so many others to check by.
-pub const HELD_OUT: u32 = 1_000;
-/// Relative distances of a scene that asks how far apart the objects are.
-const DISTANCES: [f64; 4] = [0.003, 0.03, 0.1, 0.3];
-/// The same for a clearance, as shares of it: on both sides, more and more clearly.
-const AROUND: [f64; 6] = [0.25, 0.75, 1.25, 2.0, 4.0, 8.0];
-
-/// Relative distances (surface distance over A's longest side) that fit a question.
-pub fn usual_distances(question: Question, longest_side: f64) -> Vec<f64> {
-    match question {
-        Question::Clearance { clearance } if clearance > 0.0 => AROUND.map(|x| x * clearance / longest_side).to_vec(),
-        Question::Clearance { .. } | Question::Distance { .. } => DISTANCES.to_vec(),
-    }
-}
 
 /// Configurations by the sphere method, the same number at every relative distance, in the order of their finding;
 /// nothing when it was stopped.

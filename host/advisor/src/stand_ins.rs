@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
+use ocb_advice::{Kind, LeftOut, Question, Watch};
 use ocb_core::configuration::Placed;
 use ocb_core::mesh::Mesh;
 use ocb_core::numbers::Numbers;
@@ -13,12 +14,9 @@ use ocb_methods::inner_spheres::InnerSpheres;
 use ocb_methods::parry::{double, single};
 use ocb_methods::voxmap_pointshell::VoxmapPointshell;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use crate::method::{Ask, Method, ask, load};
-use crate::point::Kind;
-use crate::question::{Question, Told};
-use crate::watch::Watch;
+use crate::question::Told;
 
 /// The usual setting of each knob beside a coarser or a finer one; all of them are built in seconds.
 const DEPTHS: [u32; 2] = [5, 7];
@@ -31,16 +29,6 @@ const MOST_TO_CUT: usize = 500_000;
 const LONGEST: Duration = Duration::from_secs(4);
 /// Of a method that would need longer for all configurations, the answers to so many at least are a point.
 const ENOUGH: usize = 20;
-
-/// What is not on the plot, and why.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
-#[schema(as = AdviceLeftOut)]
-pub struct LeftOut {
-    /// As `ocb bench` calls them, or a word for what is no algorithm.
-    pub what: Vec<String>,
-    /// In one sentence.
-    pub reason: String,
-}
 
 /// A method for both objects, and what it told of every configuration that it was asked about.
 pub(crate) struct StandIn {

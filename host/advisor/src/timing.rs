@@ -3,23 +3,10 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use ocb_advice::{Measured, Watch};
 use ocb_core::configuration::Configuration;
 use ocb_core::numbers::Numbers;
 use ocb_core::statistics::bootstrap_interval;
-use serde::{Deserialize, Serialize};
-
-use crate::watch::Watch;
-
-/// A number with its 95 % interval.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
-pub struct Measured {
-    /// The number.
-    pub value: f64,
-    /// Lower end.
-    pub lo: f64,
-    /// Upper end.
-    pub hi: f64,
-}
 
 /// A way to answer.
 pub struct Way<'a> {
@@ -104,10 +91,10 @@ pub fn ratio(first: &[f64], second: &[f64]) -> Measured {
 mod tests {
     use std::cell::Cell;
 
+    use ocb_advice::Unwatched;
     use ocb_core::pose::Pose;
 
     use super::*;
-    use crate::watch::Unwatched;
 
     #[test]
     fn who_is_asked_about_some_has_times_of_these() {

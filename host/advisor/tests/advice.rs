@@ -4,15 +4,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use nalgebra::Point3;
-use ocb_advisor::{
-    Advice, Kind, Level, Point, Question, Scene, Shelf, Unit, Unwatched, Watch, advise, ladder, sample, usual_distances,
-};
+use ocb_advice::{Advice, Certificate, Kind, Point, Question, Unit, Unwatched, Watch, usual_distances};
+use ocb_advisor::{Level, Scene, advise, ladder, sample};
 use ocb_core::mesh::Mesh;
 use ocb_core::stock;
 
-fn levels(name: &str, triangles: u32, shelf: &Shelf) -> Vec<Level> {
+fn levels(name: &str, triangles: u32) -> Vec<Level> {
     let mesh = stock::generate(name, triangles).expect("a stock object");
-    ladder(name, &Arc::new(mesh), shelf, &Unwatched).expect("nobody stops it")
+    ladder(&Arc::new(mesh), &[], &Unwatched).expect("nobody stops it")
 }
 
 fn advice(a: &[Level], b: &[Level], question: impl Fn(f64) -> Question, watch: &dyn Watch) -> Option<Advice> {
@@ -33,7 +32,7 @@ fn by_name<'a>(advice: &'a Advice, algorithm: &str) -> &'a Point {
 
 #[test]
 fn a_distance_gets_the_fewest_triangles_that_keep_the_tolerance() {
-    let (a, b) = (levels("torus-knot", 3000, &Shelf::none()), levels("gear", 2000, &Shelf::none()));
+    let (a, b) = (levels("torus-knot", 3000), levels("gear", 2000));
     let told = |share: f64| {
         advice(&a, &b, |side| Question::Distance { tolerance: share * side }, &Unwatched).expect("nobody stops it")
     };
@@ -67,12 +66,12 @@ fn a_distance_gets_the_fewest_triangles_that_keep_the_tolerance() {
 
 #[test]
 fn a_clearance_is_never_answered_wrongly_and_boxes_raise_false_alarms() {
-    let (a, b) = (levels("torus-knot", 2000, &Shelf::none()), levels("wreath", 2000, &Shelf::none()));
+    let (a, b) = (levels("torus-knot", 2000), levels("wreath", 2000));
     let told = advice(&a, &b, |side| Question::Clearance { clearance: 0.05 * side }, &Unwatched).expect("not stopped");
     assert_eq!((told.held_out.wrong.seen, told.held_out.violations.seen), (0, 0), "{:?}", told.held_out);
     let find = |kind| told.points.iter().find(|p| p.kind == kind).expect("it is in the plot");
     let (boxes, hulls) = (find(Kind::Boxes), find(Kind::Hulls));
-    let alarms = |point: &ocb_advisor::Point| point.false_alarms.expect("counted");
+    let alarms = |point: &ocb_advice::Point| point.false_alarms.expect("counted");
     assert!(
         alarms(boxes).seen > 0 && alarms(hulls).seen <= alarms(boxes).seen,
         "{:?} {:?}",
@@ -102,7 +101,7 @@ fn a_clearance_is_never_answered_wrongly_and_boxes_raise_false_alarms() {
 
 #[test]
 fn other_methods_err_as_they_do_and_less_with_a_finer_knob() {
-    let (a, b) = (levels("torus-knot", 3000, &Shelf::none()), levels("gear", 2000, &Shelf::none()));
+    let (a, b) = (levels("torus-knot", 3000), levels("gear", 2000));
     let told = advice(&a, &b, |side| Question::Distance { tolerance: 0.02 * side }, &Unwatched).expect("not stopped");
     let error = |algorithm: &str| {
         let point = by_name(&told, algorithm);
@@ -138,7 +137,7 @@ fn what_cannot_be_made_of_an_object_is_left_out_with_a_reason() {
     let square = |i: u32| [[i, i + 1, i + 9], [i + 1, i + 10, i + 9]];
     let flat = (0..80).filter(|i| i % 9 < 8).take(64).flat_map(square).collect();
     let plate = Mesh::new((0..81).map(corner).collect(), flat).expect("a mesh");
-    let levels = |mesh: Mesh| ladder("it", &Arc::new(mesh), &Shelf::none(), &Unwatched).expect("nobody stops it");
+    let levels = |mesh: Mesh| ladder(&Arc::new(mesh), &[], &Unwatched).expect("nobody stops it");
     let (bowl, plate) = (levels(bowl), levels(plate));
     for (a, b, open) in [(&bowl, &plate, "A: "), (&plate, &bowl, "A: ")] {
         let told = advice(a, b, |side| Question::Clearance { clearance: 0.5 * side }, &Unwatched).expect("not stopped");
@@ -158,7 +157,7 @@ fn what_cannot_be_made_of_an_object_is_left_out_with_a_reason() {
 
 #[test]
 fn the_surfaces_touch_or_not_is_a_clearance_of_nothing() {
-    let (a, b) = (levels("castle", 700, &Shelf::none()), levels("chair", 700, &Shelf::none()));
+    let (a, b) = (levels("castle", 700), levels("chair", 700));
     let told = advice(&a, &b, |_| Question::Clearance { clearance: 0.0 }, &Unwatched).expect("not stopped");
     assert_eq!((told.held_out.wrong.seen, told.held_out.violations.seen), (0, 0), "{:?}", told.held_out);
 }
@@ -195,7 +194,7 @@ impl Watch for NoOthers {
 
 #[test]
 fn stopping_ends_the_other_methods_each_at_its_next_step() {
-    let (a, b) = (levels("torus-knot", 1000, &Shelf::none()), levels("gear", 900, &Shelf::none()));
+    let (a, b) = (levels("torus-knot", 1000), levels("gear", 900));
     let watch = NoOthers::default();
     assert!(advice(&a, &b, |side| Question::Clearance { clearance: 0.05 * side }, &watch).is_none());
     let (stopped, after) = (watch.stopped(), watch.after.load(Ordering::Relaxed));
@@ -203,13 +202,12 @@ fn stopping_ends_the_other_methods_each_at_its_next_step() {
 }
 
 #[test]
-fn it_can_be_stopped_at_any_time_and_certificates_are_found_again() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let shelf = Shelf::folder(folder.path());
-    let fresh = levels("gear", 900, &shelf);
-    let kept = std::fs::read_dir(folder.path()).expect("it is there").count();
-    assert_eq!(kept + 1, fresh.len());
-    let again = levels("gear", 900, &shelf);
+fn it_can_be_stopped_at_any_time_and_known_certificates_are_not_looked_for() {
+    let fresh = levels("gear", 900);
+    let known: Vec<Certificate> = fresh.iter().filter_map(|level| level.certificate.clone()).collect();
+    assert_eq!(known.len() + 1, fresh.len());
+    // One that asks to be stopped as soon as a certificate is looked for.
+    let again = ladder(&fresh[0].mesh, &known, &Impatient(AtomicU32::new(0))).expect("nothing is looked for");
     assert!(fresh.iter().zip(&again).all(|(x, y)| x.certificate == y.certificate && x.mesh == y.mesh));
     for looks in [0, 1, 20, 300] {
         let watch = Impatient(AtomicU32::new(looks));
@@ -217,5 +215,5 @@ fn it_can_be_stopped_at_any_time_and_certificates_are_found_again() {
         assert!(advice(&fresh, &again, question, &watch).is_none(), "{looks}");
     }
     let mesh = Arc::clone(&fresh[0].mesh);
-    assert!(ladder("gear", &mesh, &Shelf::none(), &Impatient(AtomicU32::new(3))).is_none());
+    assert!(ladder(&mesh, &[], &Impatient(AtomicU32::new(3))).is_none());
 }

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
-use ocb_advisor::{Certificate, Doubt, Level, Shelf, Unwatched, ladder, simplified};
+use ocb_advice::{Certificate, Doubt, Unwatched};
+use ocb_advisor::{Level, ladder, simplified};
 use ocb_core::configuration::Configuration;
 use ocb_core::lod::{Answer, LodPair};
 use ocb_core::mesh::Mesh;
@@ -69,10 +70,8 @@ fn no_level_lies(a: &[Level], b: &[Level], configurations: u32, seed: u64) -> (u
 fn no_level_says_what_is_not_true() {
     for (name_a, name_b) in [("castle", "torus-knot"), ("gear", "sponge"), ("chair", "sphere")] {
         let (a, b) = (object(name_a, 900), object(name_b, 1200));
-        let levels = |name: &str, mesh: Mesh| {
-            ladder(name, &Arc::new(mesh), &Shelf::none(), &Unwatched).expect("nobody stops it")
-        };
-        let (a, b) = (levels(name_a, a), levels(name_b, b));
+        let levels = |mesh: Mesh| ladder(&Arc::new(mesh), &[], &Unwatched).expect("nobody stops it");
+        let (a, b) = (levels(a), levels(b));
         assert!(a.len() + b.len() >= 4, "{name_a}, {name_b}: {} and {} levels", a.len(), b.len());
         let (compared, narrow) = no_level_lies(&a, &b, 40, 7);
         assert!(compared >= 160 && narrow > compared / 4, "{narrow} of {compared} say something");
@@ -149,7 +148,7 @@ proptest! {
     #[test]
     fn any_mesh_stands_for_any_other_as_well_as_its_certificate_says(a in soup(), b in soup(), other in soup(), seed: u64) {
         let whole = |mesh: &Mesh| Level::whole(Arc::new(mesh.clone()));
-        let stand_in = Level::certified(&a, other.clone(), &Shelf::none(), &Unwatched).expect("nobody stops it");
+        let stand_in = Level::certified(&a, other.clone(), &[], &Unwatched).expect("nobody stops it");
         let certificate = stand_in.certificate.as_ref().expect("it is certified");
         certificate.check(&a, &other, &Unwatched).expect("it holds");
         no_level_lies(&[whole(&a), stand_in], &[whole(&b)], 6, seed);
