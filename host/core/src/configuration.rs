@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::oracle::U64;
 use crate::pose::Pose;
 use crate::query::Semantics;
+use crate::validation::Precision;
 
 /// The poses of A and B for one query: a point of the pair's configuration space.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -112,10 +113,24 @@ pub struct Placed {
     pub configuration: Configuration,
     /// The oracle's answer.
     pub truth: Truth,
+    /// The same about the objects with their coordinates rounded to single precision; absent where no coordinate changes,
+    /// or nothing of an object is left.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rounded: Option<Truth>,
     /// 0: the first position from outside on the ray through the centres of both bounding boxes; 1: a further one.
     pub root_index: u32,
     /// What was looked for; `None` where the pose was given.
     pub wanted: Option<Separation>,
+}
+
+impl Placed {
+    /// The same with the truth about the numbers that an algorithm of this arithmetic gets.
+    pub fn seen_in(&self, precision: Precision) -> Self {
+        match (precision, self.rounded) {
+            (Precision::Single, Some(truth)) => Self { truth, ..*self },
+            (Precision::Single, None) | (Precision::Double, _) => *self,
+        }
+    }
 }
 
 /// How far apart, or how deep in each other, the surfaces shall be.

@@ -308,7 +308,7 @@ mod tests {
                     let distance = (w.point_a - w.point_b).norm();
                     (Query::Proximity, Answer::Distance { distance, points, triangles })
                 };
-                let placed = Placed { configuration: *original, truth, root_index: 0, wanted: None };
+                let placed = Placed { configuration: *original, truth, rounded: None, root_index: 0, wanted: None };
                 let terms = Terms { query, semantics: Semantics::Surface, precision: Precision::Double };
                 let translated = shown.translate(answer.clone(), i, instance);
                 assert_eq!(judge(&pair, &placed, terms, &translated).verdict, Verdict::Correct, "{seed} {i}");

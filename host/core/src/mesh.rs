@@ -15,6 +15,7 @@ use nalgebra::{Point3, Vector3};
 use sha2::{Digest, Sha256};
 
 pub use aabb::Aabb;
+pub use ply::write::write as write_ply;
 pub use read::limits::MAX_BYTES;
 pub use read::{FORMATS, FileFormat, LengthUnit, ReadError, ReadMesh, read};
 
@@ -175,9 +176,13 @@ impl Mesh {
         hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
-    /// The mesh with each coordinate rounded to the nearest single-precision number, so that algorithms that compute
-    /// in f32 and in f64 see the same object. Fails when rounding leaves no triangle with area (a small object far from
-    /// the origin).
+    /// Is each coordinate a number of single precision?
+    pub fn is_f32_representable(&self) -> bool {
+        self.positions.iter().all(|p| p.iter().all(|&x| f64::from(x as f32) == x))
+    }
+
+    /// The mesh with each coordinate rounded to the nearest number of single precision: what algorithms that compute in
+    /// f32 get. Fails when that leaves no triangle with area (a small object far from the origin).
     pub fn to_f32_representable(self) -> Result<Self, MeshError> {
         let positions = self.positions.iter().map(|p| p.map(|x| f64::from(x as f32))).collect();
         Self::new(positions, self.triangles)

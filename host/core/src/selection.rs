@@ -1,4 +1,6 @@
-//! Selections: predicates over the configurations of a run, in one small language for engine, command line and pages.
+//! Selections: predicates over the configurations of a run, in one small language for the command line, the API and the pages.
+//!
+//! Only this module reads the language: a page sends the text and receives which configurations it selects.
 //!
 //! ```text
 //! selection = all { "|" all }
@@ -7,8 +9,8 @@
 //! test      = column [ "of" algorithm ] "in" "[" number "," number "]"
 //!           | flag [ "of" algorithm ]
 //!           | "near" "(" [ "a" | "b" ] "vertex" integer "," number ")"
-//! column    = "time" | "bv" | "primitives" | "error" | "distance"
-//! flag      = "wrong" | "missed" | "false_alarm" | "flipped" | "disputed"
+//! column    = the name of a `Column` with a range
+//! flag      = the name of a `Column` that is a flag
 //! ```
 //!
 //! Times are nanoseconds unless a unit follows (`ns`, `us`, `ms`, `s`), errors are in u S, distances in the objects'
@@ -36,55 +38,93 @@ pub enum Body {
     B,
 }
 
-/// A number that every measured configuration has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Column {
-    /// Time of the query, nanoseconds.
-    Time,
-    /// BV tests of the query.
-    BvTests,
-    /// Primitive tests of the query.
-    PrimitiveTests,
-    /// How far the answered distance lies outside the certified interval, in u S.
-    Error,
-    /// Certified distance (upper end), in the objects' lengths; the same for every algorithm.
-    Distance,
-    /// 1 where the answer is wrong.
-    Wrong,
-    /// 1 where a collision was missed.
-    Missed,
-    /// 1 where a collision was reported that is none.
-    FalseAlarm,
-    /// 1 where equivalent instances got answers that contradict each other.
-    Flipped,
-    /// Share of the other algorithms whose answer contradicts this one's.
-    Disputed,
+/// How a column is tested.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// By a range of values.
+    Range {
+        /// What the values are, as a chart names its axis.
+        axis: &'static str,
+        /// Their unit; of nanoseconds (`ns`), the language also takes multiples.
+        unit: &'static str,
+    },
+    /// By its name alone.
+    Flag,
 }
 
-impl Column {
-    /// Every column with its name in the language.
-    pub const NAMES: [(Self, &'static str); 10] = [
-        (Self::Time, "time"),
-        (Self::BvTests, "bv"),
-        (Self::PrimitiveTests, "primitives"),
-        (Self::Error, "error"),
-        (Self::Distance, "distance"),
-        (Self::Wrong, "wrong"),
-        (Self::Missed, "missed"),
-        (Self::FalseAlarm, "false_alarm"),
-        (Self::Flipped, "flipped"),
-        (Self::Disputed, "disputed"),
-    ];
+const fn range(axis: &'static str, unit: &'static str) -> Kind {
+    Kind::Range { axis, unit }
+}
 
-    /// Its name in the language.
-    pub fn name(self) -> &'static str {
-        Self::NAMES[self as usize].1
-    }
+/// Defines the columns: each with its name in the language and how it is tested.
+macro_rules! columns {
+    ($($(#[$doc:meta])* $column:ident = $name:literal, $kind:expr;)*) => {
+        /// A number that every measured configuration has.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Column {
+            $($(#[$doc])* $column,)*
+        }
 
-    /// Asked without a range: is it so, or not?
-    pub fn is_flag(self) -> bool {
-        matches!(self, Self::Wrong | Self::Missed | Self::FalseAlarm | Self::Flipped | Self::Disputed)
+        impl Column {
+            /// Every column.
+            pub const ALL: &[Self] = &[$(Self::$column),*];
+
+            /// Its name in the language.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$column => $name,)*
+                }
+            }
+
+            /// How it is tested.
+            pub const fn kind(self) -> Kind {
+                match self {
+                    $(Self::$column => $kind,)*
+                }
+            }
+        }
+    };
+}
+
+columns! {
+    /// Time of the query.
+    Time = "time", range("time per query", "ns");
+    /// BV tests of the query.
+    BvTests = "bv", range("BV tests", "tests");
+    /// Primitive tests of the query.
+    PrimitiveTests = "primitives", range("primitive tests", "tests");
+    /// How far the answered distance lies outside the certified interval.
+    Error = "error", range("distance error", "u S");
+    /// Certified distance (upper end); the same for every algorithm.
+    Distance = "distance", range("true distance", "lengths");
+    /// 1 where the answer is wrong.
+    Wrong = "wrong", Kind::Flag;
+    /// 1 where a collision was missed.
+    Missed = "missed", Kind::Flag;
+    /// 1 where a collision was reported that is none.
+    FalseAlarm = "false_alarm", Kind::Flag;
+    /// 1 where equivalent instances got answers that contradict each other.
+    Flipped = "flipped", Kind::Flag;
+    /// Share of the other algorithms whose answer contradicts this one's.
+    Disputed = "disputed", Kind::Flag;
+}
+
+/// The tests of the language, one a line.
+pub fn help() -> String {
+    let (mut ranges, mut flags) = (Vec::new(), Vec::new());
+    for column in Column::ALL {
+        match column.kind() {
+            Kind::Range { unit: "ns", .. } => ranges.push(format!("{} (ns, us, ms, s)", column.name())),
+            Kind::Range { unit, .. } => ranges.push(format!("{} ({unit})", column.name())),
+            Kind::Flag => flags.push(column.name()),
+        }
     }
+    let (ranges, flags) = (ranges.join(", "), flags.join(", "));
+    format!(
+        "  COLUMN [of ALGORITHM] in [LOW, HIGH]   {ranges}
+  FLAG [of ALGORITHM]                    {flags}
+  near([a|b] vertex N, R)                witness point within R times the object's longest side of vertex N"
+    )
 }
 
 /// A predicate over configurations.

@@ -146,7 +146,8 @@ fn solid_bodies_collide_when_one_is_inside_the_other() {
     let (a, b) = (Shape::from_triangles(&cube([0.0; 3], 1.0)), Shape::from_triangles(&cube([0.0; 3], 0.5)));
     let pair = Pair::new(&a, &b);
     let configuration = placed(Pose::identity());
-    let placed = Placed { configuration, truth: pair.truth(&configuration), root_index: 0, wanted: None };
+    let placed =
+        Placed { configuration, truth: pair.truth(&configuration), rounded: None, root_index: 0, wanted: None };
     assert_eq!((placed.truth.hit, placed.truth.class64), (false, Class::Clear));
     let solid = pair.asked(&configuration, &placed.truth, Semantics::Solid);
     assert_eq!((solid.hit, solid.class64, solid.class32), (true, Class::Colliding, Class::Colliding));

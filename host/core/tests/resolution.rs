@@ -33,6 +33,7 @@ impl Ladder {
             Placed {
                 configuration,
                 truth: Pair::new(&a, &b).tightest_truth(&configuration),
+                rounded: None,
                 root_index: 0,
                 wanted: None,
             }

@@ -28,7 +28,7 @@ impl Stage {
         pose.translation.z = height;
         let configuration = common::placed(pose);
         let truth = Pair::new(&a, &b).truth(&configuration);
-        Self { a, b, placed: Placed { configuration, truth, root_index: 0, wanted: None } }
+        Self { a, b, placed: Placed { configuration, truth, rounded: None, root_index: 0, wanted: None } }
     }
 
     fn judge(&self, query: Query, answer: Answer) -> Verdict {

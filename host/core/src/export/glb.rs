@@ -1,13 +1,17 @@
 //! glTF 2.0 binary.
 
+use nalgebra::Vector3;
 use serde_json::{Value, json};
 
 use super::Legend;
 use crate::colormap;
 use crate::heatmap::VertexValues;
-use crate::mesh::Mesh;
+use crate::mesh::{Aabb, Mesh};
 
 /// The bare geometry: POSITION (f32) and indices (u32), in the mesh's order. three.js computes normals itself.
+///
+/// Of a small object far from the origin f32 would lose the detail. Its positions count from the middle of its box, which is the
+/// node's translation.
 pub fn geometry(mesh: &Mesh) -> Vec<u8> {
     let mut file = File::new(mesh);
     file.positions(mesh);
@@ -89,6 +93,17 @@ struct File {
     /// The one buffer; every view in it starts at a multiple of 4.
     bytes: Vec<u8>,
     vertices: usize,
+    /// From where positions count.
+    translation: Option<Vector3<f64>>,
+}
+
+/// So many times as far from the origin as it is long, an object is far from it.
+const FAR: f64 = 8.0;
+
+fn translation(mesh: &Mesh) -> Option<Vector3<f64>> {
+    let (Aabb { min, max }, long) = (mesh.bounds(), mesh.longest_side());
+    let far = min.coords.amax().max(max.coords.amax()) > FAR * long;
+    (far && !mesh.is_f32_representable()).then(|| min.coords + (max - min) / 2.0)
 }
 
 impl File {
@@ -100,11 +115,14 @@ impl File {
             indices: 0,
             bytes: Vec::new(),
             vertices: mesh.positions().len(),
+            translation: translation(mesh),
         }
     }
 
     fn positions(&mut self, mesh: &Mesh) {
-        let single: Vec<[f32; 3]> = mesh.positions().iter().map(|p| [p.x as f32, p.y as f32, p.z as f32]).collect();
+        let from = self.translation.unwrap_or_default();
+        let single: Vec<[f32; 3]> =
+            mesh.positions().iter().map(|p| (p.coords - from).map(|x| x as f32).into()).collect();
         // glTF wants the extent of all vertices as stored, used by a triangle or not.
         let lo = single.iter().fold([f32::INFINITY; 3], |a, p| [0, 1, 2].map(|k| a[k].min(p[k])));
         let hi = single.iter().fold([f32::NEG_INFINITY; 3], |a, p| [0, 1, 2].map(|k| a[k].max(p[k])));
@@ -155,10 +173,14 @@ impl File {
         if let Some(extras) = extras {
             mesh["extras"] = extras;
         }
+        let mut node = json!({ "mesh": 0 });
+        if let Some(translation) = self.translation {
+            node["translation"] = json!(translation.as_slice());
+        }
         let document = json!({
             "asset": { "version": "2.0", "generator": concat!("OpenCollBench ", env!("CARGO_PKG_VERSION")) },
             "accessors": self.accessors, "bufferViews": self.views, "buffers": [{ "byteLength": self.bytes.len() }],
-            "meshes": [mesh], "nodes": [{ "mesh": 0 }], "scenes": [{ "nodes": [0] }], "scene": 0,
+            "meshes": [mesh], "nodes": [node], "scenes": [{ "nodes": [0] }], "scene": 0,
         });
         let mut json = document.to_string().into_bytes();
         json.resize(json.len().next_multiple_of(4), b' ');

@@ -1,6 +1,6 @@
 use gltf_json::validation::Validate;
 use gltf_json::{Root, accessor};
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use super::*;
 use crate::heatmap::VertexValues;
@@ -75,6 +75,17 @@ fn data<'a>(root: &'a Root, bytes: &'a [u8], name: &str) -> (&'a gltf_json::Acce
 
 fn floats(bytes: &[u8]) -> Vec<f32> {
     bytes.chunks_exact(4).map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect()
+}
+
+/// What is read back is the object, up to the rounding of its own size and not of its place.
+#[test]
+fn a_small_object_far_from_the_origin_keeps_its_detail() {
+    let far = mesh().positions().iter().map(|p| (p * 1e-3) + Vector3::new(1e6, -1e6, 1e6)).collect();
+    let far = Mesh::new(far, mesh().triangles().to_vec()).unwrap();
+    let back = crate::mesh::read(&glb::geometry(&far)).unwrap().mesh;
+    assert_eq!(back.triangles(), far.triangles());
+    let off = back.positions().iter().zip(far.positions()).map(|(x, y)| (x - y).amax()).fold(0.0, f64::max);
+    assert!(off < 1e-9, "{off}");
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod body;
 mod header;
 #[cfg(test)]
 mod tests;
+pub mod write;
 
 use nalgebra::Point3;
 

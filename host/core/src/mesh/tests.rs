@@ -96,3 +96,13 @@ fn the_hash_is_over_little_endian_numbers() {
     let expected: String = Sha256::digest(&bytes).iter().map(|b| format!("{b:02x}")).collect();
     assert_eq!(mesh.sha256(), expected);
 }
+
+#[test]
+fn a_small_object_far_from_the_origin_is_no_object_of_single_precision() {
+    let far = |size: f64| {
+        let positions = tetrahedron().0.iter().map(|q| p(q.x * size + 1e6, q.y * size, q.z * size + 1e6)).collect();
+        Mesh::new(positions, tetrahedron().1).unwrap()
+    };
+    assert!(far(1.0).is_f32_representable() && !far(0.01).is_f32_representable());
+    assert_eq!(far(0.01).to_f32_representable(), Err(MeshError::NoArea));
+}

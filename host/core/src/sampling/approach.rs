@@ -94,7 +94,13 @@ impl<'a> Approach<'a> {
             let truth = self.pair.truth_among(&configuration, &found.pairs, found.beyond(root.way));
             let (wanted, tau) = self.wanted(&ray, &configuration);
             if within(&truth, wanted, tau) {
-                return Some(Placed { configuration, truth, root_index: 0, wanted: Some(self.window.separation) });
+                return Some(Placed {
+                    configuration,
+                    truth,
+                    rounded: None,
+                    root_index: 0,
+                    wanted: Some(self.window.separation),
+                });
             }
             if truth.distance_lo < wanted - 2.0 * tau {
                 break; // another pair is nearer: not the first root after all
@@ -201,7 +207,13 @@ impl<'a> Approach<'a> {
             let truth = self.pair.truth_near(&configuration, near);
             let (wanted, tau) = self.wanted(ray, &configuration);
             if within(&truth, wanted, tau) {
-                return Some(Placed { configuration, truth, root_index: 0, wanted: Some(self.window.separation) });
+                return Some(Placed {
+                    configuration,
+                    truth,
+                    rounded: None,
+                    root_index: 0,
+                    wanted: Some(self.window.separation),
+                });
             }
             way += truth.distance_lo - wanted;
             if truth.hit || way > ray.length {

@@ -253,6 +253,7 @@ impl<'a> Plan<'a> {
         (robust && [asked.class64, asked.class32] == [class; 2]).then_some(Placed {
             configuration,
             truth,
+            rounded: None,
             root_index: 0,
             wanted: None,
         })

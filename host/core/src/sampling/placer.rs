@@ -87,7 +87,8 @@ impl<'a> Placer<'a> {
             let truth = self.pair.truth_near(&configuration, Some(pair));
             let (wanted, half) = window.aim(self.pair.scene_size(&configuration));
             if within(&truth, wanted, half) {
-                let placed = Placed { configuration, truth, root_index: 0, wanted: Some(window.separation) };
+                let placed =
+                    Placed { configuration, truth, rounded: None, root_index: 0, wanted: Some(window.separation) };
                 return Some(Descent { placed, direction });
             }
             way += (truth.distance_lo + truth.distance_hi) / 2.0 - wanted;

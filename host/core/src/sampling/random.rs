@@ -96,6 +96,6 @@ impl<'a> Plan<'a> {
 
     pub(super) fn place(&self, index: u64) -> Placed {
         let configuration = self.configuration(index);
-        Placed { configuration, truth: self.pair.truth(&configuration), root_index: 0, wanted: None }
+        Placed { configuration, truth: self.pair.truth(&configuration), rounded: None, root_index: 0, wanted: None }
     }
 }

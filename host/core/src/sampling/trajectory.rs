@@ -40,6 +40,6 @@ impl<'a> Plan<'a> {
         let linear = from_quaternion([c * c, c * s, s * s, s * c]);
         let translation = self.centre - linear * self.centre_b;
         let configuration = Configuration { pose_a: Pose::identity(), pose_b: Pose { linear, translation } };
-        Placed { configuration, truth: self.pair.truth(&configuration), root_index: 0, wanted: None }
+        Placed { configuration, truth: self.pair.truth(&configuration), rounded: None, root_index: 0, wanted: None }
     }
 }

@@ -1,6 +1,6 @@
 //! Reading the language of selections, by recursive descent over characters.
 
-use super::{Body, Column, Selection, SelectionError};
+use super::{Body, Column, Kind, Selection, SelectionError};
 
 /// Longest text; a selection is something that a person wrote or a chart was asked for.
 const LONGEST: usize = 2_000;
@@ -71,25 +71,25 @@ impl Reader {
         if word == "near" {
             return self.near();
         }
-        let Some((column, _)) = Column::NAMES.iter().find(|(_, name)| *name == word) else {
+        let Some(&column) = Column::ALL.iter().find(|column| column.name() == word) else {
             self.at = begin;
-            let names: Vec<&str> = Column::NAMES.iter().map(|(_, name)| *name).collect();
+            let names: Vec<&str> = Column::ALL.iter().map(|column| column.name()).collect();
             return Err(self.wrong(&format!("one of {}, near(...), \"!\" or \"(\" is expected", names.join(", "))));
         };
         let of = self.of()?;
-        if column.is_flag() {
-            return Ok(Selection::Flag { column: *column, of });
+        if column.kind() == Kind::Flag {
+            return Ok(Selection::Flag { column, of });
         }
         self.keyword("in")?;
         self.expect('[')?;
-        let lo = self.amount(*column)?;
+        let lo = self.amount(column)?;
         self.expect(',')?;
-        let hi = self.amount(*column)?;
+        let hi = self.amount(column)?;
         if lo > hi {
             return Err(self.wrong("the first end of the range is above the second"));
         }
         self.expect(']')?;
-        Ok(Selection::Range { column: *column, of, lo, hi })
+        Ok(Selection::Range { column, of, lo, hi })
     }
 
     fn near(&mut self) -> Result<Selection> {
@@ -134,14 +134,16 @@ impl Reader {
     fn amount(&mut self, column: Column) -> Result<f64> {
         let number = self.number()?;
         let begin = self.at;
-        let factor = match (self.word(|c| c.is_ascii_alphabetic()).as_str(), column) {
-            ("", _) | ("ns", Column::Time) => 1.0,
-            ("us", Column::Time) => 1e3,
-            ("ms", Column::Time) => 1e6,
-            ("s", Column::Time) => 1e9,
+        let is_time = matches!(column.kind(), Kind::Range { unit: "ns", .. });
+        let factor = match self.word(|c| c.is_ascii_alphabetic()).as_str() {
+            "" => 1.0,
+            "ns" if is_time => 1.0,
+            "us" if is_time => 1e3,
+            "ms" if is_time => 1e6,
+            "s" if is_time => 1e9,
             _ => {
                 self.at = begin;
-                let units = if column == Column::Time { "ns, us, ms or s" } else { "no unit" };
+                let units = if is_time { "ns, us, ms or s" } else { "no unit" };
                 return Err(self.wrong(&format!("{} takes {units}", column.name())));
             }
         };

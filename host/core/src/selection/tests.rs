@@ -46,6 +46,22 @@ fn the_examples_read_write_and_select_as_they_say() {
     }
 }
 
+/// What must be said of every column.
+#[test]
+fn every_column_has_an_example_and_stands_in_the_help_and_in_the_readme() {
+    let readme = include_str!("../../../README.md");
+    let (_, readme) = readme.split_once("\n## Selections\n").unwrap();
+    let (readme, _) = readme.split_once("\n## ").unwrap();
+    let cases = cases();
+    let examples: Vec<&str> = cases["good"].as_array().unwrap().iter().map(|case| case[0].as_str().unwrap()).collect();
+    assert!(!Column::ALL.is_empty());
+    for name in Column::ALL.iter().map(|column| column.name()) {
+        assert!(readme.contains(&format!("`{name}`")), "host/README.md does not name {name}");
+        assert!(help().contains(name), "{name}");
+        assert!(examples.iter().any(|text| text.contains(name)), "cases.json has no example of {name}");
+    }
+}
+
 #[test]
 fn what_is_no_selection_is_told_with_its_place() {
     for case in cases()["bad"].as_array().unwrap() {
