@@ -15,7 +15,7 @@ use ocb_sandbox::Policy;
 use ocb_stability::relations::Relation;
 use ocb_stability::{corpus, families as catalogue};
 
-use crate::contestant::{Contestant, Runner};
+use crate::algorithm::{Algorithm, Runner};
 use crate::machine::Machine;
 use crate::measure::{Stop, precision};
 use crate::model::{FailureInfo, FamilyInfo, RelationInfo, Stability, StabilityTable};
@@ -132,8 +132,8 @@ pub fn parts(selection: &Selection) -> Vec<&'static str> {
 }
 
 /// What is known of an algorithm before anything was tried; not complete.
-pub fn begin(contestant: &Contestant, selection: &Selection) -> Stability {
-    let info = &contestant.info;
+pub fn begin(algorithm: &Algorithm, selection: &Selection) -> Stability {
+    let info = &algorithm.info;
     Stability {
         algorithm: info.id.clone(),
         name: info.name.clone(),
@@ -161,15 +161,15 @@ pub fn begin(contestant: &Contestant, selection: &Selection) -> Stability {
 pub fn part(
     runner: &Runner,
     machine: &Machine,
-    contestant: &Contestant,
+    algorithm: &Algorithm,
     selection: &Selection,
     name: &str,
     found: &mut Stability,
     stop: &Stop,
 ) -> Result<()> {
     let _quiet = machine.keep_off();
-    let launcher = runner.launcher(contestant, Policy { threads: contestant.threads, ..policy(machine) });
-    let mut asker = Asker::new(&launcher, contestant, precision(&contestant.info), stop);
+    let launcher = runner.launcher(algorithm, Policy { threads: algorithm.threads, ..policy(machine) });
+    let mut asker = Asker::new(&launcher, algorithm, precision(&algorithm.info), stop);
     if let Some(family) = catalogue::by_id(name) {
         found.families.push(families::family(&mut asker, family, selection)?);
     } else if name == REPORTED {
@@ -190,20 +190,20 @@ pub fn part(
 pub fn run(
     runner: &Runner,
     machine: &Machine,
-    contestant: &Contestant,
+    algorithm: &Algorithm,
     selection: &Selection,
     stop: &Stop,
     at: &dyn Fn(&str),
 ) -> Result<Stability> {
     selection.check()?;
     let begun = Instant::now();
-    let mut found = begin(contestant, selection);
+    let mut found = begin(algorithm, selection);
     for name in parts(selection) {
         if selection.budget.is_some_and(|budget| begun.elapsed() > budget) {
             return Ok(found);
         }
         at(name);
-        part(runner, machine, contestant, selection, name, &mut found, stop)?;
+        part(runner, machine, algorithm, selection, name, &mut found, stop)?;
     }
     found.complete = true;
     Ok(found)

@@ -1,6 +1,6 @@
 //! Asking for advice about levels of detail.
 
-use ocb_advisor::Advice;
+use ocb_advice::Advice;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 

@@ -30,21 +30,21 @@ mod people;
 mod plugin;
 mod preview;
 mod replay;
+mod result;
 mod saved;
 mod selecting;
 mod stability;
 mod stability_run;
-mod submission;
+mod submitted;
 mod suite;
 mod timing;
 mod truth;
 mod unranked;
 mod visibility;
+mod workload;
 
-use ocb_core::comparison::Interval;
 use ocb_core::configuration::{Class, Method, Sampling, Separation};
 use ocb_core::query::{Query, Semantics};
-use ocb_core::resolution::Resolution;
 use ocb_core::sampling;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -65,7 +65,7 @@ pub use example::{Example, ExampleInfo};
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
 pub use invitation::{Acceptance, InvitationInfo, InvitationRequest, InvitationState, NewInvitation};
 pub use notice::NoticeInfo;
-pub use object::ObjectInfo;
+pub use object::{ObjectInfo, Rounding};
 pub use object_id::{ObjectId, stock_id};
 pub use outcome::{OutcomeInfo, OutcomeName};
 pub use owned::{OwnedItem, OwnedItems};
@@ -78,6 +78,7 @@ pub use people::{
 pub use plugin::{AlgorithmInfo, BuildInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport, Repro};
 pub use preview::{Beside, Preview};
 pub use replay::{Difference, Recipe, RecipeAlgorithm, RecipeFile, RecipeObject, RecipeVersions, Replay, Replayed};
+pub use result::{AlgorithmResult, Estimated, TimeSummary, VerdictCount};
 pub use saved::SavedConfigurations;
 pub use selecting::{Claim, Meeting, Selected, SelectedOf, WorstBy, WorstCase, WorstRequest};
 pub use stability::{
@@ -86,12 +87,16 @@ pub use stability::{
     ThresholdInfo, Timed,
 };
 pub use stability_run::{StabilityRunInfo, StabilitySpec};
-pub use submission::{Action, Decision, Manifest, PluginInfo, PluginState};
+pub use submitted::{Action, Decision, Manifest, PluginInfo, PluginState};
 pub use suite::{BoardSuite, SuiteInfo, SuiteProgress};
 pub use timing::{Draw, Reference, Timing, TimingCheck};
 pub use truth::{ContactRow, TruthRow};
 pub use unranked::{Controls, Unranked, UnrankedCause};
 pub use visibility::{NewVisibility, Visibility};
+pub use workload::{
+    AlgorithmOnWorkload, ClaimCount, EndedPair, FalseAnswer, GroupTimes, LeftOut, PairTime, RecordedAnswers, TotalTime,
+    Track, TrackResult, WorkloadObject, WorkloadResult,
+};
 
 /// What to measure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -213,7 +218,7 @@ pub struct RunInfo {
     pub message: Option<String>,
     /// Runs ahead, while queued.
     pub runs_ahead: u32,
-    /// The lanes, in order: object, configurations, one measuring lane per algorithm, heatmap.
+    /// The stages, in order: object, configurations, one measuring stage per algorithm, heatmap.
     pub stages: Vec<Stage>,
     /// Summary per algorithm, as far as there is one.
     pub results: Vec<AlgorithmResult>,
@@ -251,7 +256,7 @@ pub struct RunInfo {
     pub seconds_left: Option<f64>,
 }
 
-/// Which lane.
+/// Which stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum StageKind {
@@ -265,12 +270,12 @@ pub enum StageKind {
     Heatmap,
 }
 
-/// One lane of the live page.
+/// One stage of the live page.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Stage {
-    /// Which lane.
+    /// Which stage.
     pub kind: StageKind,
-    /// The algorithm, for measuring lanes.
+    /// The algorithm, for measuring stages.
     pub algorithm: Option<String>,
     /// State.
     pub state: State,
@@ -324,6 +329,19 @@ pub struct SetInfo {
     /// Version of the oracle that certified it; absent in sets of older versions.
     #[serde(default)]
     pub oracle: Option<u32>,
+    /// What rounding the coordinates to single precision changes; absent where it changes no coordinate.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rounding: Option<RoundingEffect>,
+}
+
+/// How the truths about the objects of the files differ from those about the same objects with coordinates rounded to single
+/// precision. Algorithms in single precision get the latter and are judged by their truths.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct RoundingEffect {
+    /// Configurations with the other answer to whether the surfaces meet.
+    pub other_answers: u32,
+    /// Largest change of a distance, over the configurations that are apart either way.
+    pub largest_change: f64,
 }
 
 /// How many configurations are of a class.
@@ -333,132 +351,6 @@ pub struct ClassCount {
     pub class: Class,
     /// How many.
     pub count: u32,
-}
-
-/// Numbers of one algorithm on the run's configurations.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct AlgorithmResult {
-    /// Algorithm id.
-    pub algorithm: String,
-    /// Display name.
-    pub name: String,
-    /// How its code was compiled; empty in runs of older versions.
-    #[serde(default)]
-    pub builds: Vec<BuildInfo>,
-    /// How its runner ended.
-    pub outcome: OutcomeInfo,
-    /// Configurations measured.
-    pub n: u32,
-    /// Configurations in the set.
-    pub of: u32,
-    /// Stopped by the time budget before the whole set.
-    pub budget_limited: bool,
-    /// Time per query in the unit of the files; absent when nothing was measured.
-    pub time: Option<TimeSummary>,
-    /// Against the reference algorithm: geometric mean of the ratios of the times of the same configuration, with its 95 %
-    /// interval over the processes; below 1 is faster.
-    #[serde(default)]
-    pub ratio: Option<Estimated>,
-    /// What it had to deliver for its time; absent in runs of older versions.
-    #[serde(default)]
-    pub class: Option<ContractClass>,
-    /// Rank by `ratio` within its class, from 1; algorithms whose intervals overlap are tied. Absent for what failed, gave a
-    /// wrong answer, was measured in the development profile, or for what `unranked` says.
-    #[serde(default)]
-    pub rank: Option<u32>,
-    /// Why there is no rank, where neither the outcome nor the verdicts show it.
-    #[serde(default)]
-    pub unranked: Option<Unranked>,
-    /// What became of the control questions; absent in runs of older versions.
-    #[serde(default)]
-    pub controls: Option<Controls>,
-    /// How the passes went, and what the integrity checks found; absent in runs of older versions.
-    #[serde(default)]
-    pub timing: Option<Timing>,
-    /// All answers by verdict (`correct`, `false_negative`, `gave_up`, ...); those that do not occur are left out.
-    pub verdicts: Vec<VerdictCount>,
-    /// Configurations answered wrongly at least once, in any unit. Giving up and not supporting the question are not wrong.
-    pub wrong: u32,
-    /// Time and answers in each unit of length, the unit of the files first; empty in runs of older versions.
-    #[serde(default)]
-    pub by_unit: Vec<InUnit>,
-    /// Present when its time or its answers depend on the unit of length.
-    #[serde(default)]
-    pub depends_on_unit: Option<UnitDependence>,
-    /// The answers that are not scored, because the configuration is narrower than the precision of the algorithm.
-    #[serde(default)]
-    pub grazing: Agreement,
-    /// eps*: how finely it tells apart from colliding. Absent in runs of older versions.
-    #[serde(default)]
-    pub resolution: Option<Resolution>,
-    /// Of lists of all contacts.
-    #[serde(default)]
-    pub contacts: Option<ContactQuality>,
-    /// Mean BV tests per query.
-    pub bv_tests_mean: Option<f64>,
-    /// Mean primitive tests per query.
-    pub primitive_tests_mean: Option<f64>,
-    /// Time to build both structures, milliseconds, from the moment on at which the meshes could be seen: median over the
-    /// processes. What a process built while it was asked is part of it.
-    pub build_ms: Option<f64>,
-    /// Time to load the plugin's file, with all that it does before it sees a mesh, milliseconds: median over the processes.
-    #[serde(default)]
-    pub load_ms: Option<f64>,
-    /// Peak memory of the runner above its baseline, bytes.
-    pub memory_bytes: Option<u64>,
-    /// The run is still being measured and this will change: it comes from the answers so far, and has no rank.
-    #[serde(default)]
-    #[schema(required = true)]
-    pub preliminary: bool,
-}
-
-impl AlgorithmResult {
-    /// A control question was answered wrongly.
-    pub fn guessed(&self) -> bool {
-        self.controls.is_some_and(|controls| controls.wrong > 0)
-    }
-}
-
-/// Count of one verdict.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct VerdictCount {
-    /// The verdict.
-    pub verdict: ocb_core::record::Verdict,
-    /// How many.
-    pub count: u32,
-}
-
-/// A statistic with its 95 % bootstrap interval.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct Estimated {
-    /// The value.
-    pub value: f64,
-    /// Lower end.
-    pub lo: f64,
-    /// Upper end.
-    pub hi: f64,
-}
-
-impl From<Interval> for Estimated {
-    fn from(Interval { value, lo, hi }: Interval) -> Self {
-        Estimated { value, lo, hi }
-    }
-}
-
-/// Distribution of the time per query over configurations, nanoseconds.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct TimeSummary {
-    /// Arithmetic mean. Its interval and the following two are over the processes; over the configurations, too, where there is
-    /// one process only or not every configuration was measured.
-    pub mean_ns: Estimated,
-    /// Median.
-    pub median_ns: Estimated,
-    /// 95th percentile.
-    pub p95_ns: Estimated,
-    /// Maximum; its interval is over the configurations.
-    pub max_ns: Estimated,
-    /// How many lie below the clock's resolution.
-    pub below_resolution: u32,
 }
 
 /// Something that happened in a run.
@@ -472,7 +364,7 @@ pub struct RunEvent {
     pub state: State,
     /// Runs ahead, while queued.
     pub runs_ahead: u32,
-    /// The lane that changed, as it is now.
+    /// The stage that changed, as it is now.
     pub stage: Option<Stage>,
     /// The algorithm's summary, when it has just been finished, or when there is a newer one that is preliminary.
     pub result: Option<AlgorithmResult>,

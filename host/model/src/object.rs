@@ -33,6 +33,9 @@ pub struct ObjectInfo {
     /// Unit of the coordinates, where the file states one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<LengthUnit>,
+    /// What single precision changes; absent where it holds all coordinates exactly.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rounding: Option<Rounding>,
     /// What was noticed and mended while reading (one sentence each).
     pub warnings: Vec<String>,
     /// When it was added.
@@ -45,4 +48,16 @@ pub struct ObjectInfo {
     #[serde(default)]
     #[schema(required = true)]
     pub mine: bool,
+}
+
+/// What rounding the coordinates to single precision does to an object. Algorithms in single precision get the rounded
+/// coordinates, all others those of the file.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Rounding {
+    /// A coordinate changes by so much at most.
+    pub moves: f64,
+    /// Triangles with area that lose it.
+    pub collapsed: u32,
+    /// No triangle with area is left, so algorithms in single precision cannot be asked.
+    pub flattens: bool,
 }

@@ -68,8 +68,16 @@ pub struct RecipeAlgorithm {
     pub plugin_sha256: String,
     /// That file in the archive; absent where its licence does not let it be given away, or it is not known any more.
     pub plugin: Option<String>,
+    /// It got the objects' coordinates rounded to single precision; the others got the numbers of the files.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub rounded: bool,
     /// The file with its answers.
     pub answers: String,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
+fn is_false(flag: &bool) -> bool {
+    !flag
 }
 
 /// A file of the archive.

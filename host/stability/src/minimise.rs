@@ -7,17 +7,31 @@ use ocb_core::reduce::reduce;
 
 use crate::Posed;
 
-/// Removes triangles as long as `fails` says that what is left still fails, and stops after so many attempts.
-pub fn minimise(failing: &Posed, attempts: u32, mut fails: impl FnMut(&Posed) -> bool) -> Posed {
-    let (mut best, mut left) = (failing.clone(), attempts);
+/// Removes triangles as long as `fails` says that what is left still fails, and stops after so many attempts. The result is the last
+/// that failed; `None` if not even the whole does. The first error ends the search.
+pub fn minimise<E>(
+    whole: &Posed,
+    attempts: u32,
+    mut fails: impl FnMut(&Posed) -> Result<bool, E>,
+) -> Result<Option<Posed>, E> {
+    if !fails(whole)? {
+        return Ok(None);
+    }
+    let mut error = None;
+    let mut fails = |posed: &Posed| {
+        error.is_none()
+            && fails(posed).unwrap_or_else(|e| {
+                error = Some(e);
+                false
+            })
+    };
+    let (mut best, mut left) = (whole.clone(), attempts);
     loop {
         let before = size(&best);
-        let a = smaller(&best.a.clone(), &mut left, |a| fails(&best.with(a.clone(), best.b.clone())));
-        best.a = a;
-        let b = smaller(&best.b.clone(), &mut left, |b| fails(&best.with(best.a.clone(), b.clone())));
-        best.b = b;
+        best.a = smaller(&best.a, &mut left, |a| fails(&best.with(a.clone(), best.b.clone())));
+        best.b = smaller(&best.b, &mut left, |b| fails(&best.with(best.a.clone(), b.clone())));
         if left == 0 || size(&best) == before {
-            return best;
+            return error.map_or(Ok(Some(best)), Err);
         }
     }
 }
@@ -27,13 +41,14 @@ fn size(posed: &Posed) -> usize {
 }
 
 /// One object, with as few of its triangles as still fail.
-fn smaller(mesh: &Mesh, left: &mut u32, mut fails: impl FnMut(&Arc<Mesh>) -> bool) -> Arc<Mesh> {
+fn smaller(mesh: &Arc<Mesh>, left: &mut u32, mut fails: impl FnMut(&Arc<Mesh>) -> bool) -> Arc<Mesh> {
     let tries = *left as usize;
     let kept = reduce(mesh.triangles().len(), tries, |kept| {
         *left -= 1;
         keep(mesh, kept).is_some_and(|candidate| fails(&candidate))
     });
-    keep(mesh, &kept).expect("some of its triangles, or all")
+    let all = kept.len() == mesh.triangles().len();
+    if all { mesh.clone() } else { keep(mesh, &kept).expect("triangles that were asked about") }
 }
 
 /// Some of the triangles, with the vertices that they use; `None` when that is no mesh.
@@ -55,6 +70,8 @@ fn keep(mesh: &Mesh, which: &[usize]) -> Option<Arc<Mesh>> {
 
 #[cfg(test)]
 mod tests {
+    use std::convert::Infallible;
+
     use nalgebra::Point3;
     use ocb_core::pose::Pose;
     use proptest::prelude::*;
@@ -77,8 +94,9 @@ mod tests {
             let wanted_b = centre(&b, other);
             let has = |m: &Mesh, c| (0..m.triangles().len()).any(|i| centre(m, i) == c);
             let small = minimise(&Posed::new(&a, &b, Pose::identity()), 2000, |posed| {
-                wanted.iter().all(|c| has(&posed.a, *c)) && has(&posed.b, wanted_b)
+                Ok::<_, Infallible>(wanted.iter().all(|c| has(&posed.a, *c)) && has(&posed.b, wanted_b))
             });
+            let small = small.unwrap().unwrap();
             prop_assert_eq!(small.a.triangles().len(), needed.len());
             prop_assert_eq!(small.b.triangles().len(), 1);
             prop_assert!(small.a.positions().iter().all(|p| *p != Point3::origin()));
@@ -88,11 +106,18 @@ mod tests {
     #[test]
     fn attempts_are_counted() {
         let a = ball(2).mesh().unwrap();
+        let posed = Posed::new(&a, &a, Pose::identity());
         let mut asked = 0;
-        minimise(&Posed::new(&a, &a, Pose::identity()), 7, |_| {
+        let whole = |posed: &Posed| posed.a.triangles().len() == a.triangles().len();
+        let small = minimise(&posed, 7, |posed| {
             asked += 1;
-            false
+            Ok::<_, Infallible>(asked == 1 && whole(posed))
         });
-        assert_eq!(asked, 7);
+        assert_eq!((small, asked), (Ok(Some(posed.clone())), 8));
+        assert_eq!(minimise(&posed, 7, |_| Ok::<_, Infallible>(false)), Ok(None));
+        assert_eq!(
+            minimise(&posed, 7, |posed| if whole(posed) { Ok(true) } else { Err("the jail broke") }),
+            Err("the jail broke")
+        );
     }
 }

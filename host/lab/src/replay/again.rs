@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 
 use ocb_core::configuration::Configuration;
 use ocb_core::instance::Presentation;
-use ocb_core::mesh::Mesh;
 use ocb_core::query::Query;
+use ocb_core::validation::Precision;
 use ocb_sandbox::{Ending, MAX_BATCH, Outcome, Policy, Session};
 
+use crate::algorithm::{Algorithm, Runner};
 use crate::columns::{AnswerRow, Flat};
-use crate::contestant::{Contestant, Runner};
 use crate::measure;
 use crate::model::{Difference, Recipe, Replayed};
+use crate::pairing::Pairing;
 
 /// What all algorithms of an archive were asked.
 pub struct Questions<'a> {
@@ -19,26 +20,25 @@ pub struct Questions<'a> {
     pub recipe: &'a Recipe,
     /// Where the jail is started from.
     pub runner: &'a Runner,
-    /// Object A.
-    pub mesh_a: &'a Mesh,
-    /// Object B; absent when both are one.
-    pub mesh_b: Option<&'a Mesh>,
+    /// The objects.
+    pub pairing: &'a Pairing,
     /// Poses of the configurations.
     pub poses: &'a [Configuration],
 }
 
 impl Questions<'_> {
-    /// Puts every question of this algorithm again, in fresh processes as then. Blocks, on a thread that outlives it.
-    pub fn ask(&self, contestant: &Contestant, rows: &[AnswerRow]) -> Replayed {
-        let algorithm = contestant.info.id.clone();
+    /// Puts every question of this algorithm again, in fresh processes as then; it got the objects in the numbers of this
+    /// precision. Blocks, on a thread that outlives it.
+    pub fn ask(&self, algorithm: &Algorithm, precision: Precision, rows: &[AnswerRow]) -> Replayed {
         let answers = rows.len() as u32;
-        let mut replayed = Replayed { algorithm, answers, equal: 0, first: None, trouble: None };
+        let mut replayed =
+            Replayed { algorithm: algorithm.info.id.clone(), answers, equal: 0, first: None, trouble: None };
         let mut processes: BTreeMap<Option<u32>, Vec<&AnswerRow>> = BTreeMap::new();
         for row in rows {
             processes.entry(row.asked.process).or_default().push(row);
         }
         for (process, rows) in processes {
-            if let Err(ending) = self.process(contestant, process, &rows, &mut replayed) {
+            if let Err(ending) = self.process(algorithm, precision, process, &rows, &mut replayed) {
                 replayed.trouble = Some(ending.to_string());
                 break;
             }
@@ -48,22 +48,25 @@ impl Questions<'_> {
 
     fn process(
         &self,
-        contestant: &Contestant,
+        algorithm: &Algorithm,
+        precision: Precision,
         process: Option<u32>,
         rows: &[&AnswerRow],
         replayed: &mut Replayed,
     ) -> Result<(), Ending> {
         let Recipe { spec, seed, .. } = self.recipe;
+        let sides = self.pairing.seen_in(precision);
+        let (mesh_a, mesh_b) = (&*sides.mesh_a, (!self.pairing.same).then_some(&*sides.mesh_b));
         let shown = match process {
-            None => Presentation::original(self.mesh_a, self.mesh_b),
+            None => Presentation::original(mesh_a, mesh_b),
             Some(process) => {
                 let coherent = measure::is_coherent(&spec.method);
-                measure::shown(self.mesh_a, self.mesh_b, self.poses.iter(), coherent, *seed, process)
+                measure::shown(mesh_a, mesh_b, self.poses.iter(), coherent, *seed, process)
             }
         };
-        let trial = contestant.trial(shown.first(), shown.second(), spec.semantics);
-        let policy = Policy { threads: contestant.threads, rough_clock: true, ..Policy::default() };
-        let mut session = self.runner.launcher(contestant, policy).start(&trial)?;
+        let trial = algorithm.trial(shown.first(), shown.second(), spec.semantics);
+        let policy = Policy { threads: algorithm.threads, rough_clock: true, ..Policy::default() };
+        let mut session = self.runner.launcher(algorithm, policy).start(&trial)?;
         let whole = self.compare(&mut session, &shown, rows, replayed);
         let ending = session.finish();
         if whole.is_err() { Err(ending) } else { Ok(()) }

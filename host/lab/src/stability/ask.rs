@@ -6,9 +6,9 @@ use ocb_core::configuration::Configuration;
 use ocb_core::mesh::Mesh;
 use ocb_core::query::{Answer, Query, Semantics};
 use ocb_core::validation::Precision;
-use ocb_sandbox::{Ending, Launcher, Outcome, Trial};
+use ocb_sandbox::{Ending, Launcher, Outcome};
 
-use crate::contestant::Contestant;
+use crate::algorithm::Algorithm;
 use crate::measure::Stop;
 use crate::{LabError, Result};
 
@@ -40,19 +40,19 @@ fn came(outcome: &Outcome) -> Got {
 /// One algorithm that is asked.
 pub struct Asker<'a> {
     launcher: &'a Launcher,
-    pub contestant: &'a Contestant,
+    pub algorithm: &'a Algorithm,
     pub precision: Precision,
     pub stop: &'a Stop,
 }
 
 impl<'a> Asker<'a> {
-    pub fn new(launcher: &'a Launcher, contestant: &'a Contestant, precision: Precision, stop: &'a Stop) -> Self {
-        Self { launcher, contestant, precision, stop }
+    pub fn new(launcher: &'a Launcher, algorithm: &'a Algorithm, precision: Precision, stop: &'a Stop) -> Self {
+        Self { launcher, algorithm, precision, stop }
     }
 
     /// It offers this question.
     pub fn offers(&self, query: Query, semantics: Semantics) -> bool {
-        let info = &self.contestant.info;
+        let info = &self.algorithm.info;
         info.queries.contains(&query) && (semantics == Semantics::Surface || info.solid)
     }
 
@@ -95,8 +95,7 @@ impl<'a> Asker<'a> {
         questions: &[(Query, Configuration)],
         all: &mut Vec<Got>,
     ) -> std::result::Result<(), Ending> {
-        let Contestant { file, algorithm, settings, .. } = self.contestant;
-        let trial = Trial { plugin: file, algorithm, mesh_a: a, mesh_b: Some(b), parameters: settings, semantics };
+        let trial = self.algorithm.trial(a, Some(b), semantics);
         let mut session = self.launcher.start(&trial)?;
         for (query, configuration) in questions {
             if self.stop.asked() {
@@ -118,9 +117,7 @@ impl<'a> Asker<'a> {
         b: &Mesh,
         talk: impl FnOnce(&mut dyn FnMut(Query, &Configuration) -> Got),
     ) -> Result<()> {
-        let Contestant { file, algorithm, settings, .. } = self.contestant;
-        let semantics = Semantics::Surface;
-        let trial = Trial { plugin: file, algorithm, mesh_a: a, mesh_b: Some(b), parameters: settings, semantics };
+        let trial = self.algorithm.trial(a, Some(b), Semantics::Surface);
         let mut session = match self.launcher.start(&trial) {
             Ok(session) => session,
             Err(ending) if ending.outcome.ours() => return Err(LabError::Fault(ending.to_string())),

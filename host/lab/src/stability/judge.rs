@@ -9,6 +9,7 @@ use ocb_stability::{Posed, Rule};
 
 use super::ask::Got;
 use crate::model::Tally;
+use crate::repro;
 
 /// What is known of the scene of a question.
 pub struct Known {
@@ -26,6 +27,7 @@ impl Known {
         let placed = finite.then(|| Placed {
             configuration: *c,
             truth: Pair::new(&a, &b).truth(c),
+            rounded: None,
             root_index: 0,
             wanted: None,
         });
@@ -91,8 +93,7 @@ impl Known {
     pub fn expected(&self, semantics: Semantics) -> String {
         match self.truth(semantics) {
             None => "any answer within the time limit".into(),
-            Some(truth) if truth.hit => format!("collision; every vertex may move by {:e}", truth.margin),
-            Some(truth) => format!("no collision; distance from {:e} to {:e}", truth.distance_lo, truth.distance_hi),
+            Some(truth) => repro::expected(&truth),
         }
     }
 }
@@ -123,16 +124,10 @@ fn same(one: &Answer, other: &Answer) -> bool {
 }
 
 /// An answer as a sentence.
-pub fn told(query: Query, got: &Got) -> String {
+pub fn told(got: &Got) -> String {
     match got {
         Got::Broken(why) | Got::Hung(why) => why.clone(),
         Got::Declined(why) => format!("declined: {why}"),
-        Got::Answer(answer, _) => match answer {
-            Answer::Collision { hit, .. } => if *hit { "collision" } else { "no collision" }.into(),
-            Answer::Contacts { total, .. } => format!("{total} contacts"),
-            Answer::Distance { distance, .. } => format!("distance {distance:e}"),
-            Answer::GaveUp => "could not decide".into(),
-            Answer::Unsupported => format!("does not answer {query:?}"),
-        },
+        Got::Answer(answer, _) => repro::answered(answer),
     }
 }

@@ -25,7 +25,7 @@ fn one(asker: &mut Asker, reported: &corpus::Reported) -> Result<FailureResult> 
     let (mut tally, mut said) = (Tally::default(), Vec::new());
     for (query, got) in queries.iter().zip(asker.ask(&posed.a, &posed.b, Semantics::Surface, &questions)?) {
         tally.add(&known.tally(&got, *query, false, Rule::Judged, asker.precision, None));
-        said.push(told(*query, &got));
+        said.push(told(&got));
     }
     let expected = known.expected(Semantics::Surface);
     Ok(FailureResult { id: reported.id.clone(), state: tally.state(), expected, got: said.join("; ") })

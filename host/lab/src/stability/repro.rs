@@ -35,34 +35,19 @@ pub fn repro(
 ) -> Result<FailingCase> {
     let semantics = if question.solid { Semantics::Solid } else { Semantics::Surface };
     let hangs = matches!(got, Got::Hung(_));
-    let mut fault = None;
     let mut last = got.clone();
-    let mut fails = |posed: &Posed| -> bool {
-        let asked = asker.ask(&posed.a, &posed.b, semantics, &[(query, posed.configuration)]);
-        let got = match asked.map(|mut all| all.remove(0)) {
-            Ok(got) => got,
-            Err(error) => {
-                fault.get_or_insert(error);
-                return false;
-            }
-        };
-        let known = Known::of(posed);
-        let failed = known.tally(&got, query, question.solid, question.rule, asker.precision, None).failed();
-        if failed {
+    let fails = |posed: &Posed| -> Result<bool> {
+        let got = asker.ask(&posed.a, &posed.b, semantics, &[(query, posed.configuration)])?.remove(0);
+        let tally = Known::of(posed).tally(&got, query, question.solid, question.rule, asker.precision, None);
+        if tally.failed() {
             last = got;
         }
-        failed
+        Ok(tally.failed())
     };
-    let small = if hangs || unsteady || !fails(&question.posed) {
-        question.posed.clone()
-    } else {
-        minimise(&question.posed, ATTEMPTS, fails)
-    };
-    if let Some(fault) = fault {
-        return Err(fault);
-    }
+    let small = if hangs || unsteady { None } else { minimise(&question.posed, ATTEMPTS, fails)? };
+    let small = small.unwrap_or_else(|| question.posed.clone());
     let before = size(&question.posed);
-    Ok(written(asker, &small, before, Known::of(&small).expected(semantics), told(query, &last), place))
+    Ok(written(asker, &small, before, Known::of(&small).expected(semantics), told(&last), place))
 }
 
 fn size(posed: &Posed) -> [u32; 2] {
@@ -91,6 +76,6 @@ pub fn written(
         b: obj::write(&posed.b),
         pose_a: numbers(&posed.configuration.pose_a),
         pose_b: numbers(&posed.configuration.pose_b),
-        command: format!("ocb stability {} --family {part} --at {at} --seed {seed}", asker.contestant.info.id),
+        command: format!("ocb stability {} --family {part} --at {at} --seed {seed}", asker.algorithm.info.id),
     }
 }

@@ -65,7 +65,7 @@ pub fn search(asker: &mut Asker) -> Result<Option<SearchResult>> {
         let place = Place { part: super::SEARCH, at: 0.0, seed: SEED as u32 };
         let expected = Known::of(&posed).expected(Semantics::Surface);
         let size = [mesh.triangles().len() as u32; 2];
-        written(asker, &posed, size, expected, told(query, &got), &place)
+        written(asker, &posed, size, expected, told(&got), &place)
     });
     Ok(Some(SearchResult {
         most: MOST,

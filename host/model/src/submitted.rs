@@ -1,4 +1,4 @@
-//! Plugins that developers bring: what they say of them, and what becomes of them.
+//! Submitted plugins: what their authors declare about them, and what becomes of them.
 
 use ocb_core::query::Query;
 use serde::{Deserialize, Serialize};
@@ -101,7 +101,7 @@ impl PluginState {
     }
 }
 
-/// A plugin somebody brought, as whoever may see it sees it.
+/// A submitted plugin, as the viewer may see it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PluginInfo {
     /// Its id.
