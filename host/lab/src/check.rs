@@ -17,7 +17,7 @@ pub use manifest::{check_manifest, is_free};
 use term::share;
 pub use term::{CHECK_LIMIT, Term};
 
-use crate::contestant::{Runner, builds, info, read_plugin};
+use crate::algorithm::{Runner, builds, info, read_plugin};
 use crate::model::{AlgorithmInfo, CheckLine, CheckVerdict, Manifest, PluginReport, Repro};
 use crate::{LabError, Result, sha256_hex};
 

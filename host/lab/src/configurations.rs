@@ -8,15 +8,17 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use ocb_core::configuration::{Class, Configuration, ConfigurationSet, Method, Placed, Sampling, Separation};
-use ocb_core::oracle::{self, Pair, Shape};
+use ocb_core::configuration::{Class, Configuration, ConfigurationSet, Method, Placed, Sampling, Separation, Truth};
+use ocb_core::oracle;
 use ocb_core::sampling::{self, Found, Plan, SamplingError};
 use rayon::prelude::*;
 
-use crate::model::{ClassCount, RunSpec, SetInfo};
+use crate::model::{ClassCount, RoundingEffect, RunSpec, SetInfo};
+use crate::pairing::Pairing;
 use crate::sha256_hex;
 use crate::{LabError, Result};
 
+pub(crate) use affordable::specks;
 use coverage::Coverage;
 pub use file::{ConfigurationFile, read_file, read_matrices, read_text};
 
@@ -58,20 +60,19 @@ const LONG: Duration = Duration::from_secs(1);
 /// Receives the beginning of a set whose rest takes long. Its configurations keep their numbers in the whole set.
 pub type Beginning<'s> = &'s mut (dyn FnMut(&ConfigurationSet) + Send);
 
-/// Finds the set, or certifies the given poses. `None` when it was stopped. `longest_side` is that of A's bounding box.
+/// Finds the set, or certifies the given poses. `None` when it was stopped.
 pub fn make(
-    a: &Shape,
-    b: &Shape,
-    longest_side: f64,
+    pairing: &Pairing,
     spec: &RunSpec,
     poses: Option<&[Configuration]>,
     gauge: &Gauge,
     beginning: Option<Beginning>,
 ) -> Result<Option<ConfigurationSet>> {
+    let (a, b) = (&pairing.exact.a, &pairing.exact.b);
     let mut set = ConfigurationSet {
         method: spec.finding(),
         separation: spec.separation(),
-        longest_side,
+        longest_side: pairing.exact.mesh_a.longest_side(),
         placed: Vec::new(),
         missed_rays: 0,
         box_side: None,
@@ -80,11 +81,12 @@ pub fn make(
     let found = if let Some(poses) = poses {
         affordable::check(a, b, poses)
             .map_err(|why| LabError::Invalid(format!("These configurations are too expensive: {why}.")))?;
-        let pair = Pair::new(a, b);
+        let pair = pairing.exact.pair();
         let place = |i: u64| {
             let configuration = poses[i as usize];
             let truth = pair.truth(&configuration);
-            Found { placed: vec![Placed { configuration, truth, root_index: 0, wanted: None }], missed: 0 }
+            let placed = Placed { configuration, truth, rounded: None, root_index: 0, wanted: None };
+            Found { placed: vec![pairing.certified(placed)], missed: 0 }
         };
         let units = from_the_beginning(poses.len() as u64, gauge, place, &set, beginning);
         Found { placed: units.into_iter().flat_map(|unit| unit.placed).collect(), missed: 0 }
@@ -100,7 +102,11 @@ pub fn make(
         let begins_evenly =
             !matches!(set.method, Method::Grid { .. } | Method::Sphere { sampling: Sampling::PaperCompat { .. }, .. });
         let beginning = beginning.filter(|_| begins_evenly);
-        plan.gather(from_the_beginning(plan.units(), gauge, |unit| plan.place(unit), &set, beginning))
+        let place = |unit| {
+            let Found { placed, missed } = plan.place(unit);
+            Found { placed: placed.into_iter().map(|placed| pairing.certified(placed)).collect(), missed }
+        };
+        plan.gather(from_the_beginning(plan.units(), gauge, place, &set, beginning))
     };
     if gauge.stop.load(Ordering::Relaxed) {
         return Ok(None);
@@ -172,7 +178,19 @@ pub fn describe(set: &ConfigurationSet, sha256: &str, triangles: [usize; 2]) -> 
         spacing: set.spacing,
         box_side: set.box_side,
         oracle: Some(ocb_core::oracle::VERSION),
+        rounding: rounding_effect(&set.placed),
     }
+}
+
+/// What rounding the coordinates to single precision changes in the truths; absent where it changes no coordinate.
+fn rounding_effect(placed: &[Placed]) -> Option<RoundingEffect> {
+    let both: Vec<[&Truth; 2]> = placed.iter().filter_map(|p| Some([&p.truth, p.rounded.as_ref()?])).collect();
+    let apart = both.iter().filter(|both| both.iter().all(|truth| !truth.hit));
+    let change = |[exact, rounded]: &[&Truth; 2]| (exact.distance_hi - rounded.distance_hi).abs();
+    (!both.is_empty()).then(|| RoundingEffect {
+        other_answers: both.iter().filter(|[exact, rounded]| exact.hit != rounded.hit).count() as u32,
+        largest_change: apart.map(change).fold(0.0, f64::max),
+    })
 }
 
 #[cfg(test)]

@@ -196,5 +196,5 @@ pub(super) fn smoke_object(name: &str) -> Result<Arc<Mesh>> {
 }
 
 pub(super) fn certified(pair: &Pair, configuration: Configuration) -> Placed {
-    Placed { configuration, truth: pair.truth(&configuration), root_index: 0, wanted: None }
+    Placed { configuration, truth: pair.truth(&configuration), rounded: None, root_index: 0, wanted: None }
 }

@@ -22,13 +22,10 @@ pub fn check(a: &Shape, b: &Shape, poses: &[Configuration]) -> Result<(), String
     let each = (a.triangles().len() + b.triangles().len()) as u64;
     let mut triangles = 0;
     for (row, configuration) in (1..).zip(poses) {
-        let (ball_a, ball_b) = (ball_a.placed(&configuration.pose_a), ball_b.placed(&configuration.pose_b));
-        let apart = (ball_b.centre - ball_a.centre).norm();
-        let size = ball_a.radius + ball_b.radius;
-        if apart > FARTHEST * size {
+        let apart = apart([&ball_a, &ball_b], configuration);
+        if apart > FARTHEST {
             return Err(format!(
-                "in row {row} the objects are {:.0} times their size apart; at most {FARTHEST} times are measured",
-                apart / size
+                "in row {row} the objects are {apart:.0} times their size apart; at most {FARTHEST} times are measured"
             ));
         }
         if [&configuration.pose_a, &configuration.pose_b].iter().any(|pose| !is_rotation(pose)) {
@@ -43,6 +40,18 @@ pub fn check(a: &Shape, b: &Shape, poses: &[Configuration]) -> Result<(), String
         }
     }
     Ok(())
+}
+
+/// Tells the configurations in which the objects are specks to each other.
+pub fn specks(a: &Shape, b: &Shape) -> impl Fn(&Configuration) -> bool + Sync + use<> {
+    let balls = [a, b].map(Ball::around);
+    move |configuration| apart([&balls[0], &balls[1]], configuration) > FARTHEST
+}
+
+/// Distance of the centres in sizes of the objects.
+fn apart([a, b]: [&Ball; 2], configuration: &Configuration) -> f64 {
+    let (a, b) = (a.placed(&configuration.pose_a), b.placed(&configuration.pose_b));
+    (b.centre - a.centre).norm() / (a.radius + b.radius)
 }
 
 fn is_rotation(pose: &Pose) -> bool {

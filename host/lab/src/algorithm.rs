@@ -21,11 +21,11 @@ const MAX_PLUGIN_BYTES: u64 = 64 << 20;
 
 /// One algorithm and the file that holds it.
 #[derive(Clone, Debug)]
-pub struct Contestant {
+pub struct Algorithm {
     /// What it says of itself; the id with the settings that were chosen.
     pub info: AlgorithmInfo,
     /// The id that the plugin knows.
-    pub algorithm: String,
+    pub id_in_plugin: String,
     /// Values of parameters that are not the default ones.
     pub settings: Vec<(String, f64)>,
     /// CPUs that it may use; 1 is the single-threaded track.
@@ -36,10 +36,10 @@ pub struct Contestant {
     pub trusted: bool,
 }
 
-impl Contestant {
+impl Algorithm {
     /// As it is when nothing is set.
     pub fn plain(info: AlgorithmInfo, file: PathBuf, trusted: bool) -> Self {
-        Self { algorithm: info.id.clone(), info, settings: Vec::new(), threads: 1, file, trusted }
+        Self { id_in_plugin: info.id.clone(), info, settings: Vec::new(), threads: 1, file, trusted }
     }
 
     /// The same with the settings that follow its id in a name such as `box-tree:leaf_size=4`; without those that change nothing, in
@@ -51,7 +51,7 @@ impl Contestant {
     /// What a process is started for: this algorithm with its settings, on these objects; one object against itself when there
     /// is no second.
     pub fn trial<'a>(&'a self, a: &'a Mesh, b: Option<&'a Mesh>, semantics: Semantics) -> Trial<'a> {
-        Trial { parameters: &self.settings, semantics, ..Trial::new(&self.file, &self.algorithm, a, b) }
+        Trial { parameters: &self.settings, semantics, ..Trial::new(&self.file, &self.id_in_plugin, a, b) }
     }
 }
 
@@ -66,17 +66,17 @@ pub struct Runner {
 
 impl Runner {
     /// A launcher for this plugin under the given policy; only our own plugins may run under a weaker jail.
-    pub fn launcher(&self, contestant: &Contestant, policy: Policy) -> Launcher {
+    pub fn launcher(&self, algorithm: &Algorithm, policy: Policy) -> Launcher {
         // What is measured is what was described, and nothing that came to lie there since.
-        let plugin_sha256 = Some(contestant.info.plugin_sha256.clone());
-        let trusted = contestant.trusted;
+        let plugin_sha256 = Some(algorithm.info.plugin_sha256.clone());
+        let trusted = algorithm.trusted;
         Launcher::new(self.program.clone(), Policy { trusted, plugin_sha256, profile: self.profile, ..policy })
     }
 
     /// The kinds of query that an algorithm answers with its settings: it is asked for them in the jail.
-    pub fn queries(&self, contestant: &Contestant) -> std::result::Result<Vec<Query>, Ending> {
-        let launcher = self.launcher(contestant, Policy { threads: contestant.threads, ..Policy::default() });
-        launcher.queries(&contestant.file, &contestant.algorithm, &contestant.settings)
+    pub fn queries(&self, algorithm: &Algorithm) -> std::result::Result<Vec<Query>, Ending> {
+        let launcher = self.launcher(algorithm, Policy { threads: algorithm.threads, ..Policy::default() });
+        launcher.queries(&algorithm.file, &algorithm.id_in_plugin, &algorithm.settings)
     }
 
     /// A plugin that lies beside the runner was built and installed with it. Links are followed: a link there is no plugin of ours.

@@ -1,18 +1,18 @@
 //! How an algorithm is asked for: `box-tree`, or with settings of its own, `box-tree:leaf_size=4`.
 //!
-//! Several settings of one algorithm are several contestants, each under its whole name. So tables, files, links and commands
+//! Each setting of an algorithm is measured as one of its own, under its whole name. So tables, files, links and commands
 //! need no notion of parameters. `threads=2` enters the multi-threaded track with so many CPUs; a plugin that declares a
 //! parameter of that name is told as well.
 
-use super::Contestant;
+use super::Algorithm;
 use crate::model::ParameterInfo;
 use crate::{LabError, Result};
 
 /// The word for the multi-threaded track.
 const THREADS: &str = "threads";
 
-/// The contestant with the settings that follow its id; without those that change nothing, in the declared order.
-pub(super) fn with_settings(plain: &Contestant, settings: &str) -> Result<Contestant> {
+/// The algorithm with the settings that follow its id; without those that change nothing, in the declared order.
+pub(super) fn with_settings(plain: &Algorithm, settings: &str) -> Result<Algorithm> {
     let mut chosen = plain.clone();
     let mut said: Vec<&str> = Vec::new();
     for setting in settings.split(':') {
@@ -46,7 +46,7 @@ pub(super) fn with_settings(plain: &Contestant, settings: &str) -> Result<Contes
 }
 
 /// Its whole name, for programs and for people.
-fn rename(chosen: &mut Contestant) {
+fn rename(chosen: &mut Algorithm) {
     let told = chosen.settings.iter().map(|(name, value)| (name.as_str(), *value));
     let track = (chosen.threads > 1).then_some((THREADS, chosen.threads as f64));
     let parts: Vec<(&str, f64)> = told.filter(|(name, _)| track.is_none() || *name != THREADS).chain(track).collect();
@@ -59,7 +59,7 @@ fn rename(chosen: &mut Contestant) {
     }
 }
 
-fn threads(plain: &Contestant, number: f64) -> Result<usize> {
+fn threads(plain: &Algorithm, number: f64) -> Result<usize> {
     let most = std::thread::available_parallelism().map_or(1, usize::from);
     if number.fract() != 0.0 || !(1.0..=most as f64).contains(&number) {
         return Err(invalid(plain, &format!("threads must be a whole number from 1 to {most}, the number of CPUs")));
@@ -67,7 +67,7 @@ fn threads(plain: &Contestant, number: f64) -> Result<usize> {
     Ok(number as usize)
 }
 
-fn check(plain: &Contestant, parameter: &ParameterInfo, number: f64) -> Result<()> {
+fn check(plain: &Algorithm, parameter: &ParameterInfo, number: f64) -> Result<()> {
     let ParameterInfo { name, minimum, maximum, integer, .. } = parameter;
     let whole = if *integer { "a whole number" } else { "a number" };
     if !(*minimum..=*maximum).contains(&number) || (*integer && number.fract() != 0.0) {
@@ -76,7 +76,7 @@ fn check(plain: &Contestant, parameter: &ParameterInfo, number: f64) -> Result<(
     Ok(())
 }
 
-fn there_are(plain: &Contestant) -> String {
+fn there_are(plain: &Algorithm) -> String {
     let mut names: Vec<&str> = plain.info.parameters.iter().map(|p| p.name.as_str()).collect();
     if plain.info.threads && !names.contains(&THREADS) {
         names.push(THREADS);
@@ -84,7 +84,7 @@ fn there_are(plain: &Contestant) -> String {
     if names.is_empty() { "it has no parameters".to_owned() } else { format!("available: {}", names.join(", ")) }
 }
 
-fn invalid(plain: &Contestant, why: &str) -> LabError {
+fn invalid(plain: &Algorithm, why: &str) -> LabError {
     LabError::Invalid(format!("These settings of the algorithm {:?} are not possible: {why}.", plain.info.id))
 }
 
@@ -95,7 +95,7 @@ mod tests {
     use super::*;
     use crate::model::AlgorithmInfo;
 
-    fn plain(threads: bool) -> Contestant {
+    fn plain(threads: bool) -> Algorithm {
         let parameter = |name: &str, maximum: f64, integer: bool| ParameterInfo {
             name: name.into(),
             description: String::new(),
@@ -111,7 +111,7 @@ mod tests {
         });
         let mut info: AlgorithmInfo = serde_json::from_value(info).expect("an algorithm");
         info.parameters = vec![parameter("size", 8.0, true), parameter("slack", 2.0, false)];
-        Contestant::plain(info, PathBuf::new(), true)
+        Algorithm::plain(info, PathBuf::new(), true)
     }
 
     #[test]
@@ -120,7 +120,7 @@ mod tests {
         assert_eq!(chosen.info.id, "x:size=4:slack=0.5");
         assert_eq!(chosen.info.name, "X (size 4, slack 0.5)");
         assert_eq!(chosen.settings, [("size".to_owned(), 4.0), ("slack".to_owned(), 0.5)]);
-        assert_eq!((chosen.algorithm.as_str(), chosen.threads), ("x", 1));
+        assert_eq!((chosen.id_in_plugin.as_str(), chosen.threads), ("x", 1));
         // What changes nothing is not said.
         assert_eq!(with_settings(&plain(false), "size=1:slack=2").unwrap().info.id, "x:slack=2");
         assert_eq!(with_settings(&plain(false), "size=1").unwrap().info.id, "x");
