@@ -1,7 +1,7 @@
 //! Measuring: plain blocking code on one thread of its own.
 //!
 //! The algorithms take turns, one pass each per round, so that a slow drift of the machine meets all of them alike; the
-//! reference algorithm takes part in every round, whether it was asked for or not. Every turn is a fresh jailed process
+//! reference algorithm takes part in every round, whether it was asked for or not. Every pass is a fresh jailed process
 //! that sees an equivalent instance of the objects and of every question ([`Presentation`]). All share one shuffled
 //! order; an algorithm whose budget ends measures a prefix of it. A trajectory keeps its own order: that each
 //! configuration is near the one before is what it is for.
@@ -10,6 +10,9 @@
 //! questions they reached, the first of them where they are many, are then asked in a smaller and a larger unit
 //! ([`OTHER_UNITS`]). An answer that is wrong in any unit is wrong; how time and answers depend on the unit is told apart
 //! (`by_unit.rs`).
+//!
+//! Algorithms in single precision see the objects rounded to it, where that makes a difference, and are judged by the truth
+//! about what they saw ([`Pairing`]).
 //!
 //! Control questions are mixed into every timed pass (`weave.rs`). Their numbers follow those of the set's configurations;
 //! they are answered and judged like these, and nothing else is made of them.
@@ -20,126 +23,52 @@
 mod by_unit;
 mod contract;
 mod controls;
-mod lane;
 mod look;
 mod order;
 mod pace;
 mod preview;
+mod process_pass;
+mod state;
+mod stop;
 mod summary;
 mod surplus;
-mod turn;
 mod waiting;
 mod weave;
 
+use std::sync::Arc;
 use std::sync::mpsc::Sender;
-use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use ocb_core::configuration::{Configuration, ConfigurationSet, Method, Placed};
 use ocb_core::instance::{OTHER_UNITS, Presentation};
 use ocb_core::mesh::Mesh;
 use ocb_core::numbers::Numbers;
-use ocb_core::oracle::{Pair, Shape};
 use ocb_core::query::{Query, Semantics};
 use ocb_core::sampling::controls::Control;
+use ocb_core::validation::Precision;
 use ocb_core::{sampling, sequential};
-use ocb_sandbox::{Killer, Outcome};
+use ocb_sandbox::Outcome;
 
-use crate::contestant::{Contestant, Runner};
+use crate::algorithm::{Algorithm, Runner};
 use crate::machine::Machine;
 use crate::model::{OutcomeInfo, OutcomeName, Preview, RunSpec};
+use crate::pairing::{Pairing, Sides};
 
 pub use by_unit::asked_in_another_unit;
 pub use controls::draw as draw_controls;
-pub use lane::{Lane, Measured, precision};
 use look::Showing;
 pub use look::{Preliminary, QUESTIONS, first_look, worth_a_look};
 pub use pace::{Cost, cost};
+use process_pass::{ProcessPass, Purpose};
+pub use state::{Measured, MeasuringState, precision};
+pub use stop::Stop;
 pub use summary::{Asked, environment, rank, summarise};
-use turn::{Pass, Turn};
 use weave::Piece;
-
-/// Ends the measuring from another thread.
-#[derive(Clone, Default)]
-pub struct Stop {
-    inner: Arc<Mutex<Stopping>>,
-}
-
-#[derive(Default)]
-struct Stopping {
-    asked: bool,
-    /// Shown to the owner of the run.
-    reason: Option<String>,
-    for_now: bool,
-    killer: Option<Killer>,
-}
-
-impl Stop {
-    /// No further question is asked, and the runner under way is killed.
-    pub fn stop(&self) {
-        self.stop_because(None);
-    }
-
-    /// The same, with a reason for the owner of the run; the first reason is kept.
-    pub fn stop_because(&self, reason: Option<String>) {
-        self.end(reason, false);
-    }
-
-    /// The same for work that gives way to other work and begins again later.
-    pub fn stop_for_now(&self) {
-        self.end(None, true);
-    }
-
-    fn end(&self, reason: Option<String>, for_now: bool) {
-        let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
-        if !inner.asked {
-            inner.reason = reason;
-        }
-        // A final stop wins over one for now, in either order.
-        inner.for_now = for_now && (inner.for_now || !inner.asked);
-        inner.asked = true;
-        if let Some(killer) = &inner.killer {
-            killer.kill();
-        }
-    }
-
-    /// It was asked for, and the work begins again later.
-    pub fn for_now(&self) -> bool {
-        self.inner.lock().unwrap_or_else(PoisonError::into_inner).for_now
-    }
-
-    /// Why it was asked for.
-    pub fn reason(&self) -> Option<String> {
-        self.inner.lock().unwrap_or_else(PoisonError::into_inner).reason.clone()
-    }
-
-    /// Was it asked for?
-    pub fn asked(&self) -> bool {
-        self.inner.lock().unwrap_or_else(PoisonError::into_inner).asked
-    }
-
-    /// From now on a stop kills this runner.
-    fn watch(&self, killer: Option<Killer>) {
-        let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
-        if let (true, Some(killer)) = (inner.asked, &killer) {
-            killer.kill();
-        }
-        inner.killer = killer;
-    }
-}
 
 /// What is measured.
 pub struct Task<'a> {
-    /// Object A as the algorithms get it.
-    pub mesh_a: &'a Mesh,
-    /// Object B.
-    pub mesh_b: &'a Mesh,
-    /// Object A as the oracle sees it.
-    pub a: &'a Shape,
-    /// Object B.
-    pub b: &'a Shape,
-    /// A and B are the same object.
-    pub same: bool,
+    /// The objects.
+    pub pairing: &'a Pairing,
     /// The configurations with their truth.
     pub set: &'a ConfigurationSet,
     /// Asked among them, in this order: questions whose answers the set does not give away.
@@ -155,13 +84,17 @@ pub struct Task<'a> {
     /// Seed of everything that is drawn: orders, instances, blocks.
     pub seed: u64,
     /// The algorithms.
-    pub contestants: &'a [Arc<Contestant>],
+    pub algorithms: &'a [Arc<Algorithm>],
     /// What all of them are compared with; it may be one of them.
-    pub reference: Option<&'a Arc<Contestant>>,
+    pub reference: Option<&'a Arc<Algorithm>>,
     /// Where to stop before all configurations are measured.
     pub part: Part,
     /// Somebody may look at it before it has ended.
     pub watched: bool,
+    /// The order of the set is kept.
+    pub in_order: bool,
+    /// Only the timed rounds: neither other units nor counters.
+    pub rounds_only: bool,
 }
 
 /// What is wanted of a run that need not measure everything.
@@ -192,10 +125,10 @@ impl Part {
 
 /// News for whoever reports the progress.
 pub enum News {
-    /// A lane has done so many of its expected questions.
+    /// An algorithm has answered so many of its expected questions.
     Progress {
-        /// Which contestant; their number stands for a reference that is none of them.
-        lane: usize,
+        /// Which algorithm; their number stands for a reference that is none of them.
+        index: usize,
         /// Questions answered.
         done: u64,
         /// Questions expected in all; 0 while that cannot be told.
@@ -205,17 +138,17 @@ pub enum News {
     },
     /// The run has ended before all configurations were measured.
     Preview(Preview),
-    /// A lane has something to show that may still change.
+    /// An algorithm has something to show that may still change.
     Preliminary {
-        /// Which contestant.
-        lane: usize,
+        /// Which algorithm.
+        index: usize,
         /// Its numbers and records so far.
         preliminary: Box<Preliminary>,
     },
-    /// A lane will not change any more.
+    /// An algorithm will not change any more.
     Finished {
-        /// Which contestant; their number stands for a reference that is none of them.
-        lane: usize,
+        /// Which algorithm; their number stands for a reference that is none of them.
+        index: usize,
         /// All that was measured.
         measured: Box<Measured>,
     },
@@ -228,80 +161,84 @@ const STEAL: f64 = 0.001;
 
 impl Task<'_> {
     fn coherent(&self) -> bool {
-        is_coherent(&self.set.method)
+        self.in_order
     }
 }
 
-/// Measures all contestants and sends what happens; returns early when stopped.
+/// Measures all algorithms and sends what happens; returns early when stopped.
 pub fn measure(task: &Task, runner: &Runner, machine: &Machine, stop: &Stop, news: &Sender<News>) {
     let _quiet = machine.keep_off();
     let n = task.set.placed.len();
-    let mut lanes: Vec<Lane> = task.lanes().map(|c| Lane::new(c.clone(), &task.slack(c), n)).collect();
+    let mut states: Vec<MeasuringState> =
+        task.with_reference().map(|c| MeasuringState::new(c.clone(), &task.slack(c), n)).collect();
     let base = task.first(n);
     let mut showing = Showing::new(task, news, &base);
-    let turns = Turns { task, runner, machine, stop, news, base: &base, elsewhere: task.instance(0).scale() != 1.0 };
+    let elsewhere = !task.rounds_only && task.instance(0).is_scaled();
+    let passes = Passes { task, runner, machine, stop, news, base: &base, elsewhere };
     let mut steady = true;
     let (mut measured, mut looks) = (0, 0);
     for end in task.looks() {
         for round in 0..task.passes {
             let process = OTHER_UNITS.len() as u32 + looks * task.passes + round;
-            let pass = Pass::Official(round);
+            let purpose = Purpose::Official(round);
             let shown = task.instance(process);
-            for index in 0..lanes.len() {
-                let lane = &mut lanes[index];
-                let turn = turns.turn(index, pass, process, task.piece(measured, end), &shown);
-                let part = turn.part(lane);
-                if lane.ended() || part.is_empty() {
+            for index in 0..states.len() {
+                let state = &mut states[index];
+                let shown = shown.to(state.precision());
+                let pass = passes.pass(index, purpose, process, task.piece(measured, end), shown);
+                let part = pass.part(state);
+                if state.ended() || part.is_empty() {
                     continue;
                 }
-                let spent = lane.spent;
-                let steal = turn.play(lane, &part);
-                let cut_now = round == 0 && lane.cut;
+                let spent = state.spent;
+                let steal = pass.run(state, &part);
+                let cut_now = round == 0 && state.cut;
                 if steal > STEAL && steady && !cut_now && !stop.asked() {
-                    lane.forget(round, &turn.order(&part));
-                    lane.spent = spent;
-                    steady = turn.play(lane, &turn.part(lane)) <= STEAL;
+                    state.forget(round, &pass.order(&part));
+                    state.spent = spent;
+                    steady = pass.run(state, &pass.part(state)) <= STEAL;
                 }
                 if stop.asked() {
                     return;
                 }
-                showing.after_turn(&lanes, index);
+                showing.after_process(&states, index);
             }
         }
         (measured, looks) = (end, looks + 1);
-        if task.part.precision.is_some() && preview::preview(task, &lanes, measured, looks).settled {
+        if task.part.precision.is_some() && preview::preview(task, &states, measured, looks).settled {
             break;
         }
     }
-    turns.elsewhere(&mut lanes);
+    passes.elsewhere(&mut states);
     if stop.asked() {
         return;
     }
     let shown = task.as_it_is();
-    for (index, lane) in lanes.iter_mut().enumerate().take(task.contestants.len()) {
+    let counted = if task.rounds_only { 0 } else { task.algorithms.len() };
+    for (index, state) in states.iter_mut().enumerate().take(counted) {
         // What is counted is no time, and controls have no counters.
         let process = OTHER_UNITS.len() as u32 + looks * task.passes;
-        let piece = Piece { own: 0..lane.reach.own, controls: 0..0 };
-        let turn = turns.turn(index, Pass::Counting, process, piece, &shown);
-        if !lane.ended() && lane.contestant.info.counters {
-            turn.play(lane, &turn.piece);
+        let piece = Piece { own: 0..state.reach.own, controls: 0..0 };
+        let pass = passes.pass(index, Purpose::Counting, process, piece, shown.to(state.precision()));
+        if !state.ended() && state.algorithm.info.counters {
+            pass.run(state, &pass.piece);
         }
         if stop.asked() {
             return;
         }
-        let _ = news.send(News::Progress { lane: index, done: lane.done, total: lane.done, worked: lane.spent });
+        let _ = news.send(News::Progress { index, done: state.done, total: state.done, worked: state.spent });
     }
     if (measured as u64) < task.part.of {
-        let _ = news.send(News::Preview(preview::preview(task, &lanes, measured, looks)));
+        let _ = news.send(News::Preview(preview::preview(task, &states, measured, looks)));
     }
-    for (lane, index) in lanes.into_iter().zip(0..) {
+    for (state, index) in states.into_iter().zip(0..) {
         // The receiver is gone only when nobody wants the run any more.
-        let _ = news.send(News::Finished { lane: index, measured: Box::new(lane.into_measured()) });
+        let _ = news.send(News::Finished { index, measured: Box::new(state.into_measured()) });
     }
 }
 
-/// What all turns of a run share.
-struct Turns<'a> {
+/// What all passes of a run share.
+struct Passes<'a> {
     task: &'a Task<'a>,
     runner: &'a Runner,
     machine: &'a Machine,
@@ -312,22 +249,29 @@ struct Turns<'a> {
     elsewhere: bool,
 }
 
-impl Turns<'_> {
-    fn turn<'t>(&'t self, index: usize, pass: Pass, process: u32, piece: Piece, shown: &'t Presentation) -> Turn<'t> {
+impl Passes<'_> {
+    fn pass<'t>(
+        &'t self,
+        index: usize,
+        purpose: Purpose,
+        process: u32,
+        piece: Piece,
+        shown: &'t Presentation,
+    ) -> ProcessPass<'t> {
         let Self { task, runner, machine, stop, news, base, elsewhere } = *self;
-        Turn { task, runner, machine, stop, news, index, pass, elsewhere, process, base, piece, shown }
+        ProcessPass { task, runner, machine, stop, news, index, purpose, elsewhere, process, base, piece, shown }
     }
 
     /// Asks in other units what the rounds asked in the unit of the files.
-    fn elsewhere(&self, lanes: &mut [Lane]) {
+    fn elsewhere(&self, states: &mut [MeasuringState]) {
         for process in (0..OTHER_UNITS.len() as u32).filter(|_| self.elsewhere) {
             let shown = self.task.instance(process);
-            for (index, lane) in lanes.iter_mut().enumerate() {
-                let piece = self.task.half(lane.reach.own, process as usize >= OTHER_UNITS.len() / 2);
-                let turn = self.turn(index, Pass::Elsewhere, process, piece, &shown);
-                let part = turn.part(lane);
-                if !lane.ended() && !part.is_empty() {
-                    turn.play(lane, &part);
+            for (index, state) in states.iter_mut().enumerate() {
+                let piece = self.task.half(state.reach.own, process as usize >= OTHER_UNITS.len() / 2);
+                let pass = self.pass(index, Purpose::Elsewhere, process, piece, shown.to(state.precision()));
+                let part = pass.part(state);
+                if !state.ended() && !part.is_empty() {
+                    pass.run(state, &part);
                 }
                 if self.stop.asked() {
                     return;
@@ -393,35 +337,60 @@ impl Task<'_> {
     }
 
     /// The algorithms, and behind them the reference where it is none of them.
-    fn lanes(&self) -> impl Iterator<Item = &Arc<Contestant>> {
-        let apart = self.reference.filter(|r| self.contestants.iter().all(|c| c.info.id != r.info.id));
-        self.contestants.iter().chain(apart)
+    fn with_reference(&self) -> impl Iterator<Item = &Arc<Algorithm>> {
+        let apart = self.reference.filter(|r| self.algorithms.iter().all(|c| c.info.id != r.info.id));
+        self.algorithms.iter().chain(apart)
     }
 
     /// Two right distances may lie so far apart: both may miss the certified interval by tau.
-    fn slack(&self, contestant: &Contestant) -> Vec<f64> {
-        let (pair, unit) = (Pair::new(self.a, self.b), precision(&contestant.info).unit_roundoff());
-        let of = |p: &Placed| 2.0 * pair.tau(&p.configuration, unit) + (p.truth.distance_hi - p.truth.distance_lo);
+    fn slack(&self, algorithm: &Algorithm) -> Vec<f64> {
+        let precision = precision(&algorithm.info);
+        let (pair, unit) = (self.pairing.seen_in(precision).pair(), precision.unit_roundoff());
+        let of = |p: &Placed| {
+            let truth = p.seen_in(precision).truth;
+            2.0 * pair.tau(&p.configuration, unit) + (truth.distance_hi - truth.distance_lo)
+        };
         self.set.placed.iter().chain(self.controls.iter().map(|control| &control.placed)).map(of).collect()
     }
 
-    fn second(&self) -> Option<&Mesh> {
-        (!self.same).then_some(self.mesh_b)
-    }
-
-    fn as_it_is(&self) -> Presentation {
-        Presentation::original(self.mesh_a, self.second())
+    fn as_it_is(&self) -> Shown {
+        self.shown(Presentation::original)
     }
 
     /// The same for all algorithms in their processes of this number. It depends on the set and not on the controls, so that a
     /// replay, which has only the set, sees the same.
-    fn instance(&self, process: u32) -> Presentation {
-        let configurations = self.set.placed.iter().map(|placed| &placed.configuration);
-        shown(self.mesh_a, self.second(), configurations, self.coherent(), self.seed, process)
+    fn instance(&self, process: u32) -> Shown {
+        let configurations = || self.set.placed.iter().map(|placed| &placed.configuration);
+        self.shown(|a, b| shown(a, b, configurations(), self.coherent(), self.seed, process))
+    }
+
+    fn shown(&self, present: impl Fn(&Mesh, Option<&Mesh>) -> Presentation) -> Shown {
+        let of = |sides: &Sides| present(&sides.mesh_a, (!self.pairing.same).then_some(&*sides.mesh_b));
+        let wanted = self.with_reference().any(|algorithm| algorithm.info.single_precision);
+        let rounded = self.pairing.rounded.as_ref().filter(|_| wanted).map(of);
+        Shown { exact: of(&self.pairing.exact), rounded }
     }
 
     fn process_seed(&self, process: u32) -> u64 {
         process_seed(self.seed, process)
+    }
+}
+
+/// How the processes of one number see the objects: in the numbers of the files, and rounded where algorithms in single
+/// precision get others.
+struct Shown {
+    exact: Presentation,
+    rounded: Option<Presentation>,
+}
+
+impl Shown {
+    fn to(&self, precision: Precision) -> &Presentation {
+        self.rounded.as_ref().filter(|_| precision == Precision::Single).unwrap_or(&self.exact)
+    }
+
+    /// All are asked in another unit, or none is.
+    fn is_scaled(&self) -> bool {
+        [Some(&self.exact), self.rounded.as_ref()].into_iter().flatten().all(|it| it.scale() != 1.0)
     }
 }
 

@@ -73,7 +73,7 @@ impl Found {
 /// What was found in each unit that was asked in; the official time is that of the unit of the files.
 pub fn of(measured: &Measured, reference: Option<&Measured>, official: Option<&TimeSummary>) -> Vec<Found> {
     // Divided by itself every pace would be 1.
-    let reference = reference.filter(|reference| reference.contestant.info.id != measured.contestant.info.id);
+    let reference = reference.filter(|reference| reference.algorithm.info.id != measured.algorithm.info.id);
     let usual = Usual::of(&measured.times);
     let usual_of_reference = reference.map(|reference| Usual::of(&reference.times));
     let found = (0..UNITS).map(|index| {

@@ -2,12 +2,12 @@
 
 use ocb_core::query::{Answer, Query};
 
-use crate::contestant::Contestant;
+use crate::algorithm::Algorithm;
 use crate::model::{ContractClass, Delivered, Order};
 
 /// The class of one algorithm that gave these answers.
 pub fn contract<'a>(
-    contestant: &Contestant,
+    algorithm: &Algorithm,
     answers: impl Iterator<Item = &'a Answer>,
     query: Query,
     coherent: bool,
@@ -20,8 +20,8 @@ pub fn contract<'a>(
             Query::Proximity => Delivered::Distance,
         },
         order: if coherent { Order::Trajectory } else { Order::Shuffled },
-        cpus: contestant.threads as u32,
-        bits: if contestant.info.single_precision { 32 } else { 64 },
+        cpus: algorithm.threads as u32,
+        bits: if algorithm.info.single_precision { 32 } else { 64 },
     }
 }
 

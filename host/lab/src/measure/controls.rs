@@ -7,13 +7,16 @@ use ocb_core::record::Verdict;
 use ocb_core::sampling::controls::{self, Control, LEAST, Plan};
 use rayon::prelude::*;
 
-use super::{Asked, is_coherent, weave};
+use super::summary::Seen;
+use super::{is_coherent, weave};
 use crate::model::{Controls, Unranked, UnrankedCause};
+use crate::pairing::Pairing;
 
 /// The controls that go with the first `measured` configurations of the set's own order, in the order in which they are asked;
 /// fewer where the objects allow no more. `stopped` ends it early.
 pub fn draw(
     plan: &Plan,
+    pairing: &Pairing,
     of: &ocb_core::configuration::ConfigurationSet,
     measured: usize,
     stopped: &(dyn Fn() -> bool + Sync),
@@ -28,7 +31,8 @@ pub fn draw(
             start..block.end.max(start + 1)
         })
     };
-    let one = |number: u64| if stopped() { None } else { plan.draw(number, among(number)) };
+    let certified = |control: Control| Control { placed: pairing.certified(control.placed), ..control };
+    let one = |number: u64| if stopped() { None } else { plan.draw(number, among(number)).map(certified) };
     let mut all: Vec<Control> = (0..n).into_par_iter().filter_map(one).collect();
     if coherent {
         all.sort_by_key(|control| control.from);
@@ -37,8 +41,8 @@ pub fn draw(
 }
 
 /// What an algorithm made of the controls: for each the gravest verdict, absent where it was not asked.
-pub fn summary(verdicts: &[Option<Verdict>], asked: &Asked) -> Controls {
-    let of = asked.controls;
+pub fn summary(verdicts: &[Option<Verdict>], asked: &Seen) -> Controls {
+    let of: &[Control] = &asked.controls;
     let answered = || verdicts.iter().zip(of).filter_map(|(verdict, control)| Some(((*verdict)?, *control)));
     let all: Vec<Control> = answered().map(|(_, control)| control).collect();
     let count = |is: fn(Verdict) -> bool| answered().filter(|(verdict, _)| is(*verdict)).count() as u32;

@@ -1,25 +1,24 @@
 //! Preliminary results of a run: a first look at every algorithm before the rounds, and then the results of the rounds so
 //! far. None of it is stored, ranked or used again.
 //!
-//! A first look asks a fresh process of its own, in a lane that is thrown away, so that no process of the rounds has seen a
+//! A first look asks a fresh process of its own, in a state that is thrown away, so that no process of the rounds has seen a
 //! question before and no number of theirs has an answer of it. It gives an algorithm a moment and no more: one that builds
 //! or answers slowly is seen later, and does not keep the others from being seen.
 //!
-//! The rounds are shown between two turns, when nothing is measured.
+//! The rounds are shown between two processes, when nothing is measured.
 
 use std::sync::mpsc::{Sender, channel};
 use std::time::{Duration, Instant};
 
 use ocb_core::comparison::compare;
 use ocb_core::configuration::ConfigurationSet;
-use ocb_core::oracle::Pair;
 use ocb_sandbox::Policy;
 
+use super::process_pass::{ProcessPass, Purpose};
 use super::summary::preliminary;
-use super::turn::{Pass, Turn};
-use super::{Asked, Lane, Measured, News, Part, Stop, Task, pace};
+use super::{Asked, Measured, MeasuringState, News, Part, Stop, Task, pace};
+use crate::algorithm::Runner;
 use crate::columns::RecordColumns;
-use crate::contestant::Runner;
 use crate::machine::Machine;
 use crate::model::AlgorithmResult;
 
@@ -90,41 +89,41 @@ pub fn first_look(
     let task = &Task { set, controls: &[], passes: 1, budget: TIME, part, ..*task };
     let (shown, base) = (task.instance(PROCESS), (0..set.placed.len() as u32).collect::<Vec<_>>());
     let mut of_reference: Option<Measured> = None;
-    for (index, contestant) in task.lanes().enumerate() {
-        let mut lane = Lane::new(contestant.clone(), &task.slack(contestant), base.len());
+    for (index, algorithm) in task.with_reference().enumerate() {
+        let mut state = MeasuringState::new(algorithm.clone(), &task.slack(algorithm), base.len());
         // How far it is stays untold: it is not under way yet.
         let (news, _) = channel();
-        let (piece, pass) = (task.piece(0, base.len()), Pass::Look);
-        let (base, shown, process) = (&base, &shown, PROCESS);
-        let turn = Turn {
+        let (piece, purpose) = (task.piece(0, base.len()), Purpose::Look);
+        let (base, shown, process) = (&base, shown.to(state.precision()), PROCESS);
+        let pass = ProcessPass {
             task,
             runner,
             machine,
             stop,
             news: &news,
             index,
-            pass,
+            purpose,
             elsewhere: false,
             process,
             base,
             piece,
             shown,
         };
-        turn.play(&mut lane, &turn.piece);
+        pass.run(&mut state, &pass.piece);
         if stop.asked() {
             return;
         }
-        if lane.ended() || lane.done == 0 {
+        if state.ended() || state.done == 0 {
             continue;
         }
-        let measured = lane.so_far(base);
-        if index < task.contestants.len() {
+        let measured = state.so_far(base);
+        if index < task.algorithms.len() {
             let mut seen = task.preliminary(&measured, of_reference.as_ref(), base);
             seen.records.configuration.iter_mut().for_each(|place| *place = numbers[*place as usize]);
             seen.seconds = Some(whole.seconds(index, &measured));
             show(index, seen);
         }
-        if task.reference.is_some_and(|reference| reference.info.id == contestant.info.id) {
+        if task.reference.is_some_and(|reference| reference.info.id == algorithm.info.id) {
             of_reference = Some(measured);
         }
     }
@@ -141,7 +140,7 @@ pub struct Showing<'a> {
     news: &'a Sender<News>,
     /// The configurations that are shown.
     numbers: &'a [u32],
-    /// Lanes with something new.
+    /// Indices of the algorithms with something new.
     waiting: Vec<usize>,
     shown: Instant,
     took: Duration,
@@ -154,25 +153,26 @@ impl<'a> Showing<'a> {
         Self { task, news, numbers, waiting: Vec::new(), shown: Instant::now(), took: Duration::ZERO }
     }
 
-    /// A lane has ended a turn, and nothing is measured now.
-    pub fn after_turn(&mut self, lanes: &[Lane], index: usize) {
+    /// An algorithm has ended a process, and nothing is measured now.
+    pub fn after_process(&mut self, states: &[MeasuringState], index: usize) {
         if !self.task.watched || !worth_a_look(self.numbers.len() as u64) {
             return;
         }
-        if index < self.task.contestants.len() && !self.waiting.contains(&index) {
+        if index < self.task.algorithms.len() && !self.waiting.contains(&index) {
             self.waiting.push(index);
         }
         if self.shown.elapsed() < SHOW_EVERY.max(SHARE * self.took) {
             return;
         }
         let begun = Instant::now();
-        let named = |lane: &&Lane| self.task.reference.is_some_and(|it| it.info.id == lane.contestant.info.id);
-        let of_reference = lanes.iter().find(named).map(|lane| lane.so_far(self.numbers));
-        for lane in self.waiting.drain(..) {
-            let measured = lanes[lane].so_far(self.numbers);
+        let named =
+            |state: &&MeasuringState| self.task.reference.is_some_and(|it| it.info.id == state.algorithm.info.id);
+        let of_reference = states.iter().find(named).map(|state| state.so_far(self.numbers));
+        for index in self.waiting.drain(..) {
+            let measured = states[index].so_far(self.numbers);
             if !measured.records.is_empty() {
                 let preliminary = self.task.preliminary(&measured, of_reference.as_ref(), self.numbers);
-                let _ = self.news.send(News::Preliminary { lane, preliminary: Box::new(preliminary) });
+                let _ = self.news.send(News::Preliminary { index, preliminary: Box::new(preliminary) });
             }
         }
         (self.took, self.shown) = (begun.elapsed(), Instant::now());
@@ -182,7 +182,7 @@ impl<'a> Showing<'a> {
 impl Task<'_> {
     /// Seconds that the algorithm will take for everything, by what it took in a first look.
     fn seconds(&self, index: usize, seen: &Measured) -> f64 {
-        let counted = seen.contestant.info.counters && index < self.contestants.len();
+        let counted = seen.algorithm.info.counters && index < self.algorithms.len();
         let start: f64 = seen.set_ups.iter().map(|it| (it.load_ns + it.build_ns) / 1e9).sum::<f64>() + START;
         let query = seen.seconds_per_query.unwrap_or(f64::INFINITY);
         let configurations = self.part.of.min(self.part.at_most as u64);
@@ -194,7 +194,7 @@ impl Task<'_> {
         let compared = compare(&measured.times, reference.map(|r| &r.times[..]), self.passes, self.part.of);
         let placed: Vec<_> = numbers.iter().map(|number| *self.placed(*number)).collect();
         let asked = Asked {
-            pair: Pair::new(self.a, self.b),
+            pairing: self.pairing,
             placed: &placed,
             query: self.query,
             semantics: self.semantics,

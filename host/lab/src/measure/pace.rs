@@ -7,7 +7,7 @@ use ocb_core::sampling::controls;
 
 use super::asked_in_another_unit;
 
-/// Less of a turn says little of the rest.
+/// Less of a pass says little of the rest.
 const EARLIEST: Duration = Duration::from_millis(100);
 
 /// What an algorithm costs in a whole run.
@@ -32,19 +32,19 @@ pub fn cost(configurations: u64, passes: u32, budget: f64, counted: bool, query:
     Cost { seconds: timed + timed / f64::from(passes) * further + start * f64::from(starts), budget_limited }
 }
 
-/// One algorithm's turn so far.
+/// One algorithm's pass so far.
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
     /// Questions answered.
     pub answered: u64,
     /// Time they took.
     pub worked: Duration,
-    /// Time of the whole turn at most.
+    /// Time of the whole pass at most.
     pub allowance: Duration,
 }
 
 impl Pace {
-    /// How many of so many questions will be answered in the turn; nothing while it is too early to tell.
+    /// How many of so many questions will be answered in the pass; nothing while it is too early to tell.
     pub fn reach(&self, questions: u64) -> Option<u64> {
         if self.answered == 0 || self.worked < EARLIEST {
             return None;

@@ -4,18 +4,18 @@ use ocb_core::comparison::Interval;
 use ocb_core::sequential::{self, Contest, Look, Rival, Standing};
 
 use super::contract::contract;
-use super::{Lane, Task};
+use super::{MeasuringState, Task};
 use crate::model::{Beside, ContractClass, Estimated, Preview};
 
 /// What counts as no difference where nobody says.
 const PRECISION: f64 = 0.05;
 
-/// One contract class: which lanes, and their times.
+/// One contract class: which algorithms, and their times.
 type Class = (ContractClass, Vec<usize>, Vec<Vec<Vec<(u32, f64)>>>);
 
 /// What is known after `n` configurations and so many looks.
-pub fn preview(task: &Task, lanes: &[Lane], n: usize, looks: u32) -> Preview {
-    let classes = classes(task, lanes);
+pub fn preview(task: &Task, states: &[MeasuringState], n: usize, looks: u32) -> Preview {
+    let classes = classes(task, states);
     let precision = task.part.precision.unwrap_or(PRECISION);
     let look = Look {
         number: looks,
@@ -28,7 +28,7 @@ pub fn preview(task: &Task, lanes: &[Lane], n: usize, looks: u32) -> Preview {
     for (_, members, times) in &classes {
         let times: Vec<_> = times.iter().map(Vec::as_slice).collect();
         let Some(contest) = sequential::contest(&times, &look) else { continue };
-        let name = |index: usize| lanes[members[index]].contestant.info.id.as_str();
+        let name = |index: usize| states[members[index]].algorithm.info.id.as_str();
         settled &= contest.settled();
         let of_class = others(&contest, name);
         found.extend(finding(&of_class, precision));
@@ -45,11 +45,11 @@ pub fn preview(task: &Task, lanes: &[Lane], n: usize, looks: u32) -> Preview {
 }
 
 /// Those that may have a place, by what they deliver.
-fn classes(task: &Task, lanes: &[Lane]) -> Vec<Class> {
+fn classes(task: &Task, states: &[MeasuringState]) -> Vec<Class> {
     let mut classes: Vec<Class> = Vec::new();
-    let contestants = lanes.iter().enumerate().take(task.contestants.len());
-    for (index, lane) in contestants.filter(|(_, lane)| lane.fair()) {
-        let (class, times) = (contract(&lane.contestant, lane.answers(), task.query, task.coherent()), lane.times());
+    let algorithms = states.iter().enumerate().take(task.algorithms.len());
+    for (index, state) in algorithms.filter(|(_, state)| state.fair()) {
+        let (class, times) = (contract(&state.algorithm, state.answers(), task.query, task.coherent()), state.times());
         match classes.iter_mut().find(|(known, ..)| *known == class) {
             Some((_, members, all)) => {
                 members.push(index);

@@ -1,5 +1,7 @@
 //! From what was measured to the numbers of tables and pages.
 
+use std::borrow::Cow;
+
 use ocb_core::comparison::{Comparison, Interval, ranks};
 use ocb_core::configuration::Placed;
 use ocb_core::oracle::Pair;
@@ -8,13 +10,13 @@ use ocb_core::record::{ContactScore, Record, Verdict};
 use ocb_core::resolution::Resolution;
 use ocb_core::sampling::controls::Control;
 use ocb_core::statistics::{Statistic, maximum_interval};
-use ocb_core::validation::Terms;
+use ocb_core::validation::{Precision, Terms};
 
 use ocb_sandbox::clock::Clock;
 use ocb_sandbox::{PassFacts, Profile, SetUp, integrity};
 
 use super::contract::contract;
-use super::lane::precision;
+use super::state::precision;
 use super::waiting::kept_waiting;
 use super::{Measured, by_unit, controls};
 use crate::machine::Machine;
@@ -22,13 +24,14 @@ use crate::model::{
     Agreement, AlgorithmInfo, AlgorithmResult, ContactQuality, ContractClass, Draw, Environment, Estimated,
     OutcomeInfo, Reference, TimeSummary, Timing, TimingCheck, VerdictCount,
 };
+use crate::pairing::Pairing;
 
 /// What the answers were given to.
 #[derive(Clone, Copy)]
 pub struct Asked<'a> {
     /// The two objects.
-    pub pair: Pair<'a>,
-    /// The configurations with their truth.
+    pub pairing: &'a Pairing,
+    /// The configurations with their truths.
     pub placed: &'a [Placed],
     /// The question.
     pub query: Query,
@@ -40,6 +43,32 @@ pub struct Asked<'a> {
     pub coherent: bool,
 }
 
+/// What the algorithms of one arithmetic were asked.
+pub(super) struct Seen<'a> {
+    pub pair: Pair<'a>,
+    placed: Cow<'a, [Placed]>,
+    pub controls: Cow<'a, [Control]>,
+    pub semantics: Semantics,
+    pub query: Query,
+}
+
+impl<'a> Asked<'a> {
+    fn seen_in(&self, precision: Precision) -> Seen<'a> {
+        let Self { pairing, query, semantics, .. } = *self;
+        let (mut placed, mut controls) = (Cow::from(self.placed), Cow::from(self.controls));
+        if rounds(pairing, precision) {
+            placed.to_mut().iter_mut().for_each(|placed| *placed = placed.seen_in(precision));
+            controls.to_mut().iter_mut().for_each(|control| control.placed = control.placed.seen_in(precision));
+        }
+        Seen { pair: pairing.seen_in(precision).pair(), placed, controls, semantics, query }
+    }
+}
+
+/// Do algorithms of this arithmetic get other numbers than those of the files?
+fn rounds(pairing: &Pairing, precision: Precision) -> bool {
+    precision == Precision::Single && pairing.rounded.is_some()
+}
+
 /// The numbers of one algorithm, and of the reference algorithm what was measured in the same rounds.
 pub fn summarise(
     measured: &Measured,
@@ -48,9 +77,11 @@ pub fn summarise(
     reference: Option<&Measured>,
 ) -> AlgorithmResult {
     let records = &measured.records;
-    let Asked { pair, placed, query, semantics, coherent, .. } = asked;
-    let controls = controls::summary(&measured.controls, &asked);
-    let terms = Terms { query, semantics, precision: precision(&measured.contestant.info) };
+    let Asked { pairing, query, semantics, coherent, .. } = asked;
+    let precision = precision(&measured.algorithm.info);
+    let seen = asked.seen_in(precision);
+    let controls = controls::summary(&measured.controls, &seen);
+    let terms = Terms { query, semantics, precision };
     let without_failure = || OutcomeInfo::without_failure(records.len(), measured.budget_limited);
     let outcome = measured.outcome.clone().unwrap_or_else(without_failure);
     let mean = |of: fn(Counters) -> Option<u64>| {
@@ -62,15 +93,15 @@ pub fn summarise(
     let time = compared.map(|compared| time_summary(measured, compared));
     let units = by_unit::of(measured, reference, time.as_ref());
     AlgorithmResult {
-        algorithm: measured.contestant.info.id.clone(),
-        name: measured.contestant.info.name.clone(),
-        builds: measured.contestant.info.builds.clone(),
+        algorithm: measured.algorithm.info.id.clone(),
+        name: measured.algorithm.info.name.clone(),
+        builds: measured.algorithm.info.builds.clone(),
         n: records.len() as u32,
         of: measured.of as u32,
         budget_limited: measured.budget_limited,
         time,
         ratio: compared.and_then(|compared| compared.ratio).map(Estimated::from),
-        class: Some(contract(&measured.contestant, records.iter().map(|r| &r.answer), query, coherent)),
+        class: Some(contract(&measured.algorithm, records.iter().map(|r| &r.answer), query, coherent)),
         rank: None,
         // Of one that failed the outcome says enough.
         unranked: controls::unranked(&controls)
@@ -82,8 +113,9 @@ pub fn summarise(
         wrong: records.iter().filter(|r| r.verdict.is_wrong()).count() as u32,
         by_unit: units.iter().map(by_unit::Found::info).collect(),
         depends_on_unit: by_unit::dependence(&units),
-        grazing: agreement(records, asked),
-        resolution: Some(Resolution::of(&pair, placed, records, terms)),
+        rounded: rounds(pairing, precision),
+        grazing: agreement(records, &seen),
+        resolution: Some(Resolution::of(&seen.pair, &seen.placed, records, terms)),
         contacts: contact_quality(records),
         bv_tests_mean: mean(|c| c.bv_tests),
         primitive_tests_mean: mean(|c| c.primitive_tests),
@@ -109,7 +141,7 @@ pub fn preliminary(measured: &Measured, asked: Asked, compared: Option<Compariso
 }
 
 /// Of the answers that are not scored: how many say what exact arithmetic says?
-fn agreement(records: &[Record], asked: Asked) -> Agreement {
+fn agreement(records: &[Record], asked: &Seen) -> Agreement {
     let mut all = Agreement::default();
     for record in records.iter().filter(|r| r.verdict == Verdict::Undecidable) {
         let placed = &asked.placed[record.configuration as usize];

@@ -6,7 +6,6 @@ use std::time::Duration;
 use ocb_core::agreement::Said;
 use ocb_core::configuration::Placed;
 use ocb_core::instance::{AskedAs, Instance};
-use ocb_core::oracle::Pair;
 use ocb_core::query::{Answer, Counters, Query, Semantics};
 use ocb_core::record::{Record, TriangleTests, Verdict};
 use ocb_core::statistics::Statistic;
@@ -16,16 +15,17 @@ use ocb_sandbox::{ClockFacts, Ending, Observation, Outcome, PassFacts, Session, 
 use rayon::prelude::*;
 
 use super::by_unit::{UNITS, unit};
-use super::turn::Pass;
+use super::process_pass::Purpose;
 use super::weave::Reach;
 use super::{outcome_info, surplus};
-use crate::contestant::Contestant;
+use crate::algorithm::Algorithm;
 use crate::model::{AlgorithmInfo, OutcomeInfo};
+use crate::pairing::Pairing;
 
 /// One algorithm while it is measured.
-pub struct Lane {
+pub struct MeasuringState {
     /// The algorithm.
-    pub contestant: Arc<Contestant>,
+    pub algorithm: Arc<Algorithm>,
     /// How far into the shared order it came.
     pub reach: Reach,
     /// The budget let it come no further.
@@ -127,7 +127,7 @@ pub fn precision(algorithm: &AlgorithmInfo) -> Precision {
 /// All that was measured of one algorithm.
 pub struct Measured {
     /// The algorithm.
-    pub contestant: Arc<Contestant>,
+    pub algorithm: Arc<Algorithm>,
     /// In the order of the set; only what was reached.
     pub records: Vec<Record>,
     /// What it counted for each triangle, where that adds up.
@@ -160,12 +160,12 @@ pub struct Measured {
     pub seconds_per_query: Option<f64>,
 }
 
-impl Lane {
+impl MeasuringState {
     /// Nothing measured yet. There is one `slack` for each configuration, of which the first `own` are the set's: how far two
     /// right distances may lie apart.
-    pub fn new(contestant: Arc<Contestant>, slack: &[f64], own: usize) -> Self {
+    pub fn new(algorithm: Arc<Algorithm>, slack: &[f64], own: usize) -> Self {
         Self {
-            contestant,
+            algorithm,
             reach: Reach::default(),
             cut: false,
             done: 0,
@@ -185,7 +185,12 @@ impl Lane {
         }
     }
 
-    /// It died; no further turn.
+    /// The arithmetic that it declares.
+    pub fn precision(&self) -> Precision {
+        precision(&self.algorithm.info)
+    }
+
+    /// It died; no further pass.
     pub fn ended(&self) -> bool {
         self.outcome.is_some()
     }
@@ -197,8 +202,8 @@ impl Lane {
 
     /// A fresh process has built both structures. What it took for that in another unit is in no number: a plugin that
     /// recognises the unit could build less there.
-    pub fn begin_turn(&mut self, session: &Session, pass: Pass) {
-        if pass != Pass::Elsewhere {
+    pub fn begin_process(&mut self, session: &Session, purpose: Purpose) {
+        if purpose != Purpose::Elsewhere {
             self.set_ups.push(session.set_up());
         }
         self.asked.clear();
@@ -207,23 +212,23 @@ impl Lane {
     }
 
     /// A process has left.
-    pub fn end_turn(&mut self, ending: &Ending) {
+    pub fn end_process(&mut self, ending: &Ending) {
         self.memory_bytes = self.memory_bytes.max(ending.memory_peak_bytes);
     }
 
     /// An answer of a timed pass in this process, in the original's numbers.
-    pub fn observe(&mut self, pass: Pass, process: u32, seen: Observation) {
+    pub fn observe(&mut self, purpose: Purpose, process: u32, seen: Observation) {
         if let Some(time) = seen.time {
             let cell = &mut self.cells[seen.configuration as usize];
-            match pass {
-                Pass::Official(round) if time.disturbed => cell.late.push((round, time.ns)),
-                Pass::Official(round) => {
+            match purpose {
+                Purpose::Official(round) if time.disturbed => cell.late.push((round, time.ns)),
+                Purpose::Official(round) => {
                     cell.times.push((round, time.ns));
                     cell.below += u32::from(time.below_resolution);
                     self.asked.push((seen.configuration, time.ns));
                 }
-                Pass::Look => cell.times.push((0, time.ns)),
-                Pass::Elsewhere | Pass::Counting => cell.elsewhere.push((process, time.ns)),
+                Purpose::Look => cell.times.push((0, time.ns)),
+                Purpose::Elsewhere | Purpose::Counting => cell.elsewhere.push((process, time.ns)),
             }
             self.done += 1;
         }
@@ -283,14 +288,15 @@ impl Lane {
     /// stands; an algorithm that is right only sometimes is not right.
     pub fn judge<'p>(
         &mut self,
-        pair: &Pair,
+        pairing: &Pairing,
         placed: impl Fn(u32) -> &'p Placed + Sync,
         query: Query,
         semantics: Semantics,
     ) {
-        let terms = Terms { query, semantics, precision: precision(&self.contestant.info) };
-        let judged: Vec<Judged> =
-            self.unjudged.par_iter().map(|(i, _, answer)| judge(pair, placed(*i), terms, answer)).collect();
+        let terms = Terms { query, semantics, precision: self.precision() };
+        let pair = pairing.seen_in(terms.precision).pair();
+        let one = |i: u32, answer: &Answer| judge(&pair, &placed(i).seen_in(terms.precision), terms, answer);
+        let judged: Vec<Judged> = self.unjudged.par_iter().map(|(i, _, answer)| one(*i, answer)).collect();
         for ((i, asked, answer), judged) in self.unjudged.drain(..).zip(judged) {
             self.cells[i as usize].count(asked, judged.verdict);
             self.cells[i as usize].keep(asked, answer, judged);
@@ -317,11 +323,11 @@ impl Lane {
     /// together is found out at the end.
     pub fn so_far(&self, numbers: &[u32]) -> Measured {
         let cells = numbers.iter().map(|number| self.cells[*number as usize].sketch()).collect();
-        let mut lane = Self { cells, ..Self::new(self.contestant.clone(), &[], numbers.len()) };
-        lane.set_ups.clone_from(&self.set_ups);
-        (lane.cut, lane.spent) = (self.cut, self.spent);
-        (lane.memory_bytes, lane.outcome) = (self.memory_bytes, self.outcome.clone());
-        lane.into_measured()
+        let mut state = Self { cells, ..Self::new(self.algorithm.clone(), &[], numbers.len()) };
+        state.set_ups.clone_from(&self.set_ups);
+        (state.cut, state.spent) = (self.cut, self.spent);
+        (state.memory_bytes, state.outcome) = (self.memory_bytes, self.outcome.clone());
+        state.into_measured()
     }
 
     /// The medians over the passes. Times that do not fit together are not believed, and that is its outcome.
@@ -365,7 +371,7 @@ impl Lane {
         }
         Measured {
             budget_limited: self.outcome.is_none() && self.cut,
-            contestant: self.contestant,
+            algorithm: self.algorithm,
             triangle_tests: self.triangle_tests,
             records,
             controls,

@@ -5,22 +5,21 @@ use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
 
 use ocb_core::instance::{Instance, Presentation};
-use ocb_core::oracle::Pair;
 use ocb_sandbox::{Killer, Observation, Outcome, PassPlan, Policy, Session};
 
 use super::pace::Pace;
 use super::weave::{self, Piece, Reach};
-use super::{Lane, News, Stop, Task, look, order, outcome_info};
-use crate::contestant::Runner;
+use super::{MeasuringState, News, Stop, Task, look, order, outcome_info};
+use crate::algorithm::Runner;
 use crate::machine::Machine;
 use crate::model::OutcomeInfo;
 
-/// How often a lane may report, so that pages live and nothing else suffers.
+/// How often an algorithm may report, so that pages live and nothing else suffers.
 const REPORT_EVERY: Duration = Duration::from_millis(200);
 
 /// What a pass is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pass {
+pub enum Purpose {
     /// The official times of this round, in the unit of the files.
     Official(u32),
     /// Times and answers in another unit.
@@ -32,7 +31,7 @@ pub enum Pass {
 }
 
 /// One algorithm's pass in a fresh process.
-pub struct Turn<'a> {
+pub struct ProcessPass<'a> {
     /// What is measured.
     pub task: &'a Task<'a>,
     /// Where plugins and the runner are.
@@ -43,10 +42,10 @@ pub struct Turn<'a> {
     pub stop: &'a Stop,
     /// Who wants to know.
     pub news: &'a Sender<News>,
-    /// Which lane.
+    /// Index of the algorithm.
     pub index: usize,
     /// What the answers are for.
-    pub pass: Pass,
+    pub purpose: Purpose,
     /// The run also asks in other units.
     pub elsewhere: bool,
     /// Number of the process: pieces of the order come one after the other, with all rounds each.
@@ -59,27 +58,27 @@ pub struct Turn<'a> {
     pub shown: &'a Presentation,
 }
 
-/// A turn that has begun.
+/// A pass that has begun.
 struct UnderWay {
     begun: Instant,
     reported: Instant,
-    /// What the lane had done before.
+    /// What the algorithm had answered before.
     done: u64,
     allowance: Duration,
 }
 
 impl UnderWay {
-    fn pace(&self, lane: &Lane) -> Pace {
-        Pace { answered: lane.done - self.done, worked: self.begun.elapsed(), allowance: self.allowance }
+    fn pace(&self, state: &MeasuringState) -> Pace {
+        Pace { answered: state.done - self.done, worked: self.begun.elapsed(), allowance: self.allowance }
     }
 }
 
-impl Turn<'_> {
+impl ProcessPass<'_> {
     /// What of the piece this algorithm is asked; the first round finds out how far it comes.
-    pub fn part(&self, lane: &Lane) -> Piece {
-        match self.pass {
-            Pass::Official(0) if !lane.cut => self.piece.clone(),
-            _ => self.piece.before(lane.reach),
+    pub fn part(&self, state: &MeasuringState) -> Piece {
+        match self.purpose {
+            Purpose::Official(0) if !state.cut => self.piece.clone(),
+            _ => self.piece.before(state.reach),
         }
     }
 
@@ -93,7 +92,7 @@ impl Turn<'_> {
         }
         // Both are drawn anew, so that no question always follows the same one.
         let seed = task.process_seed(process).rotate_left(2);
-        if matches!(self.pass, Pass::Official(0) | Pass::Look) {
+        if matches!(self.purpose, Purpose::Official(0) | Purpose::Look) {
             return weave::evenly(own, &controls, seed);
         }
         let again = |part: &[u32]| order::reshuffled(part, task.seed, process);
@@ -101,54 +100,60 @@ impl Turn<'_> {
     }
 
     /// The share of the time that was taken from the runner's CPU.
-    pub fn play(&self, lane: &mut Lane, part: &Piece) -> f64 {
+    pub fn run(&self, state: &mut MeasuringState, part: &Piece) -> f64 {
         let order = self.order(part);
-        self.report(lane, None);
+        self.report(state, None);
         // From before the start, so that a long build can be stopped as well.
         let killer = Killer::default();
         self.stop.watch(Some(killer.clone()));
-        let mut session = match self.start(lane, &killer) {
+        let mut session = match self.start(state, &killer) {
             Ok(session) => session,
             Err(outcome) => {
-                lane.end(outcome);
+                state.end(outcome);
                 return 0.0;
             }
         };
-        lane.begin_turn(&session, self.pass);
+        state.begin_process(&session, self.purpose);
         let begun = Instant::now();
-        let mut way = UnderWay { begun, reported: begun, done: lane.done, allowance: self.allowance(lane) };
-        let (reached, steal) = if self.pass == Pass::Counting {
-            let reached = self.count(&mut session, lane, &order, &mut way);
-            lane.end_counting(reached, session.triangle_tests());
+        let mut way = UnderWay { begun, reported: begun, done: state.done, allowance: self.allowance(state) };
+        let (reached, steal) = if self.purpose == Purpose::Counting {
+            let reached = self.count(&mut session, state, &order, &mut way);
+            state.end_counting(reached, session.triangle_tests());
             (reached, 0.0)
         } else {
-            self.time(&mut session, lane, &order, &mut way)
+            self.time(&mut session, state, &order, &mut way)
         };
-        lane.spent += begun.elapsed();
+        state.spent += begun.elapsed();
         self.stop.watch(None);
         let ending = session.finish();
-        if self.pass == Pass::Official(0) {
+        if self.purpose == Purpose::Official(0) {
             let n = self.task.set.placed.len();
             let own = order[..reached].iter().filter(|number| (**number as usize) < n).count();
             let controls = self.piece.controls.start + reached - own;
-            lane.reach = Reach { own: self.piece.own.start + own, controls };
-            lane.cut |= reached < part.questions();
+            state.reach = Reach { own: self.piece.own.start + own, controls };
+            state.cut |= reached < part.questions();
         }
-        lane.end_turn(&ending);
+        state.end_process(&ending);
         if ending.outcome != Outcome::Completed {
-            lane.end(outcome_info(&ending.outcome));
+            state.end(outcome_info(&ending.outcome));
         }
         let placed = |number| self.task.placed(number);
-        lane.judge(&Pair::new(self.task.a, self.task.b), placed, self.task.query, self.task.semantics);
-        if self.pass != Pass::Counting {
-            // Counting is an algorithm's last turn, after which its lane is reported as it then is.
-            self.report(lane, None);
+        state.judge(self.task.pairing, placed, self.task.query, self.task.semantics);
+        if self.purpose != Purpose::Counting {
+            // Counting is an algorithm's last process, after which it is reported as it then is.
+            self.report(state, None);
         }
         steal
     }
 
     /// A timed pass: how far it came, and the share of stolen time.
-    fn time(&self, session: &mut Session, lane: &mut Lane, order: &[u32], way: &mut UnderWay) -> (usize, f64) {
+    fn time(
+        &self,
+        session: &mut Session,
+        state: &mut MeasuringState,
+        order: &[u32],
+        way: &mut UnderWay,
+    ) -> (usize, f64) {
         let plan = PassPlan {
             query: self.task.query,
             order,
@@ -161,27 +166,27 @@ impl Turn<'_> {
         };
         let mut each = |seen: Observation| {
             let answer = self.shown.translate(seen.answer, seen.configuration, seen.instance);
-            lane.observe(self.pass, self.process, Observation { answer, ..seen });
-            self.go_on(lane, way)
+            state.observe(self.purpose, self.process, Observation { answer, ..seen });
+            self.go_on(state, way)
         };
         // What it died of is in the session's ending.
         let (facts, _) = session.pass(&plan, &present, &mut each);
         let found = (facts.reached, facts.steal.unwrap_or(0.0));
-        if self.pass != Pass::Elsewhere {
-            lane.end_pass(facts);
+        if self.purpose != Purpose::Elsewhere {
+            state.end_pass(facts);
         }
         found
     }
 
     /// The untimed pass with counters: how far it came.
-    fn count(&self, session: &mut Session, lane: &mut Lane, order: &[u32], way: &mut UnderWay) -> usize {
+    fn count(&self, session: &mut Session, state: &mut MeasuringState, order: &[u32], way: &mut UnderWay) -> usize {
         for (reached, &i) in order.iter().enumerate() {
             let configuration = &self.task.placed(i).configuration;
             match session.count(self.task.query, configuration) {
-                Ok((answer, counters)) => lane.count(i, answer, counters),
+                Ok((answer, counters)) => state.count(i, answer, counters),
                 Err(_) => return reached,
             }
-            if self.go_on(lane, way).is_break() || way.begun.elapsed() >= way.allowance {
+            if self.go_on(state, way).is_break() || way.begun.elapsed() >= way.allowance {
                 return reached + 1;
             }
         }
@@ -189,10 +194,10 @@ impl Turn<'_> {
     }
 
     /// Reports now and then, and looks whether it shall stop.
-    fn go_on(&self, lane: &Lane, way: &mut UnderWay) -> ControlFlow<()> {
+    fn go_on(&self, state: &MeasuringState, way: &mut UnderWay) -> ControlFlow<()> {
         if way.reported.elapsed() >= REPORT_EVERY {
             way.reported = Instant::now();
-            self.report(lane, Some(way));
+            self.report(state, Some(way));
             if self.stop.asked() {
                 return ControlFlow::Break(());
             }
@@ -200,14 +205,14 @@ impl Turn<'_> {
         ControlFlow::Continue(())
     }
 
-    fn start(&self, lane: &Lane, killer: &Killer) -> Result<Session, OutcomeInfo> {
-        let contestant = &lane.contestant;
-        let limits = match self.pass {
-            Pass::Look => look::limits(),
+    fn start(&self, state: &MeasuringState, killer: &Killer) -> Result<Session, OutcomeInfo> {
+        let algorithm = &state.algorithm;
+        let limits = match self.purpose {
+            Purpose::Look => look::limits(),
             _ => Policy {
-                // A single question may take a whole turn (brute force on large objects), and no more.
+                // A single question may take a whole pass (brute force on large objects), and no more.
                 query_seconds: self.task.budget.as_secs_f64().max(Policy::default().query_seconds),
-                // The turn ends by its allowance; this only catches a runner that never comes back.
+                // The pass ends by its allowance; this only catches a runner that never comes back.
                 trial_seconds: 4.0 * self.task.budget.as_secs_f64() + Policy::default().trial_seconds,
                 ..Policy::default()
             },
@@ -215,59 +220,60 @@ impl Turn<'_> {
         let policy = Policy {
             runner_cpu: Some(self.machine.measuring_cpu()),
             supervisor_cpu: Some(self.machine.supervisor_cpu()),
-            threads: contestant.threads,
+            threads: algorithm.threads,
             ..limits
         };
-        let trial = contestant.trial(self.shown.first(), self.shown.second(), self.task.semantics);
-        let launcher = self.runner.launcher(contestant, policy);
+        let trial = algorithm.trial(self.shown.first(), self.shown.second(), self.task.semantics);
+        let launcher = self.runner.launcher(algorithm, policy);
         launcher.start_with(&trial, killer).map_err(|ending| outcome_info(&ending.outcome))
     }
 
     /// The first pass over a piece decides how far the algorithm gets; later ones may use what it left. Counting makes an
     /// algorithm slower and is not timed, so it gets the share of two passes, and what it does not reach has no counters. In each
     /// other unit two processes have half of a share each: however slow an algorithm is there, the run ends.
-    fn allowance(&self, lane: &Lane) -> Duration {
+    fn allowance(&self, state: &MeasuringState) -> Duration {
         let share = self.task.budget / self.task.passes;
-        let left = self.task.budget.saturating_sub(lane.spent);
-        match self.pass {
-            Pass::Official(0) => left / self.task.passes,
-            Pass::Official(_) => left.max(share),
-            Pass::Elsewhere => share / 2,
-            Pass::Counting => share * 2,
-            Pass::Look => look::TIME,
+        let left = self.task.budget.saturating_sub(state.spent);
+        match self.purpose {
+            Purpose::Official(0) => left / self.task.passes,
+            Purpose::Official(_) => left.max(share),
+            Purpose::Elsewhere => share / 2,
+            Purpose::Counting => share * 2,
+            Purpose::Look => look::TIME,
         }
     }
 
-    fn report(&self, lane: &Lane, way: Option<&UnderWay>) {
-        let worked = lane.spent + way.map_or(Duration::ZERO, |way| way.begun.elapsed());
-        let total = self.expected(lane, way.map(|way| way.pace(lane))).max(lane.done);
-        let _ = self.news.send(News::Progress { lane: self.index, done: lane.done, total, worked });
+    fn report(&self, state: &MeasuringState, way: Option<&UnderWay>) {
+        let worked = state.spent + way.map_or(Duration::ZERO, |way| way.begun.elapsed());
+        let total = self.expected(state, way.map(|way| way.pace(state))).max(state.done);
+        let _ = self.news.send(News::Progress { index: self.index, done: state.done, total, worked });
     }
 
-    /// Questions that the lane will have answered in the end; 0 while that cannot be told.
-    fn expected(&self, lane: &Lane, pace: Option<Pace>) -> u64 {
+    /// Questions that the algorithm will have answered in the end; 0 while that cannot be told.
+    fn expected(&self, state: &MeasuringState, pace: Option<Pace>) -> u64 {
         let all = self.task.piece(0, self.task.most());
         let (whole, own) = (all.questions() as u64, all.own.len() as u64);
         // Nobody asked for the reference, so its work is not counted.
-        let counters = lane.contestant.info.counters && self.index < self.task.contestants.len();
+        let counters =
+            !self.task.rounds_only && state.algorithm.info.counters && self.index < self.task.algorithms.len();
         let further = |own: u64| if self.elsewhere { self.task.elsewhere(own as usize) } else { 0 };
         let rounds =
             |round: u64, own: u64| round * u64::from(self.task.passes) + further(own) + if counters { own } else { 0 };
-        if self.pass == Pass::Counting {
+        if self.purpose == Purpose::Counting {
             let part = self.piece.own.len() as u64;
             let answered = pace.map_or(0, |pace| pace.answered);
-            return lane.done - answered + pace.and_then(|pace| pace.reach(part)).unwrap_or(part);
+            return state.done - answered + pace.and_then(|pace| pace.reach(part)).unwrap_or(part);
         }
-        if self.pass == Pass::Official(0) && !lane.cut {
+        if self.purpose == Purpose::Official(0) && !state.cut {
             let (before, part) = (self.task.piece(0, self.piece.own.start), &self.piece);
             let round = pace.and_then(|pace| pace.round(before.questions() as u64, part.questions() as u64, whole));
             return match round {
                 Some(round) => rounds(round, round * own / whole.max(1)),
-                None if lane.done == 0 => 0,
+                None if state.done == 0 => 0,
                 None => rounds(whole, own),
             };
         }
-        let reach = if lane.cut { all.before(lane.reach) } else { all };
+        let reach = if state.cut { all.before(state.reach) } else { all };
         rounds(reach.questions() as u64, reach.own.len() as u64)
     }
 }
