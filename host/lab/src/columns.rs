@@ -6,9 +6,11 @@
 mod answers;
 mod csv;
 mod ipc;
+mod recorded;
 mod records;
 mod sets;
 mod triangle_tests;
+mod truth_columns;
 mod truths;
 
 use std::collections::HashMap;
@@ -28,6 +30,7 @@ use crate::{LabError, Result};
 pub use answers::{AnswerRow, Flat, read_answers};
 pub use csv::csv;
 pub use ipc::{Numbers, stream};
+pub use recorded::{read_recorded, recorded_parquet};
 pub use records::{RecordColumns, RecordsOf, read_records, records_parquet};
 pub use sets::{SetOf, read_poses, read_set, set_parquet, set_versions};
 pub use triangle_tests::{read_triangle_tests, triangle_tests_parquet};

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use arrow_array::{BooleanArray, Float64Array, RecordBatch, StringArray, UInt32Array, UInt64Array};
+use arrow_array::{ArrayRef, BooleanArray, Float64Array, RecordBatch, StringArray, UInt32Array, UInt64Array};
 use ocb_core::agreement::Said;
 use ocb_core::record::{ContactScore, Record, Verdict};
 
@@ -24,6 +24,8 @@ pub struct RecordsOf<'a> {
     pub hardware_class: &'a str,
     /// SHA-256 of the stored configuration set.
     pub set_sha256: &'a str,
+    /// The algorithm got coordinates rounded to single precision, or those of the files; absent where both are the same.
+    pub rounded: Option<bool>,
 }
 
 impl RecordsOf<'_> {
@@ -116,46 +118,41 @@ pub fn records_parquet(of: &RecordsOf, records: &[Record]) -> Result<Vec<u8>> {
     let score = |of: fn(&ContactScore) -> Option<f64>| -> Arc<Float64Array> {
         Arc::new(records.iter().map(|r| r.contacts.as_ref().and_then(of)).collect())
     };
-    to_parquet(&batch(
-        of.metadata(),
-        vec![
-            ("configuration", Arc::new(records.iter().map(|r| r.configuration).collect::<UInt32Array>())),
-            ("time_ns", Arc::new(records.iter().map(|r| r.time_ns).collect::<Float64Array>())),
-            ("below_resolution", Arc::new(records.iter().map(|r| Some(r.below_resolution)).collect::<BooleanArray>())),
-            ("passes", Arc::new(records.iter().map(|r| r.passes).collect::<UInt32Array>())),
-            (
-                "bv_tests",
-                Arc::new(records.iter().map(|r| r.counters.and_then(|c| c.bv_tests)).collect::<UInt64Array>()),
-            ),
-            (
-                "primitive_tests",
-                Arc::new(records.iter().map(|r| r.counters.and_then(|c| c.primitive_tests)).collect::<UInt64Array>()),
-            ),
-            ("verdict", Arc::new(records.iter().map(|r| Some(r.verdict.name())).collect::<StringArray>())),
-            ("answer", Arc::new(answers.iter().map(|a| Some(a.kind)).collect::<StringArray>())),
-            ("hit", Arc::new(answers.iter().map(|a| a.hit).collect::<BooleanArray>())),
-            ("contacts", Arc::new(answers.iter().map(|a| a.contacts).collect::<UInt64Array>())),
-            ("precision", score(ContactScore::precision)),
-            ("recall", score(ContactScore::recall)),
-            ("distance", Arc::new(answers.iter().map(|a| a.distance).collect::<Float64Array>())),
-            ("triangle_a", triangles(0)),
-            ("triangle_b", triangles(1)),
-            ("point_a_x", points(0, 0)),
-            ("point_a_y", points(0, 1)),
-            ("point_a_z", points(0, 2)),
-            ("point_b_x", points(1, 0)),
-            ("point_b_y", points(1, 1)),
-            ("point_b_z", points(1, 2)),
-            ("flips", Arc::new(records.iter().map(|r| r.flips).collect::<UInt32Array>())),
-            ("process", Arc::new(records.iter().map(|r| r.asked.process).collect::<UInt32Array>())),
-            ("instance", Arc::new(records.iter().map(|r| r.asked.instance.number).collect::<UInt32Array>())),
-            ("aside", Arc::new(records.iter().map(|r| Some(r.asked.instance.aside)).collect::<BooleanArray>())),
-            (
-                "contacts_sha256",
-                Arc::new(answers.iter().map(|a| a.contacts_sha256.as_deref()).collect::<StringArray>()),
-            ),
-        ],
-    )?)
+    let mut columns: Vec<(&str, ArrayRef)> = vec![
+        ("configuration", Arc::new(records.iter().map(|r| r.configuration).collect::<UInt32Array>())),
+        ("time_ns", Arc::new(records.iter().map(|r| r.time_ns).collect::<Float64Array>())),
+        ("below_resolution", Arc::new(records.iter().map(|r| Some(r.below_resolution)).collect::<BooleanArray>())),
+        ("passes", Arc::new(records.iter().map(|r| r.passes).collect::<UInt32Array>())),
+        ("bv_tests", Arc::new(records.iter().map(|r| r.counters.and_then(|c| c.bv_tests)).collect::<UInt64Array>())),
+        (
+            "primitive_tests",
+            Arc::new(records.iter().map(|r| r.counters.and_then(|c| c.primitive_tests)).collect::<UInt64Array>()),
+        ),
+        ("verdict", Arc::new(records.iter().map(|r| Some(r.verdict.name())).collect::<StringArray>())),
+        ("answer", Arc::new(answers.iter().map(|a| Some(a.kind)).collect::<StringArray>())),
+        ("hit", Arc::new(answers.iter().map(|a| a.hit).collect::<BooleanArray>())),
+        ("contacts", Arc::new(answers.iter().map(|a| a.contacts).collect::<UInt64Array>())),
+        ("precision", score(ContactScore::precision)),
+        ("recall", score(ContactScore::recall)),
+        ("distance", Arc::new(answers.iter().map(|a| a.distance).collect::<Float64Array>())),
+        ("triangle_a", triangles(0)),
+        ("triangle_b", triangles(1)),
+        ("point_a_x", points(0, 0)),
+        ("point_a_y", points(0, 1)),
+        ("point_a_z", points(0, 2)),
+        ("point_b_x", points(1, 0)),
+        ("point_b_y", points(1, 1)),
+        ("point_b_z", points(1, 2)),
+        ("flips", Arc::new(records.iter().map(|r| r.flips).collect::<UInt32Array>())),
+        ("process", Arc::new(records.iter().map(|r| r.asked.process).collect::<UInt32Array>())),
+        ("instance", Arc::new(records.iter().map(|r| r.asked.instance.number).collect::<UInt32Array>())),
+        ("aside", Arc::new(records.iter().map(|r| Some(r.asked.instance.aside)).collect::<BooleanArray>())),
+        ("contacts_sha256", Arc::new(answers.iter().map(|a| a.contacts_sha256.as_deref()).collect::<StringArray>())),
+    ];
+    if let Some(rounded) = of.rounded {
+        columns.push(("rounded", Arc::new(BooleanArray::from(vec![rounded; records.len()]))));
+    }
+    to_parquet(&batch(of.metadata(), columns)?)
 }
 
 /// Reads back what [`records_parquet`] wrote.
@@ -237,7 +234,14 @@ mod tests {
             |configuration, answer| Record { verdict: Verdict::WrongWitness, ..record(configuration, answer, None) };
         let records =
             [record(0, hit(Some([1, 2])), None), wrong(1, hit(Some([3, 4]))), wrong(2, hit(None)), wrong(3, near)];
-        let of = RecordsOf { run: "r", algorithm: "a", plugin_sha256: "p", hardware_class: "h", set_sha256: "s" };
+        let of = RecordsOf {
+            run: "r",
+            algorithm: "a",
+            plugin_sha256: "p",
+            hardware_class: "h",
+            set_sha256: "s",
+            rounded: None,
+        };
         let read = read_records(&records_parquet(&of, &records).unwrap()).unwrap();
         assert_eq!(read, RecordColumns::of(&records));
         let claims = read.claims;
@@ -258,7 +262,14 @@ mod tests {
             record(2, Answer::GaveUp, None),
             record(3, Answer::Contacts { total: 2, pairs: vec![[1, 1], [1, 2]] }, None),
         ];
-        let of = RecordsOf { run: "r", algorithm: "a", plugin_sha256: "p", hardware_class: "h", set_sha256: "s" };
+        let of = RecordsOf {
+            run: "r",
+            algorithm: "a",
+            plugin_sha256: "p",
+            hardware_class: "h",
+            set_sha256: "s",
+            rounded: None,
+        };
         let file = records_parquet(&of, &records).unwrap();
         let columns = read_records(&file).unwrap();
         assert_eq!(columns, RecordColumns::of(&records));
@@ -281,6 +292,10 @@ mod tests {
         let list = "3,123.5,false,3,,,correct,contacts,true,2,0.5,0.25,,,,,,,,,,3,3,6,false,";
         assert!(lines[4].strip_prefix(list).is_some_and(|hash| hash.len() == 64), "{}", lines[4]);
         assert_eq!(lines.len(), 5);
+        let told = RecordsOf { rounded: Some(true), ..of };
+        let told = String::from_utf8(crate::columns::csv(&records_parquet(&told, &records).unwrap()).unwrap()).unwrap();
+        assert!(told.lines().next().is_some_and(|head| head.ends_with(",rounded")), "{told}");
+        assert_eq!(told.lines().filter(|line| line.ends_with(",true")).count(), records.len(), "{told}");
         // For a replay: as what each was asked, and every bit of it.
         let answers = read_answers(&file).unwrap();
         for (read, record) in answers.iter().zip(&records) {

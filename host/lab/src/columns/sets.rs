@@ -3,18 +3,15 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use arrow_array::{
-    Array, ArrayRef, BooleanArray, FixedSizeListArray, Float64Array, RecordBatch, StringArray, UInt32Array,
-};
+use arrow_array::{Array, ArrayRef, FixedSizeListArray, Float64Array, RecordBatch, UInt32Array};
 use arrow_schema::{DataType, Field};
 use nalgebra::Point3;
-use ocb_core::configuration::{
-    Class, Configuration, ConfigurationSet, Containment, Placed, Separation, Truth, Witness,
-};
+use ocb_core::configuration::{Configuration, ConfigurationSet, Placed, Separation, Truth};
 use ocb_core::oracle;
 use ocb_core::pose::Pose;
 use ocb_core::sampling;
 
+use super::truth_columns::{EXACT, ROUNDED, read_truths, truth_columns};
 use super::{SCHEMA_VERSION, batch, column, from_parquet, to_parquet};
 use crate::{LabError, Result};
 
@@ -46,48 +43,33 @@ pub fn set_parquet(of: &SetOf, set: &ConfigurationSet) -> Result<Vec<u8>> {
         ]
         .map(|(key, value)| (key.to_owned(), value)),
     );
-    let f64s = |of: &dyn Fn(&Placed) -> f64| -> ArrayRef { Arc::new(placed.iter().map(of).collect::<Float64Array>()) };
-    let u32s = |of: &dyn Fn(&Placed) -> u32| -> ArrayRef { Arc::new(placed.iter().map(of).collect::<UInt32Array>()) };
-    let flags = |of: &dyn Fn(&Placed) -> bool| -> ArrayRef {
-        Arc::new(placed.iter().map(|p| Some(of(p))).collect::<BooleanArray>())
-    };
-    let classes = |of: &dyn Fn(&Placed) -> Class| -> ArrayRef {
-        Arc::new(placed.iter().map(|p| Some(class_name(of(p)))).collect::<StringArray>())
-    };
-    to_parquet(&batch(
-        metadata,
-        vec![
-            ("pose_a", lists(placed, 12, |p| p.configuration.pose_a.to_row_major()[..12].to_vec())?),
-            ("pose_b", lists(placed, 12, |p| p.configuration.pose_b.to_row_major()[..12].to_vec())?),
-            ("hit", flags(&|p| p.truth.hit)),
-            ("distance_lo", f64s(&|p| p.truth.distance_lo)),
-            ("distance_hi", f64s(&|p| p.truth.distance_hi)),
-            ("margin", f64s(&|p| p.truth.margin)),
-            ("containment", containment(placed)),
-            ("class64", classes(&|p| p.truth.class64)),
-            ("class32", classes(&|p| p.truth.class32)),
-            ("point_a", lists(placed, 3, |p| p.truth.witness.point_a.coords.as_slice().to_vec())?),
-            ("point_b", lists(placed, 3, |p| p.truth.witness.point_b.coords.as_slice().to_vec())?),
-            ("triangle_a", u32s(&|p| p.truth.witness.triangle_a)),
-            ("triangle_b", u32s(&|p| p.truth.witness.triangle_b)),
-            ("exact_used", flags(&|p| p.truth.exact_used)),
-            ("root_index", u32s(&|p| p.root_index)),
-            (
-                "relative_distance",
-                wanted(placed, |w| match w {
-                    Separation::Relative { distance } => Some(distance),
-                    Separation::Step { .. } | Separation::Ladder => None,
-                }),
-            ),
-            (
-                "step",
-                wanted(placed, |w| match w {
-                    Separation::Step { of_size } => Some(of_size),
-                    Separation::Relative { .. } | Separation::Ladder => None,
-                }),
-            ),
-        ],
-    )?)
+    let mut columns = vec![
+        ("pose_a", lists(placed, 12, |p| p.configuration.pose_a.to_row_major()[..12].to_vec())?),
+        ("pose_b", lists(placed, 12, |p| p.configuration.pose_b.to_row_major()[..12].to_vec())?),
+    ];
+    columns.extend(truth_columns(&EXACT, &placed.iter().map(|p| p.truth).collect::<Vec<_>>())?);
+    columns.extend([
+        ("root_index", Arc::new(placed.iter().map(|p| p.root_index).collect::<UInt32Array>()) as ArrayRef),
+        (
+            "relative_distance",
+            wanted(placed, |w| match w {
+                Separation::Relative { distance } => Some(distance),
+                Separation::Step { .. } | Separation::Ladder => None,
+            }),
+        ),
+        (
+            "step",
+            wanted(placed, |w| match w {
+                Separation::Step { of_size } => Some(of_size),
+                Separation::Relative { .. } | Separation::Ladder => None,
+            }),
+        ),
+    ]);
+    // All configurations have a second truth, or none has.
+    if let Some(rounded) = placed.iter().map(|p| p.rounded).collect::<Option<Vec<Truth>>>() {
+        columns.extend(truth_columns(&ROUNDED, &rounded)?);
+    }
+    to_parquet(&batch(metadata, columns)?)
 }
 
 fn maybe(number: Option<f64>) -> String {
@@ -146,38 +128,19 @@ pub fn read_poses(bytes: &[u8]) -> std::result::Result<Vec<Configuration>, Strin
 }
 
 fn append_placed(placed: &mut Vec<Placed>, batch: &RecordBatch) -> std::result::Result<(), String> {
-    let flag = |name| column::<BooleanArray>(batch, name);
-    let real = |name| column::<Float64Array>(batch, name);
-    let whole = |name| column::<UInt32Array>(batch, name);
-    let text = |name| column::<StringArray>(batch, name);
-    let (hit, exact_used) = (flag("hit")?, flag("exact_used")?);
-    let (lo, hi, margin) = (real("distance_lo")?, real("distance_hi")?, real("margin")?);
-    let (class64, class32) = (text("class64")?, text("class32")?);
-    let containment = text("containment")?;
-    let (relative_distance, step) = (real("relative_distance")?, real("step")?);
-    let (triangle_a, triangle_b, root_index) = (whole("triangle_a")?, whole("triangle_b")?, whole("root_index")?);
-    for row in 0..batch.num_rows() {
+    let (relative_distance, step) =
+        (column::<Float64Array>(batch, "relative_distance")?, column::<Float64Array>(batch, "step")?);
+    let root_index = column::<UInt32Array>(batch, "root_index")?;
+    let truths = read_truths(batch, &EXACT)?;
+    let rounded = match batch.column_by_name(ROUNDED.hit) {
+        Some(_) => read_truths(batch, &ROUNDED)?.into_iter().map(Some).collect(),
+        None => vec![None; truths.len()],
+    };
+    for (row, (truth, rounded)) in truths.into_iter().zip(rounded).enumerate() {
         placed.push(Placed {
             configuration: Configuration { pose_a: pose(batch, "pose_a", row)?, pose_b: pose(batch, "pose_b", row)? },
-            truth: Truth {
-                hit: hit.value(row),
-                distance_lo: lo.value(row),
-                distance_hi: hi.value(row),
-                margin: margin.value(row),
-                containment: containment
-                    .is_valid(row)
-                    .then(|| named_containment(containment.value(row)))
-                    .transpose()?,
-                class64: named_class(class64.value(row))?,
-                class32: named_class(class32.value(row))?,
-                witness: Witness {
-                    point_a: point(batch, "point_a", row)?,
-                    point_b: point(batch, "point_b", row)?,
-                    triangle_a: triangle_a.value(row),
-                    triangle_b: triangle_b.value(row),
-                },
-                exact_used: exact_used.value(row),
-            },
+            truth,
+            rounded,
             root_index: root_index.value(row),
             wanted: if relative_distance.is_valid(row) {
                 Some(Separation::Relative { distance: relative_distance.value(row) })
@@ -194,17 +157,8 @@ fn wanted(placed: &[Placed], this: fn(Separation) -> Option<f64>) -> ArrayRef {
     Arc::new(placed.iter().map(|p| p.wanted.and_then(this)).collect::<Float64Array>())
 }
 
-fn containment(placed: &[Placed]) -> ArrayRef {
-    Arc::new(placed.iter().map(|p| p.truth.containment.map(Containment::name)).collect::<StringArray>())
-}
-
-fn named_containment(name: &str) -> std::result::Result<Containment, String> {
-    let known = Containment::NAMES.iter().find(|(_, known)| *known == name).map(|(containment, _)| *containment);
-    known.ok_or_else(|| format!("{name:?} is not a containment"))
-}
-
-fn lists(placed: &[Placed], width: i32, of: impl Fn(&Placed) -> Vec<f64>) -> Result<ArrayRef> {
-    let values: Float64Array = placed.iter().flat_map(of).collect::<Vec<_>>().into();
+pub(super) fn lists<T>(rows: &[T], width: i32, of: impl Fn(&T) -> Vec<f64>) -> Result<ArrayRef> {
+    let values: Float64Array = rows.iter().flat_map(of).collect::<Vec<_>>().into();
     let item = Arc::new(Field::new("item", DataType::Float64, false));
     let list = FixedSizeListArray::try_new(item, width, Arc::new(values), None)
         .map_err(|e| LabError::fault("Building the columns failed", e))?;
@@ -225,39 +179,22 @@ fn list(batch: &RecordBatch, name: &str, row: usize, width: usize) -> std::resul
     Ok(numbers.values().to_vec())
 }
 
-fn pose(batch: &RecordBatch, name: &str, row: usize) -> std::result::Result<Pose, String> {
+pub(super) fn pose(batch: &RecordBatch, name: &str, row: usize) -> std::result::Result<Pose, String> {
     let mut matrix = [0.0; 16];
     matrix[..12].copy_from_slice(&list(batch, name, row, 12)?);
     matrix[15] = 1.0;
     Pose::from_row_major(&matrix).map_err(|e| format!("{name}: {e}"))
 }
 
-fn point(batch: &RecordBatch, name: &str, row: usize) -> std::result::Result<Point3<f64>, String> {
+pub(super) fn point(batch: &RecordBatch, name: &str, row: usize) -> std::result::Result<Point3<f64>, String> {
     Ok(Point3::from_slice(&list(batch, name, row, 3)?))
-}
-
-pub fn class_name(class: Class) -> &'static str {
-    match class {
-        Class::Clear => "clear",
-        Class::Colliding => "colliding",
-        Class::Grazing => "grazing",
-    }
-}
-
-fn named_class(name: &str) -> std::result::Result<Class, String> {
-    match name {
-        "clear" => Ok(Class::Clear),
-        "colliding" => Ok(Class::Colliding),
-        "grazing" => Ok(Class::Grazing),
-        other => Err(format!("{other:?} is not a class")),
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use nalgebra::{Rotation3, Vector3};
-    use ocb_core::configuration::{Method, Sampling};
+    use ocb_core::configuration::{Class, Containment, Method, Sampling, Witness};
 
     fn set() -> ConfigurationSet {
         let placed = |i: u32| {
@@ -281,6 +218,7 @@ mod tests {
                     },
                     exact_used: i == 0,
                 },
+                rounded: None,
                 root_index: 0,
                 wanted: [Some(Separation::Step { of_size: -1e-8 }), Some(Separation::Relative { distance: 0.1 }), None]
                     [i as usize],
@@ -301,6 +239,13 @@ mod tests {
     fn a_set_comes_back_bit_for_bit() {
         let file = set_parquet(&SetOf { mesh_a: "a", mesh_b: "b" }, &set()).unwrap();
         assert_eq!(read_set(&file).unwrap(), set());
+        // A second truth comes back as well, and its columns are there only with it.
+        let mut both = set();
+        both.placed.iter_mut().for_each(|p| p.rounded = Some(Truth { hit: !p.truth.hit, margin: 0.25, ..p.truth }));
+        let with_both = set_parquet(&SetOf { mesh_a: "a", mesh_b: "b" }, &both).unwrap();
+        assert_eq!(read_set(&with_both).unwrap(), both);
+        let columns = [&file, &with_both].map(|file| from_parquet(file).unwrap().0.fields().len());
+        assert_eq!(columns, [17, 29]);
         let poses = read_poses(&file).unwrap();
         assert_eq!(poses, set().placed.iter().map(|p| p.configuration).collect::<Vec<_>>());
     }

@@ -52,7 +52,14 @@ mod tests {
 
     #[test]
     fn tests_per_triangle_are_read_back() {
-        let of = RecordsOf { run: "r", algorithm: "a", plugin_sha256: "", hardware_class: "", set_sha256: "" };
+        let of = RecordsOf {
+            run: "r",
+            algorithm: "a",
+            plugin_sha256: "",
+            hardware_class: "",
+            set_sha256: "",
+            rounded: None,
+        };
         let counted = TriangleTests { queries: 9, tests: [vec![4, 0, u32::MAX], vec![7]] };
         let file = triangle_tests_parquet(&of, &counted).unwrap();
         assert_eq!(read_triangle_tests(&file).unwrap(), counted);

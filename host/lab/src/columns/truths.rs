@@ -6,7 +6,7 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, BooleanArray, Float64Array, StringArray, UInt32Array, UInt64Array};
 use ocb_core::configuration::{Class, Containment};
 
-use super::sets::class_name;
+use super::truth_columns::class_name;
 use super::{SCHEMA_VERSION, batch, to_parquet};
 use crate::Result;
 use crate::model::{ContactRow, TruthRow};
