@@ -3,16 +3,21 @@
 //! It knows no store, no account and nothing of HTTP, so that a machine that only measures can be built from it.
 #![forbid(unsafe_code)]
 
+pub mod algorithm;
 pub mod check;
 pub mod columns;
 pub mod configurations;
-pub mod contestant;
 mod error;
 pub mod machine;
 pub mod measure;
+pub mod pairing;
+pub mod recording;
 pub mod replay;
+mod repro;
+pub mod scene_file;
 pub mod stability;
 pub mod truth;
+pub mod workload;
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
