@@ -14,6 +14,7 @@ use sqlx::any::{AnyConnectOptions, AnyPoolOptions};
 use sqlx::migrate::{Migration, MigrationType, Migrator};
 use sqlx::{AnyPool, Executor, SqlSafeStr};
 
+use crate::locks::Locks;
 use crate::{EngineError, Result};
 
 /// All tables of one data folder.
@@ -22,12 +23,21 @@ pub struct Store {
     pub(crate) pool: AnyPool,
     /// Begins a transaction whose reads all see the same moment.
     pub(crate) one_moment: &'static str,
-    pub(crate) turns: crate::runs::turn::Known,
+    sqlite: bool,
+    pub(crate) shares: crate::runs::share::Known,
+    pub(crate) locks: Locks,
 }
 
 impl Store {
     /// Connects and migrates. Without a URL the database is `opencollbench.sqlite` in the data folder.
     pub async fn open(data: &Path, url: Option<&str>) -> Result<Self> {
+        let store = Self::connect(data, url).await?;
+        store.migrate_to(Self::newest_migration()).await?;
+        Ok(store)
+    }
+
+    /// Connects, and leaves the tables as they are.
+    pub(crate) async fn connect(data: &Path, url: Option<&str>) -> Result<Self> {
         sqlx::any::install_default_drivers();
         let options = match url {
             Some(url) => url.parse::<AnyConnectOptions>()?,
@@ -37,6 +47,7 @@ impl Store {
         if !sqlite && cfg!(not(feature = "postgres")) {
             return Err(EngineError::left_out("PostgreSQL"));
         }
+        let locks = Locks::new((!sqlite).then(|| options.clone()));
         let pool = AnyPoolOptions::new()
             // One process owns the file and SQLite has one writer anyway; more connections only wait for each other.
             .max_connections(if sqlite { 4 } else { 8 })
@@ -57,24 +68,55 @@ impl Store {
             .connect_with(options)
             .await
             .map_err(|e| EngineError::fault("Opening the database failed", e))?;
-        migrations().run(&pool).await.map_err(|e| EngineError::fault("Migrating the database failed", e))?;
         // SQLite's transactions see one moment anyway, PostgreSQL's have to ask for it.
         let one_moment = if sqlite { "BEGIN" } else { "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY" };
-        Ok(Self { pool, one_moment, turns: crate::runs::turn::Known::default() })
+        Ok(Self { pool, one_moment, sqlite, shares: crate::runs::share::Known::default(), locks })
+    }
+
+    /// Makes the tables what they are after this migration.
+    pub(crate) async fn migrate_to(&self, migration: i64) -> Result<()> {
+        let wanted = migrations(self.sqlite).into_iter().filter(|one| one.version <= migration).collect();
+        let migrator = Migrator::with_migrations(wanted);
+        migrator.run(&self.pool).await.map_err(|e| EngineError::fault("Migrating the database failed", e))
+    }
+
+    /// The newest migration that this program knows.
+    pub(crate) fn newest_migration() -> i64 {
+        migrations(true).last().map_or(0, |one| one.version)
+    }
+
+    /// The newest migration of the tables that are there; none when there are no tables.
+    pub(crate) async fn migration(&self) -> Result<Option<i64>> {
+        let newest = sqlx::query_scalar("SELECT MAX(version) FROM _sqlx_migrations").fetch_one(&self.pool).await;
+        match newest {
+            Ok(newest) => Ok(newest),
+            Err(sqlx::Error::Database(_)) => Ok(None),
+            Err(e) => Err(e.into()),
+        }
     }
 
     /// Closes all connections; what was written is on disk.
     pub async fn close(&self) {
+        self.locks.close().await;
         self.pool.close().await;
     }
 }
 
-/// The SQL files, compiled in.
-fn migrations() -> Migrator {
+const ATTEMPTS_ON_SQLITE: &str = concat!(
+    include_str!("../migrations/0032_attempts.sql"),
+    "CREATE VIEW database_clock AS SELECT CAST((julianday('now') - 2440587.5) * 86400000000.0 AS BIGINT) AS now_us;"
+);
+const ATTEMPTS_ON_POSTGRES: &str = concat!(
+    include_str!("../migrations/0032_attempts.sql"),
+    "CREATE VIEW database_clock AS SELECT CAST(EXTRACT(EPOCH FROM clock_timestamp()) * 1000000 AS BIGINT) AS now_us;"
+);
+
+/// The SQL files, compiled in. Only what time it is each database says in its own words.
+fn migrations(sqlite: bool) -> Vec<Migration> {
     let one = |version, name: &'static str, text: &'static str| {
         Migration::new(version, name.into(), MigrationType::Simple, text.into_sql_str(), false)
     };
-    Migrator::with_migrations(vec![
+    vec![
         one(1, "first", include_str!("../migrations/0001_first.sql")),
         one(2, "secret", include_str!("../migrations/0002_secret.sql")),
         one(3, "people", include_str!("../migrations/0003_people.sql")),
@@ -103,7 +145,12 @@ fn migrations() -> Migrator {
         one(26, "saved configurations", include_str!("../migrations/0026_saved_configurations.sql")),
         one(27, "stability runs", include_str!("../migrations/0027_stability_runs.sql")),
         one(29, "idle", include_str!("../migrations/0029_idle.sql")),
-    ])
+        one(31, "event numbers", include_str!("../migrations/0031_event_numbers.sql")),
+        one(32, "attempts", if sqlite { ATTEMPTS_ON_SQLITE } else { ATTEMPTS_ON_POSTGRES }),
+        one(33, "notify", if sqlite { "" } else { include_str!("../migrations/0033_notify.sql") }),
+        one(37, "house", if sqlite { "" } else { include_str!("../migrations/0037_house.sql") }),
+        one(38, "advice turn", include_str!("../migrations/0038_advice_turn.sql")),
+    ]
 }
 
 /// Any path works as SQLite URL when its bytes are percent-encoded.

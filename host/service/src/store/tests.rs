@@ -8,8 +8,8 @@ mod rows {
     pub use crate::campaigns::sql::CampaignRow;
     pub use crate::mail::sql::{MailLink, WaitingMail};
     pub use crate::notices::sql::NewNotice;
-    pub use crate::owned::sql::Belongings;
-    pub use crate::plugins::sql::SubmissionRow;
+    pub use crate::owned::sql::OwnedIds;
+    pub use crate::plugins::sql::PluginRow;
     pub use crate::requests::sql::Request;
     pub use crate::results::sql::StoredResult;
     pub use crate::runs::sql::RunRow;
@@ -17,23 +17,25 @@ mod rows {
 
 use ocb_core::query::Query;
 
+mod attempts;
 mod campaigns;
-mod deletion;
+pub(crate) mod deletion;
 pub(crate) mod fixtures;
 mod lists;
 mod mails;
 mod owned;
-mod people;
-mod submissions;
+pub(crate) mod people;
+pub(crate) mod plugins;
 mod suites;
 mod visibility;
 
-use fixtures::{add, advice_info, object, set_info, spec};
+use fixtures::{add, advice_info, begin, end, handed, object, set_info, spec, worker};
 pub(crate) use fixtures::{result, run};
 
 use super::*;
 use crate::blobs::tests::from_harness;
 use crate::model::{AlgorithmInfo, Cursor, Draw, Environment, Estimated, ObjectInfo, Reference, Stability, State};
+use crate::runs::accept::{Handed, RunEnd};
 use crate::runs::log::{fresh_stages, plain_event};
 use rows::*;
 
@@ -53,13 +55,31 @@ pub(crate) async fn row_counts(store: &Store) -> [i64; 5] {
     counts
 }
 
+/// A whole result with so many seeds.
+fn stability_of(seeds: u32) -> Stability {
+    let text = serde_json::json!({
+        "algorithm": "a", "name": "A", "version": "1", "plugin_sha256": "", "single_precision": false,
+        "seeds": seeds, "created_us": seeds, "complete": true, "families": [], "relations": [], "failures": [],
+        "tessellations": [], "search": null, "unit_safe": [-10, 20], "offset_safe": 16.0
+    });
+    serde_json::from_value(text).unwrap()
+}
+
 async fn sqlite() -> (Store, tempfile::TempDir) {
     let folder = tempfile::Builder::new().prefix("ocb 100% é?").tempdir().unwrap();
     (Store::open(folder.path(), None).await.unwrap(), folder)
 }
 
-/// A fresh schema in the harness's database, so that tests do not see each other.
 async fn postgres() -> Store {
+    postgres_with("").await.unwrap()
+}
+
+async fn postgres_with(parameters: &str) -> Result<Store> {
+    Store::open(Path::new("/nonexistent"), Some(&postgres_url(parameters).await)).await
+}
+
+/// The address of a fresh schema in the harness's database, so that tests do not see each other, with these parameters.
+pub(crate) async fn postgres_url(parameters: &str) -> String {
     let url = from_harness("OCB_TEST_POSTGRES");
     sqlx::any::install_default_drivers();
     let schema = format!("test_{}", uuid::Uuid::new_v4().simple());
@@ -68,8 +88,20 @@ async fn postgres() -> Store {
     sqlx::query(create).execute(&admin).await.unwrap();
     admin.close().await;
     let join = if url.contains('?') { '&' } else { '?' };
-    let url = format!("{url}{join}options=-c%20search_path%3D{schema}");
-    Store::open(Path::new("/nonexistent"), Some(&url)).await.unwrap()
+    format!("{url}{join}options=-c%20search_path%3D{schema}{parameters}")
+}
+
+/// A password and everything else that is stored go only to the server that the certificate names.
+#[tokio::test]
+async fn a_connection_to_postgresql_is_encrypted_and_the_server_is_checked() {
+    let folder = from_harness("OCB_TEST_TLS");
+    let checked = |authority| format!("&sslmode=verify-full&sslrootcert={folder}/{authority}.crt");
+    let store = postgres_with(&checked("server")).await.unwrap();
+    let text = "SELECT COUNT(*) FROM pg_stat_ssl WHERE pid = pg_backend_pid() AND ssl";
+    let encrypted: i64 = sqlx::query_scalar(text).fetch_one(&store.pool).await.unwrap();
+    assert_eq!(encrypted, 1);
+    let refused = postgres_with(&checked("other")).await.map(drop).unwrap_err();
+    assert!(matches!(refused, EngineError::Fault(_)), "{refused:?}");
 }
 
 macro_rules! on_both {
@@ -99,12 +131,18 @@ on_both!(
     a_run_comes_back_as_it_was,
     a_request_makes_one_run,
     events_are_numbered_from_one,
+    two_writers_number_events_without_gaps,
     the_queue_is_fair,
     places_are_right_where_many_wait,
     interrupted_runs_are_tried_three_times,
+    a_lease_is_counted_by_the_databases_clock,
+    who_starts_takes_back_its_own_alone,
+    a_lost_attempts_result_is_refused_and_leaves_nothing,
+    lost_checks_parts_and_advice_change_nothing,
+    a_job_is_withdrawn_from_another_worker_alone,
+    two_workers_never_begin_the_same,
     results_replace_those_of_an_earlier_attempt,
     the_newest_finished_featured_run_is_shown,
-    two_workers_never_claim_the_same_run,
     accounts_have_one_name_and_keys_of_their_own,
     the_log_shows_what_was_changed_by_hand,
     an_invitation_is_accepted_once_and_in_time,
@@ -113,7 +151,7 @@ on_both!(
     mails_wait_for_those_who_want_them,
     an_address_counts_once_its_link_was_opened,
     a_link_turns_off_the_mails_of_its_account_alone,
-    a_submission_is_checked_three_times_at_most,
+    a_plugin_is_checked_three_times_at_most,
     authors_take_turns_with_their_checks,
     only_what_is_public_is_in_the_lists_of_others,
     what_an_object_hid_stays_hidden_without_it,
@@ -131,13 +169,14 @@ on_both!(
 );
 
 mod contract {
+    pub use super::attempts::*;
     pub use super::campaigns::*;
     pub use super::deletion::*;
     pub use super::lists::*;
     pub use super::mails::*;
     pub use super::owned::*;
     pub use super::people::*;
-    pub use super::submissions::*;
+    pub use super::plugins::*;
     pub use super::suites::*;
     pub use super::visibility::*;
     use super::*;
@@ -199,14 +238,7 @@ mod contract {
     }
 
     pub async fn stability_is_replaced(store: Store) {
-        let of = |seeds: u32| -> Stability {
-            let text = serde_json::json!({
-                "algorithm": "a", "name": "A", "version": "1", "plugin_sha256": "", "single_precision": false,
-                "seeds": seeds, "created_us": seeds, "complete": true, "families": [], "relations": [], "failures": [],
-                "tessellations": [], "search": null, "unit_safe": [-10, 20], "offset_safe": 16.0
-            });
-            serde_json::from_value(text).unwrap()
-        };
+        let of = stability_of;
         assert!(store.stability().await.unwrap().is_empty());
         store.keep_stability(&of(1)).await.unwrap();
         store.keep_stability(&of(2)).await.unwrap();
@@ -215,13 +247,16 @@ mod contract {
 
     pub async fn advice_ends_once_and_is_found_again(store: Store) {
         let mut info = advice_info("x");
-        assert!(store.add_advice(&info, "me").await.unwrap());
-        store.begin_advice("x").await.unwrap();
+        let attempt = store.add_advice(&info, "me", "turn", &worker("m")).await.unwrap().unwrap();
+        assert_eq!(store.add_advice(&info, "me", "turn", &worker("m")).await.unwrap(), None);
+        assert!(store.begin_advice(&attempt).await.unwrap());
+        store.put_back_advice(&attempt).await.unwrap();
         let [open] = store.open_advice().await.unwrap().try_into().ok().expect("one is open");
         assert_eq!((open.info, open.owner.as_deref(), open.attempts), (info.clone(), Some("me"), 1));
         info.state = State::Done;
         let paper = StoredPaper { mesh: "m".into(), certificate: "c".into(), file: "a-1.obj".into() };
-        store.end_advice(&info, &[vec![paper], vec![]]).await.unwrap();
+        let attempt = store.take_up("x", &worker("m")).await.unwrap().unwrap();
+        assert!(store.end_advice(&attempt, &info, &[vec![paper], vec![]]).await.unwrap());
         assert!(store.open_advice().await.unwrap().is_empty() && store.advice("y").await.unwrap().is_none());
         let ended = store.advice("x").await.unwrap().unwrap();
         assert_eq!((ended.info, ended.papers[0][0].file.as_str(), ended.papers[1].len()), (info, "a-1.obj", 0));
@@ -260,11 +295,17 @@ mod contract {
             profile: "dev".into(),
             version: "1".into(),
         };
-        store.set_of_run("r", &set_info(), "b").await.unwrap();
-        store.environment_of_run("r", &environment).await.unwrap();
-        assert_eq!(store.claim().await.unwrap().as_deref(), Some("r"));
-        assert!(!store.end_run("r", State::Queued, State::Cancelled, None).await.unwrap(), "it is not queued any more");
-        assert!(store.end_run("r", State::Running, State::Failed, Some("why")).await.unwrap());
+        let attempt = begin(&store, "m").await.unwrap();
+        assert!(store.set_of_run(&attempt, &set_info(), "b").await.unwrap());
+        assert!(!store.end_waiting_run("r", State::Cancelled, None).await.unwrap(), "it is not queued any more");
+        let mut stages = store.stages("r").await.unwrap();
+        assert_eq!(stages, fresh_stages(&spec().algorithms));
+        (stages[2].done, stages[2].message) = (3, Some("note".into()));
+        let mut event = plain_event(State::Running, 0);
+        assert!(store.tell(&attempt, &[(2, &stages[2])], &mut event).await.unwrap());
+        let handed = Handed { results: Vec::new(), environment: Some(environment.clone()), ..handed() };
+        let ended = RunEnd { state: State::Failed, message: Some("why"), handed: Some(&handed) };
+        assert!(store.accept_run(&attempt, ended).await.unwrap());
         let got = store.run("r").await.unwrap().unwrap();
         assert!(got.finished_us.is_some());
         (expected.state, expected.attempts, expected.message) = (State::Failed, 1, Some("why".into()));
@@ -272,10 +313,6 @@ mod contract {
             (Some(set_info()), Some("b".into()), Some(environment));
         expected.finished_us = got.finished_us;
         assert_eq!(got, expected);
-        let mut stages = store.stages("r").await.unwrap();
-        assert_eq!(stages, fresh_stages(&spec().algorithms));
-        (stages[2].done, stages[2].message) = (3, Some("note".into()));
-        store.put_stage("r", 2, &stages[2]).await.unwrap();
         assert_eq!(store.stages("r").await.unwrap(), stages);
         add(&store, run("s", Some("me"), 1, 8)).await;
         add(&store, run("t", Some("other"), 1, 9)).await;
@@ -315,6 +352,30 @@ mod contract {
         assert_eq!(store.events("s", 0).await.unwrap(), [event]);
     }
 
+    pub async fn two_writers_number_events_without_gaps(store: Store) {
+        add(&store, run("r", None, 1, 1)).await;
+        let writer = |store: Store| async move {
+            for _ in 0..25 {
+                store.add_event("r", &mut plain_event(State::Running, 0)).await.unwrap();
+            }
+        };
+        let (one, two) = (tokio::spawn(writer(store.clone())), tokio::spawn(writer(store.clone())));
+        // A reader who asks for what is behind the last number gets all of them, in order.
+        let mut seen = Vec::new();
+        loop {
+            let written = one.is_finished() && two.is_finished();
+            let last = seen.last().copied().unwrap_or(0);
+            seen.extend(store.events("r", last).await.unwrap().iter().map(|event| event.seq));
+            if written {
+                break;
+            }
+            tokio::task::yield_now().await;
+        }
+        one.await.unwrap();
+        two.await.unwrap();
+        assert_eq!(seen, (1..=50).collect::<Vec<i64>>());
+    }
+
     pub async fn the_queue_is_fair(store: Store) {
         add(&store, run("background", None, 5, 1)).await;
         for (i, id) in ["a1", "a2", "a3"].iter().enumerate() {
@@ -333,10 +394,10 @@ mod contract {
         assert_eq!(foretold.iter().map(|(before, _)| *before).collect::<Vec<_>>(), [0, 1, 2, 3, 4]);
         let foretold: Vec<String> = foretold.into_iter().map(|(_, id)| id.to_owned()).collect();
         let mut served = Vec::new();
-        while let Some(id) = store.claim().await.unwrap() {
+        while let Some(attempt) = begin(&store, "m").await {
             assert_eq!(store.running().await.unwrap().len(), 1);
-            store.end_run(&id, State::Running, State::Done, None).await.unwrap();
-            served.push(id);
+            assert!(end(&store, &attempt, State::Done, None).await);
+            served.push(attempt.job);
         }
         assert_eq!(served, ["a1", "b1", "a2", "a3", "background"]);
         assert_eq!(foretold, served, "what the pages say about the queue is what happens");
@@ -354,37 +415,25 @@ mod contract {
         }
         foretold.sort_unstable();
         for (place, (before, id)) in foretold.iter().enumerate() {
-            assert_eq!((*before as usize, Some(id)), (place, store.claim().await.unwrap().as_ref()));
-            store.end_run(id, State::Running, State::Done, None).await.unwrap();
+            let attempt = begin(&store, "m").await.unwrap();
+            assert_eq!((*before as usize, id), (place, &attempt.job));
+            assert!(end(&store, &attempt, State::Done, None).await);
         }
-    }
-
-    pub async fn interrupted_runs_are_tried_three_times(store: Store) {
-        add(&store, run("r", None, 1, 1)).await;
-        for attempt in 1..=2 {
-            assert_eq!(store.claim().await.unwrap().as_deref(), Some("r"));
-            assert_eq!(store.recover(3).await.unwrap(), (vec!["r".to_owned()], vec![]));
-            assert_eq!(store.run("r").await.unwrap().unwrap().attempts, attempt);
-        }
-        store.claim().await.unwrap();
-        store.put_back("r").await.unwrap();
-        assert_eq!(store.run("r").await.unwrap().unwrap().attempts, 2, "a wanted stop is no attempt");
-        store.claim().await.unwrap();
-        assert_eq!(store.recover(3).await.unwrap(), (vec![], vec!["r".to_owned()]));
-        let failed = store.run("r").await.unwrap().unwrap();
-        assert_eq!(failed.state, State::Failed);
-        assert!(failed.message.unwrap().contains("3 times"));
-        assert_eq!(store.claim().await.unwrap(), None);
     }
 
     pub async fn results_replace_those_of_an_earlier_attempt(store: Store) {
-        add(&store, run("r", None, 1, 1)).await;
+        let row = run("r", None, 1, 1);
+        add(&store, row.clone()).await;
         store.add_blob("b", 1, "x").await.unwrap();
-        store.keep_result("r", 1, &result("b", 5), 100, Query::Proximity).await.unwrap();
-        store.keep_result("r", 0, &result("a", 2), 100, Query::Proximity).await.unwrap();
+        let first = Handed { results: vec![(1, result("b", 5)), (0, result("a", 2))], ..handed() };
+        assert!(end(&store, &begin(&store, "m").await.unwrap(), State::Done, Some(&first)).await);
+        assert_eq!(store.results("r").await.unwrap(), [result("a", 2), result("b", 5)]);
+        assert!(store.queue_again(&row, &fresh_stages(&row.spec.algorithms)).await.unwrap());
         let again = StoredResult { records: Some("b".into()), ..result("a", 4) };
-        store.keep_result("r", 0, &again, 100, Query::Proximity).await.unwrap();
+        let second = Handed { results: vec![(0, again.clone())], ..handed() };
+        assert!(end(&store, &begin(&store, "m").await.unwrap(), State::Done, Some(&second)).await);
         assert_eq!(store.results("r").await.unwrap(), [again, result("b", 5)]);
+        assert_eq!(store.events("r", 0).await.unwrap()[0].seq, 1, "the log began anew");
         assert_eq!(store.result_rates("a", Query::Proximity).await.unwrap(), [(100, 1e-6)]);
         assert_eq!(store.result_rates("a", Query::CollisionFirst).await.unwrap(), []);
     }
@@ -396,32 +445,11 @@ mod contract {
         // While none has ended, the newest that is to be measured.
         assert_eq!(store.newest_featured().await.unwrap().unwrap().id, "waiting");
         for id in ["old", "new", "plain"] {
-            assert!(store.end_run(id, State::Queued, State::Done, None).await.unwrap());
+            assert!(store.end_waiting_run(id, State::Done, None).await.unwrap());
             tokio::time::sleep(std::time::Duration::from_millis(2)).await;
         }
         assert_eq!(store.newest_featured().await.unwrap().unwrap().id, "new");
         assert_eq!(store.featured_count().await.unwrap(), 3);
-    }
-
-    pub async fn two_workers_never_claim_the_same_run(store: Store) {
-        for i in 0..20 {
-            add(&store, run(&format!("r{i:02}"), None, 1, i)).await;
-        }
-        let worker = |store: Store| async move {
-            let mut claimed = Vec::new();
-            while let Ok(Some(id)) = store.claim().await {
-                claimed.push(id);
-            }
-            claimed
-        };
-        let (first, second) = tokio::join!(tokio::spawn(worker(store.clone())), tokio::spawn(worker(store.clone())));
-        let mut all = [first.unwrap(), second.unwrap()].concat();
-        all.sort();
-        // On PostgreSQL the loser of a race may see nothing and stop early, but no run is ever given twice.
-        let before = all.len();
-        all.dedup();
-        assert_eq!(all.len(), before);
-        assert_eq!(before as u32 + store.waiting(1).await.unwrap().0, 20);
     }
 }
 

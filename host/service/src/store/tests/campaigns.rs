@@ -3,7 +3,7 @@
 use super::super::*;
 use super::people::account;
 use super::rows::*;
-use super::{add, fresh_stages, run, spec};
+use super::{add, begin, fresh_stages, run, spec};
 use crate::model::{CampaignRuns, Cursor, NewChoices, RunSpec, State};
 use crate::suite::Suite;
 
@@ -56,10 +56,10 @@ pub async fn a_campaign_repeats_a_run_once_and_takes_nobodys_turn(store: Store) 
     assert_eq!(store.waiting(5).await.unwrap().0, 5);
 
     // Whoever's run is repeated loses no turn by it: "a" has been served by the campaign alone.
-    assert_eq!(store.claim().await.unwrap().as_deref(), Some("1"));
+    assert_eq!(begin(&store, "m").await.unwrap().job, "1");
     add(&store, run("7", Some("a"), 5, 9)).await;
     add(&store, run("8", Some("b"), 5, 10)).await;
-    assert_eq!(store.claim().await.unwrap().as_deref(), Some("7"));
+    assert_eq!(begin(&store, "m").await.unwrap().job, "7");
 
     let less = RunSpec { algorithms: vec!["b".into()], ..spec() };
     assert!(store.ask_less("2", &less, &fresh_stages(&less.algorithms)).await.unwrap());
@@ -68,7 +68,7 @@ pub async fn a_campaign_repeats_a_run_once_and_takes_nobodys_turn(store: Store) 
     assert_eq!(store.stages("2").await.unwrap(), fresh_stages(&less.algorithms));
     assert_eq!(store.waiting_of_the_service().await.unwrap().len(), 4);
 
-    assert!(store.end_run("3", State::Queued, State::Failed, Some("m")).await.unwrap());
+    assert!(store.end_waiting_run("3", State::Failed, Some("m")).await.unwrap());
     let counts = CampaignRuns { waiting: 2, running: 1, failed: 1, expected_seconds: 4.5, ..CampaignRuns::default() };
     assert_eq!(store.campaign_counts("c").await.unwrap(), counts);
     assert!(store.cancel_campaign("c", NOTE).await.unwrap() && !store.cancel_campaign("c", NOTE).await.unwrap());
@@ -95,7 +95,7 @@ pub async fn only_runs_of_those_who_agree_are_measured_again(store: Store) {
     }
     add(&store, RunRow { featured: true, ..run("featured", Some("account:1"), 1, 9) }).await;
     add(&store, run("newer", Some("account:1"), 1, 8)).await;
-    assert!(store.end_run("failed", State::Queued, State::Failed, None).await.unwrap());
+    assert!(store.end_waiting_run("failed", State::Failed, None).await.unwrap());
     let ids: Vec<String> = store.runs_of_the_agreeing().await.unwrap().into_iter().map(|row| row.id).collect();
     assert_eq!(ids, ["newer", "a"]);
 }

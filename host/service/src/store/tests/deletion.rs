@@ -2,9 +2,9 @@
 
 use super::super::*;
 use super::people::account;
+use super::plugins::plugin;
 use super::rows::*;
-use super::submissions::submission;
-use super::{add, object, run};
+use super::{add, begin, object, run};
 use crate::model::{
     AccountInfo, CheckLine, CheckVerdict, Cursor, InvitationInfo, InvitationState, NewChoices, NoticeInfo, OwnedItem,
     PluginState, Role, SavedConfigurations, Scope, StabilitySpec, State, TokenInfo,
@@ -35,7 +35,7 @@ async fn rows_of(store: &Store, id: &str) -> i64 {
 }
 
 /// An account with everything that a store keeps of one.
-async fn somebody(store: &Store, id: &str, name: &str) -> AccountInfo {
+pub(crate) async fn somebody(store: &Store, id: &str, name: &str) -> AccountInfo {
     let info = AccountInfo { role: Role::Curator, ..account(id, name) };
     let (owner, later) = (info.owner(), now_us() + 1_000_000_000);
     assert!(store.add_account(&info, "hash").await.unwrap());
@@ -64,15 +64,17 @@ async fn somebody(store: &Store, id: &str, name: &str) -> AccountInfo {
         store.add_blob(&format!("{kind} mesh {id}"), 10, "x").await.unwrap();
         store.add_object(&object(&object_id), Some(&owner), &format!("{kind} mesh {id}")).await.unwrap();
         add(store, run(&run_id, Some(&owner), 5, 1 + private)).await;
-        let mut plugin = submission(&format!("{kind} plugin {id}"), id, &format!("{kind} file {id}"));
+        let mut plugin = plugin(&format!("{kind} plugin {id}"), id, &format!("{kind} file {id}"));
         plugin.state = if kind == "public" { PluginState::Withdrawn } else { PluginState::Awaiting };
         store.add_blob(&plugin.blob, 20, "x").await.unwrap();
-        assert!(store.add_submission(&plugin, Note { actor: name, subject: &plugin.id, ..NOTE }).await.unwrap());
+        assert!(store.add_plugin(&plugin, Note { actor: name, subject: &plugin.id, ..NOTE }).await.unwrap());
         let line =
             CheckLine { check: "c".into(), verdict: CheckVerdict::Pass, evidence: "e".into(), hint: None, repro: None };
-        store.add_line(&plugin.id, 1, &line).await.unwrap();
+        let text = "INSERT INTO submission_lines (submission, seq, line) VALUES ($1, 1, $2)";
+        let query = sqlx::query(text).bind(&plugin.id).bind(to_json(&line).unwrap());
+        query.execute(&store.pool).await.unwrap();
     }
-    store.claim().await.unwrap();
+    begin(store, "m").await.unwrap();
     store.add_blob(&format!("saved {id}"), 30, "x").await.unwrap();
     let saved = SavedConfigurations {
         id: format!("configurations {id}"),
@@ -102,8 +104,8 @@ async fn somebody(store: &Store, id: &str, name: &str) -> AccountInfo {
     info
 }
 
-fn parted(id: &str) -> (Belongings, Belongings) {
-    let of = |kind: &str| Belongings {
+fn parted(id: &str) -> (OwnedIds, OwnedIds) {
+    let of = |kind: &str| OwnedIds {
         runs: vec![thing(&format!("{kind} run {id}"))],
         objects: vec![thing(&format!("{kind} object {id}"))],
         advice: Vec::new(),
@@ -161,7 +163,7 @@ pub async fn an_account_goes_at_once_and_what_is_public_is_nobodys(store: Store)
     // What was under way when it went leads nowhere: no key, no plugin, no notice, no link, no address.
     let key = TokenInfo { id: "k".into(), name: "n".into(), scopes: vec![], created_us: 1, expires_us: later };
     store.add_key("late", "1", &key, true).await.unwrap();
-    assert!(!store.add_submission(&submission("late", "1", "public file 2"), NOTE).await.unwrap());
+    assert!(!store.add_plugin(&plugin("late", "1", "public file 2"), NOTE).await.unwrap());
     store.set_address("1", "ada@example.org", false, NOTE).await.unwrap();
     let link = MailLink { sha256: "late", account: "1", address: "ada@example.org", expires_us: later };
     store.add_confirmation(link).await.unwrap();
@@ -177,9 +179,9 @@ pub async fn an_account_goes_at_once_and_what_is_public_is_nobodys(store: Store)
     let kept = store.run("public run 1").await.unwrap().unwrap();
     assert_eq!((kept.owner, store.object("public object 1").await.unwrap().unwrap().owner), (None, None));
     assert!(store.run("own run 1").await.unwrap().is_none() && store.object("own object 1").await.unwrap().is_none());
-    assert!(store.submission("own plugin 1").await.unwrap().is_none());
+    assert!(store.plugin("own plugin 1").await.unwrap().is_none());
     assert!(store.lines("own plugin 1").await.unwrap().is_empty());
-    assert_eq!(store.submission("public plugin 1").await.unwrap().unwrap().account, "1");
+    assert_eq!(store.plugin("public plugin 1").await.unwrap().unwrap().account, "1");
     assert_eq!(store.lines("public plugin 1").await.unwrap().len(), 1);
     let actors =
         async |of: &str| store.notes_on(of).await.unwrap().into_iter().map(|entry| entry.actor).collect::<Vec<_>>();
@@ -205,7 +207,7 @@ pub async fn somebody_who_decides_is_always_left(store: Store) {
     for (id, role) in all {
         assert!(store.add_account(&of(id, role), "hash").await.unwrap());
     }
-    let nothing = Belongings::default();
+    let nothing = OwnedIds::default();
     let leave =
         async |id: &str, role| store.delete_account(&of(id, role), &nothing, &nothing, NOTE).await.unwrap().is_some();
     assert!(leave("5", Developer).await && leave("3", Curator).await);
@@ -224,9 +226,9 @@ pub async fn a_plugin_that_became_public_meanwhile_stays(store: Store) {
     let ada = account("1", "ada");
     assert!(store.add_account(&ada, "hash").await.unwrap());
     store.add_blob("f", 1, "x").await.unwrap();
-    assert!(store.add_submission(&submission("p", "1", "f"), NOTE).await.unwrap());
-    assert!(store.move_submission("p", PluginState::Uploaded, PluginState::Public, "", None, None).await.unwrap());
-    let goes = Belongings { plugins: vec!["p".into()], ..Belongings::default() };
-    assert_eq!(store.delete_account(&ada, &goes, &Belongings::default(), NOTE).await.unwrap(), Some(vec![]));
-    assert_eq!(store.submission("p").await.unwrap().unwrap().state, PluginState::Public);
+    assert!(store.add_plugin(&plugin("p", "1", "f"), NOTE).await.unwrap());
+    assert!(store.move_plugin("p", PluginState::Uploaded, PluginState::Public, "", None, None).await.unwrap());
+    let goes = OwnedIds { plugins: vec!["p".into()], ..OwnedIds::default() };
+    assert_eq!(store.delete_account(&ada, &goes, &OwnedIds::default(), NOTE).await.unwrap(), Some(vec![]));
+    assert_eq!(store.plugin("p").await.unwrap().unwrap().state, PluginState::Public);
 }

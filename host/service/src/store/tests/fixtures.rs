@@ -2,13 +2,17 @@
 
 use ocb_core::configuration::Class;
 use ocb_core::mesh::{FileFormat, LengthUnit};
+use ocb_core::query::Query;
 
 use super::super::*;
 use super::rows::*;
+use crate::attempts::Attempt;
+use crate::attempts::worker::Worker;
 use crate::model::{
-    AdviceInfo, Agreement, AlgorithmResult, ClassCount, Estimated, ObjectInfo, OutcomeInfo, OutcomeName, RunSpec,
-    SetInfo, State, Visibility,
+    AdviceInfo, Agreement, AlgorithmResult, ClassCount, Estimated, ObjectInfo, OutcomeInfo, OutcomeName, Rounding,
+    RoundingEffect, RunSpec, SetInfo, State, Visibility,
 };
+use crate::runs::accept::{Handed, RunEnd};
 use crate::runs::log::fresh_stages;
 
 pub(crate) fn object(id: &str) -> ObjectInfo {
@@ -24,6 +28,7 @@ pub(crate) fn object(id: &str) -> ObjectInfo {
         closed: true,
         format: Some(FileFormat::Collada),
         unit: Some(LengthUnit { name: "inch".into(), metres: 0.0254 }),
+        rounding: Some(Rounding { moves: 1e-9, collapsed: 1, flattens: false }),
         warnings: vec!["one".into()],
         created_us: now_us(),
         visibility: Visibility::Unlisted,
@@ -86,6 +91,7 @@ pub(crate) fn set_info() -> SetInfo {
         spacing: None,
         box_side: Some(1.5),
         oracle: Some(4),
+        rounding: Some(RoundingEffect { other_answers: 1, largest_change: 1e-9 }),
     }
 }
 
@@ -115,6 +121,7 @@ pub(crate) fn result(algorithm: &str, n: u32) -> StoredResult {
             controls: None,
             timing: None,
             verdicts: Vec::new(),
+            rounded: true,
             wrong: 0,
             by_unit: Vec::new(),
             depends_on_unit: None,
@@ -132,6 +139,33 @@ pub(crate) fn result(algorithm: &str, n: u32) -> StoredResult {
         triangle_tests: None,
         plugin_sha256: "p".into(),
         seconds_per_query: Some(1e-6),
+    }
+}
+
+/// The worker of this machine.
+pub(crate) fn worker(machine: &str) -> Worker {
+    Worker { machine: machine.into(), class: "class".into() }
+}
+
+/// Begins the next run.
+pub(crate) async fn begin(store: &Store, machine: &str) -> Option<Attempt> {
+    store.begin_run(&worker(machine)).await.unwrap()
+}
+
+/// Ends a run.
+pub(crate) async fn end(store: &Store, attempt: &Attempt, state: State, handed: Option<&Handed>) -> bool {
+    store.accept_run(attempt, RunEnd { state, message: None, handed }).await.unwrap()
+}
+
+/// What an attempt hands in: both algorithms of [`spec`] are measured.
+pub(crate) fn handed() -> Handed {
+    Handed {
+        results: vec![(0, result("a", 5)), (1, result("b", 5))],
+        triangles: 100,
+        query: Query::Proximity,
+        environment: None,
+        preview: None,
+        failed: None,
     }
 }
 

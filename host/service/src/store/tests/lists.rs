@@ -33,9 +33,9 @@ pub async fn lists_go_on_where_they_were_left(store: Store) {
 }
 
 /// A plugin of this account in this state.
-fn submission(id: &str, account: &str, state: PluginState, created_us: i64, changed_us: i64) -> SubmissionRow {
+fn plugin(id: &str, account: &str, state: PluginState, created_us: i64, changed_us: i64) -> PluginRow {
     let manifest = serde_json::json!({ "name": "n", "version": "1", "authors": "a", "license": "MIT", "queries": [] });
-    SubmissionRow {
+    PluginRow {
         id: id.into(),
         account: account.into(),
         blob: format!("file {}", id.trim_start_matches("twin of ")),
@@ -56,8 +56,8 @@ fn submission(id: &str, account: &str, state: PluginState, created_us: i64, chan
 /// The ids of a list, by parts of this size.
 async fn walked(
     limit: usize,
-    load: impl AsyncFn(&Cursor, usize) -> Result<Vec<SubmissionRow>>,
-    place: impl Fn(&SubmissionRow) -> Cursor,
+    load: impl AsyncFn(&Cursor, usize) -> Result<Vec<PluginRow>>,
+    place: impl Fn(&PluginRow) -> Cursor,
 ) -> Vec<String> {
     let (mut from, mut ids) = (Cursor::start(), Vec::new());
     loop {
@@ -80,40 +80,40 @@ pub async fn lists_of_plugins_are_whole_and_in_order(store: Store) {
         let state = PluginState::NAMES[number as usize % 11].0;
         let account = if number / 11 % 2 == 0 { "1" } else { "2" };
         let id = format!("{:03}", number * 7 % 440);
-        all.push(submission(&id, account, state, number / 3, (number * 13) % 50));
+        all.push(plugin(&id, account, state, number / 3, (number * 13) % 50));
     }
-    all.push(submission(&format!("twin of {}", all[0].id), "2", PluginState::Failed, 1, 1));
+    all.push(plugin(&format!("twin of {}", all[0].id), "2", PluginState::Failed, 1, 1));
     for row in &all {
         store.add_blob(&row.blob, 1, "x").await.unwrap();
-        assert!(store.add_submission(row, note).await.unwrap());
+        assert!(store.add_plugin(row, note).await.unwrap());
     }
     let most = Page::default().limit as usize;
     for viewer in [None, Some("1"), Some("2"), Some("nobody")] {
-        let may = |row: &&SubmissionRow| row.state.is_shown() || viewer == Some(row.account.as_str());
-        let place = |row: &SubmissionRow| Cursor::behind(row.created_us, &row.id);
-        let mut expected: Vec<&SubmissionRow> = all.iter().filter(may).collect();
+        let may = |row: &&PluginRow| row.state.is_shown() || viewer == Some(row.account.as_str());
+        let place = |row: &PluginRow| Cursor::behind(row.created_us, &row.id);
+        let mut expected: Vec<&PluginRow> = all.iter().filter(may).collect();
         expected.sort_by_key(|row| std::cmp::Reverse(place(row)));
         let expected: Vec<String> = expected.into_iter().map(|row| row.id.clone()).collect();
         assert!(expected.len() >= 160 && (viewer != Some("1") || expected.len() > most), "more than a part");
         for limit in [most, 7] {
-            let load = async |from: &Cursor, limit| store.submissions_for(viewer, from, limit).await;
+            let load = async |from: &Cursor, limit| store.plugins_for(viewer, from, limit).await;
             assert_eq!(walked(limit, load, place).await, expected, "{viewer:?}, {limit} at a time");
         }
     }
-    let waits = |row: &&SubmissionRow| matches!(row.state, PluginState::Awaiting | PluginState::Asked);
-    let mut expected: Vec<&SubmissionRow> = all.iter().filter(waits).collect();
+    let waits = |row: &&PluginRow| matches!(row.state, PluginState::Awaiting | PluginState::Asked);
+    let mut expected: Vec<&PluginRow> = all.iter().filter(waits).collect();
     expected.sort_by_key(|row| (row.changed_us, std::cmp::Reverse(row.id.clone())));
     let expected: Vec<String> = expected.into_iter().map(|row| row.id.clone()).collect();
     assert_eq!(expected.len(), 80);
     for limit in [1, 30, 200] {
-        let load = async |from: &Cursor, limit| store.waiting_submissions(from, limit).await;
-        let place = |row: &SubmissionRow| Cursor::behind(-row.changed_us, &row.id);
+        let load = async |from: &Cursor, limit| store.waiting_plugins(from, limit).await;
+        let place = |row: &PluginRow| Cursor::behind(-row.changed_us, &row.id);
         assert_eq!(walked(limit, load, place).await, expected, "{limit} at a time");
     }
 
     let published = store.published_by("1").await.unwrap();
     assert!(published.len() == 80 && published.iter().all(|row| row.account == "1" && row.state.is_shown()));
     assert!(published.is_sorted_by_key(|row| std::cmp::Reverse((row.created_us, row.id.clone()))));
-    let twins = async |row: &SubmissionRow| store.twins(&row.blob, &row.account).await.unwrap();
+    let twins = async |row: &PluginRow| store.twins(&row.blob, &row.account).await.unwrap();
     assert_eq!((twins(&all[0]).await, twins(&all[1]).await, twins(all.last().unwrap()).await), (1, 0, 1));
 }

@@ -73,15 +73,22 @@ pub async fn mails_wait_for_those_who_want_them(store: Store) {
         notice: Some(["about d".into(), "text".into(), "/runs".into()]),
         wanted: true,
         created_us: 30,
+        due_us: 30,
         tries: 0,
     };
     assert_eq!(due, expected);
+    // Of two services one tries it; it is due again when that did not end in time, or closed.
+    assert!(store.hold_mail(&due.id, 30, 45).await.unwrap());
+    assert!(!store.hold_mail(&due.id, 30, 45).await.unwrap());
+    assert_eq!(store.due_mail(50).await.unwrap().unwrap().created_us, 40);
+    assert!(store.hold_mail(&due.id, 45, 30).await.unwrap());
+    assert_eq!(store.due_mail(50).await.unwrap(), Some(expected.clone()));
     store.postpone_mail(&due.id, 60).await.unwrap();
     let second = store.due_mail(50).await.unwrap().unwrap();
     assert_eq!(second.created_us, 40);
     store.forget_mail(&second.id).await.unwrap();
     assert_eq!(store.due_mail(50).await.unwrap(), None);
-    assert_eq!(store.due_mail(60).await.unwrap(), Some(WaitingMail { tries: 1, ..expected.clone() }));
+    assert_eq!(store.due_mail(60).await.unwrap(), Some(WaitingMail { due_us: 60, tries: 1, ..expected.clone() }));
     // Choosing otherwise is heard in time; a notice that goes takes its mail along.
     let none = NewChoices { mail_notices: Some(false), ..NewChoices::default() };
     store.choose("1", &none).await.unwrap();

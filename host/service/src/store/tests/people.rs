@@ -5,7 +5,7 @@ use super::rows::*;
 use super::{add, fresh_stages, object, run};
 use crate::model::{AccountInfo, Cursor, InvitationInfo, InvitationState, Role, Scope, TokenInfo};
 
-pub(super) fn account(id: &str, name: &str) -> AccountInfo {
+pub(crate) fn account(id: &str, name: &str) -> AccountInfo {
     AccountInfo {
         id: id.into(),
         name: name.into(),
@@ -20,7 +20,7 @@ fn key(id: &str, expires_us: i64) -> TokenInfo {
     TokenInfo { id: id.into(), name: "n".into(), scopes: vec![Scope::Plugins], created_us: 1, expires_us }
 }
 
-pub(super) const NOTE: Note<'static> = Note { actor: "ada", action: "did", subject: "x", detail: "" };
+pub(crate) const NOTE: Note<'static> = Note { actor: "ada", action: "did", subject: "x", detail: "" };
 
 pub async fn accounts_have_one_name_and_keys_of_their_own(store: Store) {
     let (ada, later) = (account("1", "Ada"), now_us() + 1_000_000_000);

@@ -28,7 +28,7 @@ pub async fn a_suites_runs_are_apart_from_those_of_people(store: Store) {
     add(&store, RunRow { visibility: crate::model::Visibility::Public, ..run("public", None, 1, 4) }).await;
     use crate::model::State;
     for (id, end) in [("done", State::Done), ("failed", State::Failed), ("public", State::Done)] {
-        assert!(store.end_run(id, State::Queued, end, None).await.unwrap());
+        assert!(store.end_waiting_run(id, end, None).await.unwrap());
     }
     let ids = |rows: Vec<RunRow>| rows.into_iter().map(|row| row.id).collect::<Vec<_>>();
     assert_eq!(ids(store.suite_runs().await.unwrap()), ["waits", "done"]);

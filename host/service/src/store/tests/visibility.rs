@@ -2,15 +2,14 @@
 
 use super::super::*;
 use super::rows::*;
-use super::{add, object, run};
+use super::{add, begin, end, object, run};
 use crate::model::{Cursor, OwnedItem, State, Visibility};
 
 pub async fn only_what_is_public_is_in_the_lists_of_others(store: Store) {
     store.add_blob("m", 1, "x").await.unwrap();
     store.add_object(&object("o"), Some("me"), "m").await.unwrap();
     add(&store, run("r", Some("me"), 1, 1)).await;
-    store.claim().await.unwrap();
-    store.end_run("r", State::Running, State::Done, None).await.unwrap();
+    assert!(end(&store, &begin(&store, "m").await.unwrap(), State::Done, None).await);
     let listed = async |viewer: Option<&str>| {
         let objects = store.objects_for(viewer, &Cursor::start(), 9).await.unwrap().into_iter().map(|row| row.info.id);
         let runs = store.finished_runs(viewer, 9).await.unwrap().into_iter().map(|row| row.id);
@@ -53,7 +52,7 @@ pub async fn what_an_object_hid_stays_hidden_without_it(store: Store) {
             store.set_run_visibility(run, of_run).await.unwrap();
         }
         let objects = vec![OwnedItem { id: this, name: String::new() }];
-        let what = Belongings { objects, ..Belongings::default() };
+        let what = OwnedIds { objects, ..OwnedIds::default() };
         // Looking at what would go changes nothing.
         store.unused_without(&what).await.unwrap();
         assert_eq!(store.run(&with).await.unwrap().unwrap().visibility, of_run);

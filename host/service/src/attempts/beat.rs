@@ -1,0 +1,34 @@
+//! The beat that keeps the attempts of this process, and looks at those of others.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::lost;
+use crate::engine::Inner;
+
+/// How often leases are renewed: several beats may be late before a lease is over.
+const BEAT: Duration = Duration::from_secs(5);
+
+/// Renews the leases of this process and, while it keeps house, takes back attempts of workers that are gone; until the engine
+/// closes.
+pub async fn beat(inner: Arc<Inner>) {
+    while !inner.closing() {
+        tokio::select! {
+            () = tokio::time::sleep(BEAT) => {}
+            () = inner.holding.look.notified() => {}
+            () = inner.holding.closed.notified() => return,
+        }
+        for attempt in inner.holding.ids() {
+            match inner.store.beat(&attempt).await {
+                Ok(true) => {}
+                Ok(false) => inner.holding.stop(&attempt),
+                Err(e) => tracing::warn!("the lease of the attempt {attempt} was not renewed: {e}"),
+            }
+        }
+        if inner.house.is_here()
+            && let Err(e) = lost::take_back(&inner, None).await
+        {
+            tracing::error!("attempts of lost workers could not be taken back: {e}");
+        }
+    }
+}

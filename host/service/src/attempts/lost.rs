@@ -1,0 +1,102 @@
+//! Attempts whose worker is gone: their jobs wait again, or are given up.
+
+use std::sync::Arc;
+
+use super::worker::Worker;
+use super::{Attempt, Kind, MOST_LOST, sql};
+use crate::Result;
+use crate::engine::{Engine, Inner};
+use crate::model::State;
+use crate::plugins::checks;
+use crate::runs::events_sql::append_event;
+use crate::runs::log::plain_event;
+use crate::runs::sql::{find_run, state_name};
+use crate::store::{Store, now_us};
+
+/// Takes back attempts whose lease is over, and all of this machine if it has just started: its former process is dead then. What
+/// this process works on itself is never judged by a clock: a machine that slept goes on.
+pub async fn take_back(inner: &Arc<Inner>, just_started: Option<&Worker>) -> Result<()> {
+    let mut advice = just_started.is_some();
+    let mut checks = just_started.is_some();
+    for attempt in inner.store.silent_attempts(just_started).await? {
+        if inner.holding.has(&attempt) {
+            continue;
+        }
+        let Attempt { kind, job, number, .. } = &attempt;
+        let lost = match kind {
+            Kind::Measure => match inner.store.lose_run(&attempt, just_started).await? {
+                Some(state) => run_was_lost(inner, job, state).await.map(|()| true)?,
+                None => false,
+            },
+            Kind::Check => inner.store.lose_check(&attempt, just_started).await?,
+            Kind::Stability | Kind::Advise => inner.store.lose(&attempt, just_started).await?,
+        };
+        if lost {
+            tracing::warn!("the worker of attempt {number} at {job} ({}) is gone", kind.name());
+            advice |= *kind == Kind::Advise;
+            checks |= *kind == Kind::Check;
+            inner.wake.notify_one();
+        }
+    }
+    if checks {
+        checks::give_up(inner).await?;
+    }
+    if advice {
+        Engine { inner: inner.clone() }.take_up_advice().await?;
+    }
+    Ok(())
+}
+
+async fn run_was_lost(inner: &Arc<Inner>, run: &str, now: State) -> Result<()> {
+    inner.run_events.ring(run);
+    inner.run_events.queue_moved();
+    if now == State::Queued { Ok(()) } else { inner.run_of_campaign_ended(run).await }
+}
+
+impl Store {
+    /// The run of a lost attempt waits again, or has failed after so many; nothing when the attempt was not lost.
+    pub async fn lose_run(&self, attempt: &Attempt, just_started: Option<&Worker>) -> Result<Option<State>> {
+        let mut transaction = self.pool.begin().await?;
+        if !sql::lose(&mut transaction, attempt, just_started).await? {
+            return Ok(None);
+        }
+        let Some(run) = find_run(&mut *transaction, &attempt.job).await?.filter(|run| run.state == State::Running)
+        else {
+            // It was ended or taken away meanwhile.
+            transaction.commit().await?;
+            return Ok(None);
+        };
+        let failed = i64::from(run.attempts) >= MOST_LOST;
+        let (state, message, finished_us) = if failed {
+            let message =
+                format!("The service ended {MOST_LOST} times in the middle of this run, so it is not tried again.");
+            (run.after(State::Failed), Some(message), Some(now_us()))
+        } else {
+            (State::Queued, None, None)
+        };
+        let text = "UPDATE runs SET state = $1, message = $2, finished_us = $3 WHERE id = $4";
+        let query = sqlx::query(text).bind(state_name(state)).bind(message).bind(finished_us).bind(&attempt.job);
+        query.execute(&mut *transaction).await?;
+        append_event(&mut transaction, &attempt.job, &mut plain_event(state, 0)).await?;
+        transaction.commit().await?;
+        Ok(Some(state))
+    }
+
+    /// The check of a lost attempt waits again; false when the attempt was not lost.
+    pub async fn lose_check(&self, attempt: &Attempt, just_started: Option<&Worker>) -> Result<bool> {
+        let mut transaction = self.pool.begin().await?;
+        if !sql::lose(&mut transaction, attempt, just_started).await? {
+            return Ok(false);
+        }
+        let text = "UPDATE submissions SET state = 'uploaded' WHERE id = $1 AND state = 'vetted'";
+        sqlx::query(text).bind(&attempt.job).execute(&mut *transaction).await?;
+        transaction.commit().await?;
+        Ok(true)
+    }
+
+    /// Ends a lost attempt at a job that waits by itself; false when it was not lost.
+    pub async fn lose(&self, attempt: &Attempt, just_started: Option<&Worker>) -> Result<bool> {
+        let mut connection = self.pool.acquire().await?;
+        sql::lose(&mut connection, attempt, just_started).await
+    }
+}
