@@ -7,7 +7,6 @@ use object_store::local::LocalFileSystem;
 use object_store::path::Path as Key;
 use object_store::{ObjectStore, ObjectStoreExt, PutMode, PutOptions, PutPayload};
 use ocb_lab::sha256_hex;
-use tokio::sync::{OwnedRwLockReadGuard, OwnedRwLockWriteGuard, RwLock};
 
 use crate::{EngineError, Result};
 
@@ -15,12 +14,11 @@ use crate::{EngineError, Result};
 #[derive(Clone)]
 pub struct Blobs {
     store: Arc<dyn ObjectStore>,
-    /// Held shared from storing a file until a row names it, and alone while files go that no row names.
-    turns: Arc<RwLock<()>>,
 }
 
 impl Blobs {
-    /// `s3://bucket/prefix?endpoint=http://host:port` with credentials from `AWS_*`; without a URL the data folder.
+    /// `s3://bucket/prefix?endpoint=http://host:port`, with keys in front of the bucket or from `AWS_*`; without a URL the data
+    /// folder.
     pub fn open(data: &Path, url: Option<&str>) -> Result<Self> {
         let store: Arc<dyn ObjectStore> = match url {
             None => Arc::new(
@@ -31,7 +29,7 @@ impl Blobs {
             ),
             Some(url) => s3(url)?,
         };
-        Ok(Self { store, turns: Arc::default() })
+        Ok(Self { store })
     }
 
     /// Keeps the bytes and gives their SHA-256. The same bytes are kept once.
@@ -43,16 +41,6 @@ impl Blobs {
             Ok(_) | Err(object_store::Error::AlreadyExists { .. }) => Ok(sha256),
             Err(e) => Err(fault("Storing a blob failed", e)),
         }
-    }
-
-    /// To be held until a row names what is put meanwhile.
-    pub async fn keeping(&self) -> OwnedRwLockReadGuard<()> {
-        self.turns.clone().read_owned().await
-    }
-
-    /// To be held while files are removed that no row names.
-    pub async fn removing(&self) -> OwnedRwLockWriteGuard<()> {
-        self.turns.clone().write_owned().await
     }
 
     /// Removes a blob; one that is gone already is gone.
@@ -92,18 +80,22 @@ fn s3(_: &str) -> Result<Arc<dyn ObjectStore>> {
 fn s3(url: &str) -> Result<Arc<dyn ObjectStore>> {
     use object_store::aws::AmazonS3Builder;
     use object_store::prefix::PrefixStore;
-    let bad = || {
-        EngineError::Invalid(format!(
-            "The blob storage {url:?} is not a valid address; write s3://bucket/prefix?endpoint=http://host:port."
-        ))
-    };
+    // Not quoted: it may hold a secret key.
+    let form = "s3://[key:secret@]bucket/prefix?endpoint=http://host:port";
+    let bad = || EngineError::Invalid(format!("The address of the blob storage is not valid; write {form}."));
     let rest = url.strip_prefix("s3://").ok_or_else(bad)?;
     let (place, query) = rest.split_once('?').unwrap_or((rest, ""));
+    let (keys, place) = place.rsplit_once('@').map_or((None, place), |(keys, place)| (Some(keys), place));
     let (bucket, prefix) = place.split_once('/').unwrap_or((place, ""));
     if bucket.is_empty() {
         return Err(bad());
     }
     let mut builder = AmazonS3Builder::from_env().with_bucket_name(bucket);
+    if let Some(keys) = keys {
+        let plain = |text| percent_encoding::percent_decode_str(text).decode_utf8().map_err(|_| bad());
+        let (key, secret) = keys.split_once(':').ok_or_else(bad)?;
+        builder = builder.with_access_key_id(plain(key)?).with_secret_access_key(plain(secret)?);
+    }
     for pair in query.split('&').filter(|pair| !pair.is_empty()) {
         builder = match pair.split_once('=') {
             // A server of one's own (SeaweedFS, Ceph, a test server) is often reached without TLS, inside one machine.

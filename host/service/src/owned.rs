@@ -9,7 +9,7 @@ use std::time::Duration;
 use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::model::{OwnedItems, Owner, State};
-use crate::owned::sql::Belongings;
+use crate::owned::sql::OwnedIds;
 use crate::store::now_us;
 use crate::{EngineError, Result};
 
@@ -21,7 +21,7 @@ impl Engine {
     /// Everything that this owner has, which is what `delete_all` takes away.
     #[boxed]
     pub async fn owned_items(&self, owner: &str) -> Result<OwnedItems> {
-        let all = self.inner.store.belongings(owner, None).await?;
+        let all = self.inner.store.owned_ids(owner, None).await?;
         self.inner.told(owner, all).await
     }
 
@@ -42,7 +42,7 @@ impl Engine {
     /// Takes away everything that this owner has, and tells what it was. Plugins stay: results belong to them.
     #[boxed]
     pub async fn delete_all(&self, owner: &str) -> Result<OwnedItems> {
-        let all = self.inner.store.belongings(owner, None).await?;
+        let all = self.inner.store.owned_ids(owner, None).await?;
         self.remove(owner, all).await
     }
 
@@ -67,7 +67,7 @@ impl Engine {
         self.owned_items(owner).await
     }
 
-    pub(crate) async fn remove(&self, owner: &str, what: Belongings) -> Result<OwnedItems> {
+    pub(crate) async fn remove(&self, owner: &str, what: OwnedIds) -> Result<OwnedItems> {
         self.end_all(owner, &what).await?;
         let told = self.inner.told(owner, what.clone()).await?;
         self.inner.take_away(&what).await?;
@@ -75,7 +75,7 @@ impl Engine {
     }
 
     /// Ends what waits or is at work of these, which are the owner's.
-    pub(crate) async fn end_all(&self, owner: &str, what: &Belongings) -> Result<()> {
+    pub(crate) async fn end_all(&self, owner: &str, what: &OwnedIds) -> Result<()> {
         for run in &what.runs {
             let now = self.cancel(&run.id, Some(owner)).await?;
             if matches!(now.state, State::Queued | State::Running) {
@@ -91,9 +91,9 @@ impl Engine {
         Ok(())
     }
 
-    /// Takes away what guests have left behind, now and every hour.
+    /// Takes away what guests have left behind every hour, while this service keeps house.
     pub(crate) async fn sweep(self) {
-        while !self.inner.closing() {
+        while self.inner.house.here().await {
             if let Err(e) = self.forget_requests().await {
                 tracing::error!("keys of old requests could not be deleted: {e}");
             }
@@ -102,7 +102,7 @@ impl Engine {
             }
             tokio::select! {
                 () = tokio::time::sleep(LOOK) => {}
-                () = self.inner.closed.notified() => {}
+                () = self.inner.house.gone() => {}
             }
         }
     }
@@ -129,24 +129,24 @@ impl Engine {
 }
 
 impl Inner {
-    async fn own_run(&self, id: &str, owner: &str) -> Result<Belongings> {
+    async fn own_run(&self, id: &str, owner: &str) -> Result<OwnedIds> {
         let row = self.run_row(id).await?;
         if row.owner.as_deref() != Some(owner) {
             return Err(EngineError::Forbidden("Only the owner of this run may delete it.".to_owned()));
         }
-        let all = self.store.belongings(owner, None).await?;
+        let all = self.store.owned_ids(owner, None).await?;
         let runs = all.runs.into_iter().filter(|run| run.id == id).collect();
-        Ok(Belongings { runs, ..Belongings::default() })
+        Ok(OwnedIds { runs, ..OwnedIds::default() })
     }
 
-    async fn own_object(&self, id: &str, owner: &str) -> Result<Belongings> {
+    async fn own_object(&self, id: &str, owner: &str) -> Result<OwnedIds> {
         if !self.objects.info_for(id, Some(owner)).await?.mine {
             return Err(EngineError::Forbidden("Only the owner of this object may delete it.".to_owned()));
         }
-        self.store.belongings(owner, Some(id)).await
+        self.store.owned_ids(owner, Some(id)).await
     }
 
-    pub(crate) async fn told(&self, owner: &str, what: Belongings) -> Result<OwnedItems> {
+    pub(crate) async fn told(&self, owner: &str, what: OwnedIds) -> Result<OwnedItems> {
         let bytes = self.store.unused_without(&what).await?.iter().map(|file| file.bytes).sum();
         let kept_until_us = self.kept_until(owner).await?;
         Ok(OwnedItems {
@@ -171,9 +171,9 @@ impl Inner {
     }
 
     /// The rows first, then the files: what the database speaks of is always there.
-    async fn take_away(&self, what: &Belongings) -> Result<()> {
+    async fn take_away(&self, what: &OwnedIds) -> Result<()> {
         // Nobody stores a file meanwhile that is about to go.
-        let _alone = self.blobs.removing().await;
+        let _alone = self.store.locks.removing().await?;
         for file in self.store.take_away(what).await? {
             self.blobs.remove(&file.sha256).await?;
         }

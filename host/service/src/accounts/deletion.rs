@@ -7,8 +7,8 @@ use crate::audit::Note;
 use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::model::{AccountInfo, DeletionPreview, OwnedCounts, Role, State, Visibility};
-use crate::owned::sql::Belongings;
-use crate::plugins::registry::brought::forget_file;
+use crate::owned::sql::OwnedIds;
+use crate::plugins::registry::submitted::forget_file;
 use crate::{EngineError, Result};
 
 impl Engine {
@@ -53,7 +53,7 @@ impl Engine {
         }
         let told = inner.preview_of(account, &goes, &stays).await?;
         // Nobody stores a file meanwhile that is about to go.
-        let alone = inner.blobs.removing().await;
+        let alone = inner.store.locks.removing().await?;
         let note = Note { actor, action: "account deleted", subject: &owner, detail: "" };
         let Some(unused) = inner.store.delete_account(account, &goes, &stays, note).await? else {
             let gone = || "This account has just been deleted.".to_owned();
@@ -75,16 +75,16 @@ impl Engine {
 impl Inner {
     /// What goes with an account, and what stays: runs that have ended and objects, when everybody finds them; plugins that are
     /// public or were.
-    async fn parted(&self, account: &AccountInfo) -> Result<(Belongings, Belongings)> {
-        let all = self.store.belongings(&account.owner(), None).await?;
+    async fn parted(&self, account: &AccountInfo) -> Result<(OwnedIds, OwnedIds)> {
+        let all = self.store.owned_ids(&account.owner(), None).await?;
         let (mut goes, mut stays) = (
-            Belongings {
+            OwnedIds {
                 advice: all.advice,
                 configurations: all.configurations,
                 stability: all.stability,
-                ..Belongings::default()
+                ..OwnedIds::default()
             },
-            Belongings::default(),
+            OwnedIds::default(),
         );
         for run in all.runs {
             let row = self.run_row(&run.id).await?;
@@ -98,19 +98,14 @@ impl Inner {
             let side = if public { &mut stays } else { &mut goes };
             side.objects.push(object);
         }
-        for row in self.store.submissions().await?.into_iter().filter(|row| row.account == account.id) {
+        for row in self.store.plugins().await?.into_iter().filter(|row| row.account == account.id) {
             let side = if row.state.is_shown() { &mut stays } else { &mut goes };
             side.plugins.push(row.id);
         }
         Ok((goes, stays))
     }
 
-    async fn preview_of(
-        &self,
-        account: &AccountInfo,
-        goes: &Belongings,
-        stays: &Belongings,
-    ) -> Result<DeletionPreview> {
+    async fn preview_of(&self, account: &AccountInfo, goes: &OwnedIds, stays: &OwnedIds) -> Result<DeletionPreview> {
         let bytes = self.store.unused_without(goes).await?.iter().map(|file| file.bytes).sum();
         let blocked_by = self.blocked_by(account).await?;
         Ok(DeletionPreview { goes: counted(goes), stays: counted(stays), bytes, blocked_by })
@@ -134,7 +129,7 @@ impl Inner {
     }
 }
 
-fn counted(what: &Belongings) -> OwnedCounts {
+fn counted(what: &OwnedIds) -> OwnedCounts {
     OwnedCounts {
         runs: what.runs.len() as u32,
         objects: what.objects.len() as u32,

@@ -48,11 +48,19 @@ async fn a_folder_keeps_the_contract() {
 async fn an_s3_server_keeps_the_contract() {
     let url = from_harness("OCB_TEST_S3");
     contract(Blobs::open(Path::new("/nonexistent"), Some(&url)).unwrap()).await;
+    // Keys in the address are used instead of those of the environment, which sign requests visibly.
+    let keyed = url.replacen("s3://", "s3://another%2Bkey:s3cret@", 1);
+    let store = format!("{:?}", Blobs::open(Path::new("/nonexistent"), Some(&keyed)).unwrap().store);
+    assert!(store.contains("another+key") && !store.contains("s3cret"), "{store}");
+    contract(Blobs::open(Path::new("/nonexistent"), Some(&keyed)).unwrap()).await;
 }
 
 #[test]
 fn a_url_that_is_none_is_refused() {
-    for url in ["http://host/bucket", "s3://", "s3://b?endpont=x"] {
-        assert!(matches!(Blobs::open(Path::new("/nonexistent"), Some(url)), Err(EngineError::Invalid(_))), "{url}");
+    for url in ["http://host/bucket", "s3://", "s3://b?endpont=x", "s3://key:s3cret@", "s3://s3cret@b"] {
+        match Blobs::open(Path::new("/nonexistent"), Some(url)) {
+            Err(EngineError::Invalid(reason)) => assert!(!reason.contains("s3cret"), "{reason}"),
+            other => panic!("{url}: {:?}", other.map(drop)),
+        }
     }
 }

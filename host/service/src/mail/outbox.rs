@@ -1,5 +1,5 @@
-//! Mails on their way: each waits in the database until the mail server says that it has it, or a day is over. One task brings
-//! them, one after the other, in the background. A restart loses no mail. The text is written when the mail is sent, so
+//! Mails on their way: each waits in the database until the mail server says that it has it, or a day is over. The service that
+//! keeps house brings them, one after the other, in the background. While it tries one, no other service takes that. A restart loses no mail. The text is written when the mail is sent, so
 //! that an account that has turned mails off receives none that were waiting.
 
 use std::sync::Arc;
@@ -13,17 +13,17 @@ use crate::runs::draw;
 use crate::sha256_hex;
 use crate::store::now_us;
 
-/// The waiting mails are looked at this often even if nobody rings.
+/// The waiting mails are looked at this often even if nothing rings.
 const IDLE: Duration = Duration::from_secs(600);
 /// After a fault of the database.
 const BACK_OFF: Duration = Duration::from_secs(10);
 
 impl Inner {
-    /// Brings mails to the server until the engine closes; without a server, nothing.
+    /// Brings mails to the server while this service keeps house, until the engine closes; without a server, nothing.
     pub(crate) async fn post(self: Arc<Self>) {
         let Some(server) = self.config.mail.clone() else { return };
         tracing::info!("mails are sent through {}", server.named());
-        while !self.closing() {
+        while self.house.here().await {
             let wait = match self.post_due(&server).await {
                 Ok(wait) => wait.min(IDLE),
                 Err(e) => {
@@ -31,24 +31,36 @@ impl Inner {
                     BACK_OFF
                 }
             };
-            if !self.closing() {
-                let _ = tokio::time::timeout(wait, self.posting.notified()).await;
+            tokio::select! {
+                () = tokio::time::sleep(wait) => {}
+                () = self.posting.notified() => {}
+                () = self.house.gone() => {}
             }
         }
     }
 
     /// Brings what is due, and gives how long the next one waits.
     async fn post_due(&self, server: &MailServer) -> Result<Duration> {
-        while let Some(mail) = self.store.due_mail(now_us()).await? {
+        while self.house.is_here()
+            && let Some(mail) = self.store.due_mail(now_us()).await?
+        {
             if !mail.wanted {
                 self.store.forget_mail(&mail.id).await?;
+                continue;
+            }
+            // After that it is tried again, should this service end meanwhile.
+            let over = now_us() + 2 * server.pace.delivery.as_micros() as i64;
+            if !self.store.hold_mail(&mail.id, mail.due_us, over).await? {
                 continue;
             }
             let letter = self.letter(server, &mail).await?;
             let brought = tokio::select! {
                 brought = bring(server, &letter, &mail.id) => brought,
                 // It waits for the next start, and the server may have it already: then it gets it twice, under one id.
-                () = self.asked_to_close() => return Ok(Duration::ZERO),
+                () = self.house.closing() => {
+                    self.store.hold_mail(&mail.id, over, mail.due_us).await?;
+                    return Ok(Duration::ZERO);
+                }
             };
             match brought {
                 Ok(()) => self.store.forget_mail(&mail.id).await?,
@@ -57,12 +69,6 @@ impl Inner {
         }
         let next = self.store.next_mail_us().await?;
         Ok(next.map_or(IDLE, |next| Duration::from_micros((next - now_us()).max(0) as u64)))
-    }
-
-    async fn asked_to_close(&self) {
-        while !self.closing() {
-            self.posting.notified().await;
-        }
     }
 
     /// The secret of a link is drawn when it is sent, so that no row ever holds it.

@@ -23,6 +23,8 @@ pub struct WaitingMail {
     pub wanted: bool,
     /// Since when it waits.
     pub created_us: i64,
+    /// When it is to be tried.
+    pub due_us: i64,
     /// How often it was tried.
     pub tries: u32,
 }
@@ -57,6 +59,7 @@ fn waiting(row: &AnyRow) -> Result<WaitingMail> {
         address,
         notice,
         created_us: row.try_get("created_us")?,
+        due_us: row.try_get("due_us")?,
         tries: row.try_get::<i64, _>("tries")? as u32,
     })
 }
@@ -65,7 +68,7 @@ impl Store {
     /// The mail that is due longest by this moment.
     pub async fn due_mail(&self, now_us: i64) -> Result<Option<WaitingMail>> {
         let row = sqlx::query(
-            "SELECT m.id, m.account, m.address, m.created_us, m.tries, a.name, a.address AS address_now, a.confirmed_us, \
+            "SELECT m.id, m.account, m.address, m.created_us, m.due_us, m.tries, a.name, a.address AS address_now, a.confirmed_us, \
              a.mail_notices, n.subject, n.text, n.link FROM mails m JOIN accounts a ON a.id = m.account \
              LEFT JOIN notices n ON n.id = m.notice WHERE m.due_us <= $1 ORDER BY m.due_us, m.id LIMIT 1",
         )
@@ -73,6 +76,13 @@ impl Store {
         .fetch_optional(&self.pool)
         .await?;
         row.as_ref().map(waiting).transpose()
+    }
+
+    /// Nobody else tries the mail until then; false when somebody tries it already.
+    pub async fn hold_mail(&self, id: &str, due_us: i64, until_us: i64) -> Result<bool> {
+        let text = "UPDATE mails SET due_us = $1 WHERE id = $2 AND due_us = $3";
+        let done = sqlx::query(text).bind(until_us).bind(id).bind(due_us).execute(&self.pool).await?;
+        Ok(done.rows_affected() == 1)
     }
 
     /// When the next mail is due.

@@ -38,7 +38,7 @@ impl Engine {
 
     async fn packed(&self, owner: &str, contents: Contents) -> Result<File> {
         let mut packer = Packer::new(&self.inner.config.data)?;
-        let all = self.inner.store.belongings(owner, None).await?;
+        let all = self.inner.store.owned_ids(owner, None).await?;
         packer.json("items.json", &self.owned_items(owner).await?)?;
         for object in &all.objects {
             let folder = format!("objects/{}", object.id);
@@ -124,7 +124,7 @@ impl Engine {
 
     /// Its plugins with their manifests and reports.
     async fn pack_plugins(&self, packer: &mut Packer, account: &AccountInfo) -> Result<()> {
-        for row in self.inner.store.submissions().await?.iter().filter(|row| row.account == account.id) {
+        for row in self.inner.store.plugins().await?.iter().filter(|row| row.account == account.id) {
             let folder = format!("plugins/{}", row.id);
             packer.json(&format!("{folder}/plugin.json"), &self.plugin(&row.id, Some(account)).await?)?;
             packer.add(&format!("{folder}/{}", plain(&row.file)), &self.inner.blobs.get(&row.blob).await?)?;

@@ -5,12 +5,13 @@ use sqlx::AnyConnection;
 
 use crate::Result;
 use crate::advice::sql::StoredPaper;
+use crate::attempts::sql::forget as forget_attempts;
 use crate::model::{OwnedItem, RunSpec};
 use crate::store::{Store, from_json, now_us};
 
 /// Runs, objects, saved configurations, advice and plugins of one owner.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Belongings {
+pub struct OwnedIds {
     /// Newest first.
     pub runs: Vec<OwnedItem>,
     /// Newest first.
@@ -36,7 +37,7 @@ pub struct Unused {
 
 impl Store {
     /// Everything but plugins that this owner has; with an object, only that and what was made with it.
-    pub async fn belongings(&self, owner: &str, object: Option<&str>) -> Result<Belongings> {
+    pub async fn owned_ids(&self, owner: &str, object: Option<&str>) -> Result<OwnedIds> {
         // Ids stand in requests as JSON texts, and hold nothing that LIKE would read otherwise.
         let named = object.map_or_else(|| "%".to_owned(), |id| format!("%\"{id}\"%"));
         let runs: Vec<(String, String, String)> = sqlx::query_as(
@@ -74,7 +75,7 @@ impl Store {
         let object = |(id, info): (String, String)| {
             Ok(OwnedItem { id, name: from_json::<crate::model::ObjectInfo>(&info)?.name })
         };
-        Ok(Belongings {
+        Ok(OwnedIds {
             runs: runs.into_iter().map(run).collect(),
             objects: objects.into_iter().map(object).collect::<Result<_>>()?,
             advice,
@@ -85,7 +86,7 @@ impl Store {
     }
 
     /// Takes these away and tells which files nobody uses any more.
-    pub async fn take_away(&self, what: &Belongings) -> Result<Vec<Unused>> {
+    pub async fn take_away(&self, what: &OwnedIds) -> Result<Vec<Unused>> {
         let mut transaction = self.pool.begin().await?;
         let unused = take(&mut transaction, what).await?;
         transaction.commit().await?;
@@ -127,11 +128,12 @@ impl Store {
 }
 
 /// Takes these away within a transaction and tells which files nobody uses any more.
-pub(crate) async fn take(connection: &mut AnyConnection, what: &Belongings) -> Result<Vec<Unused>> {
+pub(crate) async fn take(connection: &mut AnyConnection, what: &OwnedIds) -> Result<Vec<Unused>> {
     // Every statement writes, also the first: a transaction that has read cannot write any more on SQLite when somebody
     // else has written since.
     let mut files = Vec::new();
     for OwnedItem { id, .. } in &what.runs {
+        forget_attempts(&mut *connection, id).await?;
         for text in ["DELETE FROM run_events WHERE run_id = $1", "DELETE FROM run_stages WHERE run_id = $1"] {
             sqlx::query(text).bind(id).execute(&mut *connection).await?;
         }
@@ -150,6 +152,7 @@ pub(crate) async fn take(connection: &mut AnyConnection, what: &Belongings) -> R
         files.extend(column(&mut *connection, "DELETE FROM objects WHERE id = $1 RETURNING blob", id).await?);
     }
     for id in &what.advice {
+        forget_attempts(&mut *connection, id).await?;
         for papers in column(&mut *connection, "DELETE FROM advice WHERE id = $1 RETURNING papers", id).await? {
             let papers: [Vec<StoredPaper>; 2] = from_json(&papers)?;
             files.extend(papers.into_iter().flatten().flat_map(|paper| [paper.mesh, paper.certificate]));
@@ -161,6 +164,7 @@ pub(crate) async fn take(connection: &mut AnyConnection, what: &Belongings) -> R
         );
     }
     for id in &what.stability {
+        forget_attempts(&mut *connection, id).await?;
         sqlx::query("DELETE FROM stability_runs WHERE id = $1").bind(id).execute(&mut *connection).await?;
     }
     for id in &what.plugins {
@@ -172,6 +176,7 @@ pub(crate) async fn take(connection: &mut AnyConnection, what: &Belongings) -> R
             continue;
         }
         files.extend(blobs);
+        forget_attempts(&mut *connection, id).await?;
         for text in ["DELETE FROM submission_lines WHERE submission = $1", "DELETE FROM submissions WHERE id = $1"] {
             sqlx::query(text).bind(id).execute(&mut *connection).await?;
         }

@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashSet};
 
 use crate::Result;
 use crate::advice::sql::StoredPaper;
-use crate::owned::sql::{Belongings, Unused, named_file};
+use crate::owned::sql::{OwnedIds, Unused, named_file};
 use crate::store::{Store, from_json};
 
 /// Plugins that stay whatever goes.
@@ -13,7 +13,7 @@ const GOING_PLUGIN: &str = "SELECT blob FROM submissions WHERE id = $1 \
 
 impl Store {
     /// The files that nobody would use any more without these.
-    pub async fn unused_without(&self, what: &Belongings) -> Result<Vec<Unused>> {
+    pub async fn unused_without(&self, what: &OwnedIds) -> Result<Vec<Unused>> {
         let mut going: HashSet<&str> = what.advice.iter().map(String::as_str).collect();
         going.extend(what.runs.iter().chain(&what.objects).chain(&what.configurations).map(|thing| thing.id.as_str()));
         let mut files = BTreeSet::new();

@@ -4,7 +4,7 @@ use crate::Result;
 use crate::audit::Note;
 use crate::audit::{A_FORMER_ACCOUNT, append};
 use crate::model::{AccountInfo, Role};
-use crate::owned::sql::Belongings;
+use crate::owned::sql::OwnedIds;
 use crate::owned::sql::{Unused, take};
 use crate::store::{Store, now_us};
 
@@ -14,8 +14,8 @@ impl Store {
     pub async fn delete_account(
         &self,
         account: &AccountInfo,
-        goes: &Belongings,
-        stays: &Belongings,
+        goes: &OwnedIds,
+        stays: &OwnedIds,
         note: Note<'_>,
     ) -> Result<Option<Vec<Unused>>> {
         let (id, owner, now) = (account.id.as_str(), account.owner(), now_us());
