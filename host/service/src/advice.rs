@@ -1,31 +1,32 @@
 //! Asking for advice, looking at it, taking it away.
 
+pub mod jailed;
+mod shelf;
 pub mod sql;
 pub mod work;
 
 use std::sync::Arc;
 
-use ocb_advisor::{Paper, Shelf};
+use ocb_advice::Paper;
 use ocb_core::mesh::{Mesh, obj};
 
+use crate::advice::jailed::{Advisor, SHELF};
 use crate::advice::sql::{AdviceRow, StoredPaper};
-use crate::advice::work::{Found, Job};
+use crate::advice::work::{Found, Job, extent};
+use crate::attempts::{Attempt, MOST_LOST, superseded};
 use crate::boxed;
 use crate::engine::{Engine, Inner};
+use crate::locks::Lock;
 use crate::model::{AdviceInfo, AdviceSpec, Asked, Side, State};
 use crate::quotas::{Visitor, turn};
 use crate::requests::Made;
 use crate::{EngineError, Result};
 
-/// Where certificates are kept below the data folder.
-const SHELF: &str = "certificates";
 /// So many requests of one account, or of the guests of one address, may wait or be at work, and so many in all.
 const MOST_OPEN: usize = 3;
 const MOST_IN_ALL: usize = 200;
 /// When to ask again: advice takes minutes.
 const RETRY_SECONDS: u32 = 120;
-/// A request whose work was begun this often is not tried again: it may be what ends the service.
-const MAX_ATTEMPTS: i64 = 3;
 
 impl Engine {
     /// Asks how much of two objects a question needs; the work begins when its turn comes. True when it is new: the same asked
@@ -49,7 +50,9 @@ impl Engine {
             return Ok((self.advice(&id).await?, false));
         }
         let turn = turn(owner, visitor.address.as_deref());
-        let [all, own] = inner.advices.count(&turn);
+        // Two concurrent requests must not share the last of a quota.
+        let _alone = inner.store.locks.alone(Lock::Admission).await?;
+        let [all, own] = inner.store.count_open_advice(&turn).await?;
         if own >= MOST_OPEN || all >= MOST_IN_ALL {
             let whose = if own >= MOST_OPEN { format!("{own} of your requests") } else { format!("{all} requests") };
             let message = format!("{whose} for advice are queued or running; try again when one of them has ended.");
@@ -59,25 +62,27 @@ impl Engine {
         let info =
             AdviceInfo { id, spec, names, state: State::Queued, step, done: 0, total: 0, message: None, advice: None };
         // Two that come at once under one key: the first stands.
-        if !inner.store.add_advice(&info, owner).await? {
+        let Some(attempt) = inner.store.add_advice(&info, owner, &turn, &inner.worker).await? else {
             return Ok((self.advice(&info.id).await?, false));
-        }
-        inner.clone().begin_advice(inner.advices.add(info.clone(), turn));
+        };
+        inner.clone().begin_advice(attempt, inner.advices.add(info.clone()));
         inner.call();
         Ok((info, true))
     }
 
     /// Begins again what an ended process left behind.
-    pub(crate) async fn recover_advice(&self) -> Result<()> {
-        for AdviceRow { mut info, attempts, owner, .. } in self.inner.store.open_advice().await? {
-            if attempts >= MAX_ATTEMPTS {
+    pub(crate) async fn take_up_advice(&self) -> Result<()> {
+        let inner = &self.inner;
+        for AdviceRow { mut info, attempts, .. } in inner.store.open_advice().await? {
+            let Some(attempt) = inner.store.take_up(&info.id, &inner.worker).await? else { continue };
+            if attempts >= MOST_LOST {
                 info.state = State::Failed;
                 info.message =
                     Some(format!("The service ended {attempts} times during this work, so it is not tried again."));
-                self.inner.store.end_advice(&info, &Default::default()).await?;
+                inner.store.end_advice(&attempt, &info, &Default::default()).await?;
                 continue;
             }
-            self.inner.clone().begin_advice(self.inner.advices.add(info, owner.unwrap_or_default()));
+            inner.clone().begin_advice(attempt, inner.advices.add(info));
         }
         Ok(())
     }
@@ -98,9 +103,14 @@ impl Engine {
         if row.owner.as_deref() != caller {
             return Err(EngineError::Forbidden("Only the owner of the advice may cancel it.".to_owned()));
         }
-        let Some(job) = self.inner.advices.find(id) else { return Ok(row.info) };
-        job.stop();
-        Ok(job.info())
+        if let Some(job) = self.inner.advices.find(id) {
+            job.stop();
+            return Ok(job.info());
+        }
+        // Another service may work on it.
+        let ended = AdviceInfo { state: State::Cancelled, ..row.info };
+        self.inner.store.withdraw_advice(&ended, &self.inner.worker).await?;
+        Ok(self.inner.advice_row(id).await?.info)
     }
 
     /// A reduced object as OBJ, and the name of its file; `stage` counts from the coarsest.
@@ -136,43 +146,51 @@ impl Inner {
         row.papers[side as usize].get(stage).cloned().ok_or_else(none)
     }
 
-    fn begin_advice(self: Arc<Self>, job: Arc<Job>) {
+    fn begin_advice(self: Arc<Self>, attempt: Attempt, job: Arc<Job>) {
         let inner = self.clone();
         self.spawn(async move {
-            let id = job.info().id;
-            let found = inner.work_on_advice(&job).await;
+            let id = attempt.job.as_str();
+            let lost = job.clone();
+            let _held = inner.holding.hold(&attempt, move || lost.stop());
+            let found = inner.work_on_advice(&attempt, &job).await;
             // What closing interrupted stays open, and is begun again.
-            if !inner.closing()
-                && let Err(e) = inner.end_advice(job.info(), found).await
-            {
+            let ended = match inner.closing() {
+                true => inner.store.put_back_advice(&attempt).await,
+                false => inner.end_advice(&attempt, job.info(), found).await,
+            };
+            if let Err(e) = ended {
                 tracing::error!("advice {id}: {e}");
             }
-            inner.advices.remove(&id);
+            inner.advices.remove(id);
             // Idle work waits for it.
             inner.wake.notify_one();
         });
     }
 
-    async fn work_on_advice(&self, job: &Arc<Job>) -> Result<Option<Found>> {
+    async fn work_on_advice(&self, attempt: &Attempt, job: &Arc<Job>) -> Result<Option<Found>> {
         let _turn = tokio::select! {
             Ok(turn) = self.advices.turn.acquire() => turn,
             () = job.ended() => return Ok(None),
         };
-        let AdviceInfo { id, spec, names, .. } = job.info();
-        self.store.begin_advice(&id).await?;
+        let AdviceInfo { spec, names, .. } = job.info();
+        if !self.store.begin_advice(attempt).await? {
+            return Err(superseded());
+        }
         let a = self.objects.mesh(&spec.object_a).await?;
         let b = match &spec.object_b {
             Some(b) if *b != spec.object_a => self.objects.mesh(b).await?,
             _ => a.clone(),
         };
-        let (job, shelf) = (job.clone(), Shelf::folder(&self.config.data.join(SHELF)));
-        let work = tokio::task::spawn_blocking(move || job.work(&names, &[a, b], &shelf));
-        work.await.unwrap_or_else(|_| Err(EngineError::Fault("The advisor failed; see the log.".to_owned())))
+        let advisor = Advisor::new(&self.config.advisor, &self.machine, &self.config.data.join(SHELF));
+        let (job, advisor) = (job.clone(), advisor.waiting_for_the_right());
+        let extent = extent(self.config.quick_advice);
+        let work = tokio::task::spawn_blocking(move || job.work(&names, [a, b], &advisor, extent));
+        work.await.unwrap_or_else(|_| Err(EngineError::Fault("Work on advice panicked; see the log.".to_owned())))
     }
 
-    async fn end_advice(&self, mut info: AdviceInfo, found: Result<Option<Found>>) -> Result<()> {
+    async fn end_advice(&self, attempt: &Attempt, mut info: AdviceInfo, found: Result<Option<Found>>) -> Result<()> {
         let mut papers: [Vec<StoredPaper>; 2] = Default::default();
-        let _keeping = self.blobs.keeping().await;
+        let _keeping = self.store.locks.keeping().await?;
         (info.state, info.message) = match found {
             Ok(Some((advice, found))) => {
                 for (side, all) in found.iter().enumerate() {
@@ -186,7 +204,14 @@ impl Inner {
             Ok(None) => (State::Cancelled, None),
             Err(e) => (State::Failed, Some(e.for_visitors().to_string())),
         };
-        self.store.end_advice(&info, &papers).await
+        if !self.store.end_advice(attempt, &info, &papers).await? {
+            tracing::warn!(
+                "advice {}: the result of attempt {} comes too late and is not kept",
+                info.id,
+                attempt.number
+            );
+        }
+        Ok(())
     }
 
     async fn keep_paper(&self, paper: &Paper, mesh: &Mesh) -> Result<StoredPaper> {

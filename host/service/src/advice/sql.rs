@@ -3,6 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Result;
+use crate::attempts::sql::{at_rest, begin, end, while_current, withdraw};
+use crate::attempts::worker::Worker;
+use crate::attempts::{Attempt, Kind, Outcome};
 use crate::model::AdviceInfo;
 use crate::store::{Store, from_json, now_us, to_json};
 
@@ -32,37 +35,84 @@ pub struct AdviceRow {
 type Columns = (String, Option<String>, String, i64);
 
 impl Store {
-    /// Remembers a request; false when there is one with its id.
-    pub async fn add_advice(&self, info: &AdviceInfo, owner: &str) -> Result<bool> {
+    /// Remembers a request that this worker works on; nothing when there is one with its id.
+    pub async fn add_advice(
+        &self,
+        info: &AdviceInfo,
+        owner: &str,
+        turn: &str,
+        worker: &Worker,
+    ) -> Result<Option<Attempt>> {
+        let mut transaction = self.pool.begin().await?;
         let added = sqlx::query(
-            "INSERT INTO advice (id, owner, ended, attempts, info, papers, created_us) \
-             VALUES ($1, $2, 0, 0, $3, '[[],[]]', $4) ON CONFLICT (id) DO NOTHING",
+            "INSERT INTO advice (id, owner, turn, ended, attempts, info, papers, created_us) \
+             VALUES ($1, $2, $3, 0, 0, $4, '[[],[]]', $5) ON CONFLICT (id) DO NOTHING",
         )
         .bind(&info.id)
         .bind(owner)
+        .bind(turn)
         .bind(to_json(info)?)
         .bind(now_us())
-        .execute(&self.pool)
+        .execute(&mut *transaction)
         .await?;
-        Ok(added.rows_affected() == 1)
+        if added.rows_affected() == 0 {
+            return Ok(None);
+        }
+        let attempt = begin(&mut transaction, Kind::Advise, &info.id, worker).await?;
+        transaction.commit().await?;
+        Ok(attempt)
     }
 
-    /// Counts that the work on a request begins.
-    pub async fn begin_advice(&self, id: &str) -> Result<()> {
-        let text = "UPDATE advice SET attempts = attempts + 1 WHERE id = $1";
-        sqlx::query(text).bind(id).execute(&self.pool).await?;
-        Ok(())
+    /// Takes up a request that has not ended; nothing when another worker was quicker.
+    pub async fn take_up(&self, advice: &str, worker: &Worker) -> Result<Option<Attempt>> {
+        let mut connection = self.pool.acquire().await?;
+        begin(&mut connection, Kind::Advise, advice, worker).await
     }
 
-    /// Keeps what became of a request.
-    pub async fn end_advice(&self, info: &AdviceInfo, papers: &[Vec<StoredPaper>; 2]) -> Result<()> {
+    /// Counts that the work on a request begins; false when the attempt is not the current one.
+    pub async fn begin_advice(&self, attempt: &Attempt) -> Result<bool> {
+        let text = concat!("UPDATE advice SET attempts = attempts + 1 WHERE id = $1 AND ", while_current!("$2"));
+        let done = sqlx::query(text).bind(&attempt.job).bind(&attempt.id).execute(&self.pool).await?;
+        Ok(done.rows_affected() == 1)
+    }
+
+    /// Keeps what became of a request; false when the attempt is not the current one.
+    pub async fn end_advice(
+        &self,
+        attempt: &Attempt,
+        info: &AdviceInfo,
+        papers: &[Vec<StoredPaper>; 2],
+    ) -> Result<bool> {
+        let mut transaction = self.pool.begin().await?;
+        if !end(&mut transaction, attempt, Outcome::Accepted).await? {
+            return Ok(false);
+        }
         sqlx::query("UPDATE advice SET ended = 1, info = $1, papers = $2 WHERE id = $3")
             .bind(to_json(info)?)
             .bind(to_json(papers)?)
             .bind(&info.id)
-            .execute(&self.pool)
+            .execute(&mut *transaction)
             .await?;
-        Ok(())
+        transaction.commit().await?;
+        Ok(true)
+    }
+
+    /// Ends a request that another worker is at; false when none is.
+    pub async fn withdraw_advice(&self, info: &AdviceInfo, here: &Worker) -> Result<bool> {
+        let mut transaction = self.pool.begin().await?;
+        if !withdraw(&mut transaction, Kind::Advise, &info.id, here).await? {
+            return Ok(false);
+        }
+        let text = "UPDATE advice SET ended = 1, info = $1 WHERE id = $2";
+        sqlx::query(text).bind(to_json(info)?).bind(&info.id).execute(&mut *transaction).await?;
+        transaction.commit().await?;
+        Ok(true)
+    }
+
+    /// A request that the closing service stopped stays open.
+    pub async fn put_back_advice(&self, attempt: &Attempt) -> Result<()> {
+        let mut connection = self.pool.acquire().await?;
+        end(&mut connection, attempt, Outcome::PutBack).await.map(|_| ())
     }
 
     /// A request by its id.
@@ -72,9 +122,21 @@ impl Store {
         row.map(read).transpose()
     }
 
-    /// Requests that have not ended, the oldest first.
+    /// How many requests have no end, and how many of these are whose.
+    pub async fn count_open_advice(&self, turn: &str) -> Result<[usize; 2]> {
+        let text = "SELECT COUNT(*), CAST(COALESCE(SUM(CASE WHEN turn = $1 THEN 1 ELSE 0 END), 0) AS BIGINT) \
+                    FROM advice WHERE ended = 0";
+        let (all, own): (i64, i64) = sqlx::query_as(text).bind(turn).fetch_one(&self.pool).await?;
+        Ok([all as usize, own as usize])
+    }
+
+    /// Requests without an end and without a current attempt, the oldest first.
     pub async fn open_advice(&self) -> Result<Vec<AdviceRow>> {
-        let text = "SELECT info, owner, papers, attempts FROM advice WHERE ended = 0 ORDER BY created_us, id";
+        let text = concat!(
+            "SELECT info, owner, papers, attempts FROM advice WHERE ended = 0 AND ",
+            at_rest!("advise", "advice.id"),
+            " ORDER BY created_us, id"
+        );
         let rows: Vec<Columns> = sqlx::query_as(text).fetch_all(&self.pool).await?;
         rows.into_iter().map(read).collect()
     }

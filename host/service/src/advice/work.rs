@@ -1,24 +1,20 @@
 //! Advice about levels of detail: worked on one at a time, kept in the store, taken up again after a restart.
 //!
-//! Such work is no run: nothing foreign is started and nothing is ranked. Its times are taken while this process holds the
-//! machine's right to measure, so nothing is measured beside them; the rest of the work is kept off a run's CPU as all
-//! threads of this process are.
+//! Such work is no run: no plugin is loaded and nothing is ranked. Its times are taken while this process holds the machine's
+//! right to measure, so nothing is measured beside them; the rest of the work is kept off a run's CPU as all threads of this
+//! process are. The work itself is done in the jail: `jailed.rs`.
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use ocb_advisor::{
-    Advice, CONFIGURATIONS, HELD_OUT, Level, Paper, Question, Scene, Shelf, Watch, advise, ladder, sample,
-    usual_distances,
-};
+use ocb_advice::{Advice, CONFIGURATIONS, HELD_OUT, Paper, Question, Watch, usual_distances};
 use ocb_core::mesh::Mesh;
-use ocb_core::sampling::SamplingError;
 use tokio::sync::{Notify, Semaphore};
 
-use crate::machine::MeasuringRight;
+use super::jailed::{Advised, Advisor, Level, Request};
+use crate::Result;
 use crate::model::{AdviceInfo, Asked, State};
-use crate::{EngineError, Result};
 
 /// The requests that wait or are at work, by id.
 #[derive(Debug)]
@@ -41,8 +37,11 @@ pub struct Job {
     /// Rung when it is stopped, for one that waits.
     changed: Notify,
     info: Mutex<AdviceInfo>,
-    /// Whose it is: an account, the guests of an address.
-    turn: String,
+}
+
+/// Configurations of an advice, and held out; where it is to be quick, fewer.
+pub fn extent(quick: bool) -> [u32; 2] {
+    if quick { [48, 96] } else { [CONFIGURATIONS, HELD_OUT] }
 }
 
 /// What came out: the advice and, of A and of B, what can be taken away: reduced meshes with their certificates.
@@ -50,17 +49,11 @@ pub type Found = (Advice, [Vec<(Paper, Arc<Mesh>)>; 2]);
 
 impl Advices {
     /// A request that waits from now on.
-    pub fn add(&self, info: AdviceInfo, turn: String) -> Arc<Job> {
+    pub fn add(&self, info: AdviceInfo) -> Arc<Job> {
         let id = info.id.clone();
-        let job = Arc::new(Job { stop: AtomicBool::new(false), changed: Notify::new(), info: Mutex::new(info), turn });
+        let job = Arc::new(Job { stop: AtomicBool::new(false), changed: Notify::new(), info: Mutex::new(info) });
         locked(&self.jobs).insert(id, job.clone());
         job
-    }
-
-    /// How many there are, and how many of these are whose.
-    pub fn count(&self, turn: &str) -> [usize; 2] {
-        let jobs = locked(&self.jobs);
-        [jobs.len(), jobs.values().filter(|job| job.turn == turn).count()]
     }
 
     /// Nothing waits or is at work.
@@ -101,49 +94,25 @@ impl Job {
         self.changed.notified().await;
     }
 
-    /// `None` when it was stopped.
-    pub fn work(&self, names: &[String; 2], [a, b]: &[Arc<Mesh>; 2], shelf: &Shelf) -> Result<Option<Found>> {
-        if self.stopped() {
-            return Ok(None);
-        }
+    /// Over so many configurations, and so many held out; `None` when it was stopped.
+    pub fn work(
+        &self,
+        names: &[String; 2],
+        meshes: [Arc<Mesh>; 2],
+        advisor: &Advisor,
+        counts: [u32; 2],
+    ) -> Result<Option<Found>> {
         locked(&self.info).state = State::Running;
-        let Some(of_a) = ladder(&names[0], a, shelf, self) else { return Ok(None) };
-        let of_b = match Arc::ptr_eq(a, b) {
-            true => Some(of_a.clone()),
-            false => ladder(&names[1], b, shelf, self),
-        };
-        let Some(of_b) = of_b else { return Ok(None) };
-        let side = a.longest_side();
+        let side = meshes[0].longest_side();
         let question = match locked(&self.info).spec.question {
             Asked::Distance { tolerance } => Question::Distance { tolerance: tolerance * side },
             Asked::Clearance { clearance } => Question::Clearance { clearance: clearance * side },
         };
         let distances = usual_distances(question, side);
-        let shapes = [of_a[0].lod.shape(), of_b[0].lod.shape()];
-        let placed = |count, seed, what| match sample(shapes, &distances, count, seed, what, self) {
-            Ok(placed) => Ok(Some(placed)),
-            Err(SamplingError::Stopped) => Ok(None),
-            Err(e) => Err(EngineError::Invalid(format!("These configurations are not possible: {e}."))),
-        };
-        let Some(chosen_by) = placed(CONFIGURATIONS, 0, "configurations")? else { return Ok(None) };
-        let Some(held_out) = placed(HELD_OUT, 1, "held-out configurations")? else { return Ok(None) };
-        if chosen_by.is_empty() {
-            return Err(EngineError::Invalid("B never comes that close to A; choose another distance.".to_owned()));
-        }
-        let Some(_right) = self.right_to_measure()? else { return Ok(None) };
-        let ladders = [of_a.as_slice(), of_b.as_slice()];
-        let scene = Scene { ladders, question, distances: &distances, sample: &chosen_by, held_out: &held_out };
-        let papers = |advice: &Advice| [0, 1].map(|side| papers_of(side, &names[side], ladders[side], advice));
-        Ok(advise(&scene, self).map(|advice| {
-            let papers = papers(&advice);
-            (advice, papers)
-        }))
-    }
-
-    /// Waits until nobody measures on this machine; `None` when stopped.
-    fn right_to_measure(&self) -> Result<Option<MeasuringRight>> {
-        let waits = || self.step("waiting for a measurement to end", 0, 0);
-        Ok(MeasuringRight::wait(|| self.stopped(), waits)?)
+        let request = Request { names: names.clone(), meshes, question, distances, counts, seed: 0 };
+        let Some(Advised { advice, ladders }) = advisor.advise(&request, self)? else { return Ok(None) };
+        let papers = [0, 1].map(|side| papers_of(side, &names[side], &ladders[side], &advice));
+        Ok(Some((advice, papers)))
     }
 }
 
