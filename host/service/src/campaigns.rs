@@ -1,7 +1,7 @@
 //! Campaigns: a curator has stored benchmarks measured again for another hardware class, suite or oracle.
 //!
 //! A campaign's runs are ordinary ones that come after whatever anybody waits for. What it measures follows from what is stored,
-//! so a campaign that was half queued when the service ended is completed at the next start, and repeats no run twice. The old
+//! so a campaign that was half queued when its service ended is completed by the service that keeps house, and repeats no run twice. The old
 //! results stay as they are.
 
 pub mod columns;
@@ -11,12 +11,14 @@ mod plan;
 pub mod sql;
 
 use std::collections::BTreeMap;
+use std::time::Duration;
 
 use crate::accounts::{NAME_OF_OPERATOR, said};
 use crate::audit::Note;
 use crate::boxed;
 use crate::campaigns::sql::CampaignRow;
 use crate::engine::{Engine, Inner};
+use crate::locks::Lock;
 use crate::model::{
     AccountInfo, CampaignInfo, CampaignPreview, CampaignRequest, CampaignRuns, Compared, Cursor, Owner, Page, Part,
     State,
@@ -29,6 +31,9 @@ use crate::runs::log::plain_event;
 use crate::runs::priority::BACKGROUND;
 use crate::store::now_us;
 use crate::{EngineError, Result};
+
+/// How often it is looked for campaigns that the service which queued them did not complete.
+const LOOK: Duration = Duration::from_secs(60);
 
 impl Engine {
     /// What a campaign would queue now; nothing is queued.
@@ -144,7 +149,7 @@ impl Engine {
     async fn fill_campaign(&self, id: &str) -> Result<()> {
         let inner = &self.inner;
         {
-            let _alone = inner.planning.lock().await;
+            let _alone = inner.store.locks.alone(Lock::Planning).await?;
             let row = inner.campaign_row(id).await?;
             let own = inner.store.campaign_runs(id).await?;
             for due in inner.due(row.of_suite, row.of_people, &own).await? {
@@ -191,17 +196,41 @@ impl Engine {
         }
     }
 
+    /// While this service keeps house, campaigns of this machine's class that another service could not complete.
+    pub(crate) async fn look_after_campaigns(self) {
+        let house = &self.inner.house;
+        while house.here().await {
+            tokio::select! {
+                () = tokio::time::sleep(LOOK) => {}
+                () = house.gone() => continue,
+            }
+            if let Err(e) = self.complete_campaigns().await {
+                tracing::error!("campaigns could not be completed: {e}");
+            }
+        }
+    }
+
+    /// Queues what is missing of them, and ends those whose last run has ended.
+    pub(crate) async fn complete_campaigns(&self) -> Result<()> {
+        let inner = &self.inner;
+        for row in inner.store.open_campaigns().await? {
+            if row.queued_us.is_some() || row.cancelled_us.is_some() {
+                inner.end_campaign_when_through(&row.id).await?;
+            } else if inner.is_for_now(&row) {
+                self.fill_campaign(&row.id).await?;
+            }
+        }
+        Ok(())
+    }
+
     async fn take_up(&self, row: &CampaignRow) -> Result<()> {
         let inner = &self.inner;
         for run in inner.store.campaign_runs(&row.id).await? {
             inner.take_out_failing(row, &run).await?;
         }
-        let now = row.hardware_class == inner.machine.hardware_class
-            && row.oracle == ocb_core::oracle::VERSION
-            && row.suite == inner.suite.sha256;
         if row.cancelled_us.is_some() {
             inner.end_waiting_of(&row.id).await?;
-        } else if !now {
+        } else if !inner.is_for_now(row) {
             let told = "The hardware class, the suite or the oracle of the service has changed.";
             return inner.cancel_campaign(&row.id, THE_SERVICE, told).await;
         } else if row.queued_us.is_none() {
@@ -212,6 +241,13 @@ impl Engine {
 }
 
 impl Inner {
+    /// For this machine's class, this oracle and this suite.
+    fn is_for_now(&self, row: &CampaignRow) -> bool {
+        row.hardware_class == self.machine.hardware_class
+            && row.oracle == ocb_core::oracle::VERSION
+            && row.suite == self.suite.sha256
+    }
+
     pub(crate) async fn campaign_row(&self, id: &str) -> Result<CampaignRow> {
         let row = self.store.campaign(id).await?;
         row.ok_or_else(|| EngineError::NotFound(format!("There is no campaign {id:?}; check the link.")))
@@ -269,6 +305,8 @@ impl Inner {
     /// is noted: after a kill rather twice than never.
     #[boxed]
     pub async fn end_campaign_when_through(&self, id: &str) -> Result<()> {
+        // Of two that find nothing waiting, one tells.
+        let _alone = self.store.locks.alone(Lock::Campaigns).await?;
         let row = self.campaign_row(id).await?;
         let runs = self.store.campaign_counts(id).await?;
         let filled = row.queued_us.is_some() || row.cancelled_us.is_some();

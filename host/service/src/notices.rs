@@ -33,7 +33,7 @@ impl Inner {
         NewNotice { account, notice, most: MOST, mailing: self.config.mail.is_some() }
     }
 
-    /// Somebody was told something: there may be a mail to bring.
+    /// Somebody was told something: there may be a mail to bring. PostgreSQL tells the other services.
     pub fn post_soon(&self) {
         if self.config.mail.is_some() {
             self.posting.notify_one();

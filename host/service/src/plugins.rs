@@ -2,6 +2,7 @@
 
 mod algorithms;
 pub mod checks;
+pub mod checks_sql;
 pub mod lists;
 pub mod notices;
 pub mod registry;
@@ -16,15 +17,17 @@ use ocb_lab::check::{check_manifest, is_free};
 use ocb_sandbox::text::one_line;
 
 use crate::accounts::said;
+use crate::attempts::Kind;
 use crate::audit::{A_FORMER_ACCOUNT, Note};
 use crate::boxed;
 use crate::engine::Engine;
+use crate::locks::Lock;
 use crate::model::{
     AccountInfo, Action, CheckLine, CheckVerdict, Cursor, Decision, Manifest, Page, Part, PluginInfo, PluginState, Role,
 };
 use crate::plugins::notices::of_decision;
-use crate::plugins::registry::brought;
-use crate::plugins::sql::SubmissionRow;
+use crate::plugins::registry::submitted;
+use crate::plugins::sql::PluginRow;
 use crate::sha256_hex;
 use crate::store::now_us;
 use crate::{EngineError, Result};
@@ -71,20 +74,20 @@ impl Engine {
         let signed_by = signature.map(|signature| signed_by(account, &bytes, signature)).transpose()?;
         let store = &self.inner.store;
         let blob = sha256_hex(&bytes);
-        if let Some(known) = store.submission_of(&account.id, &blob).await? {
+        if let Some(known) = store.plugin_of(&account.id, &blob).await? {
             if let Some(key) = signed_by.filter(|key| known.signed_by.as_ref() != Some(key)) {
                 let note = Note { actor: &account.name, action: "signed", subject: &known.id, detail: &key };
-                store.sign_submission(&known.id, &key, note).await?;
+                store.sign_plugin(&known.id, &key, note).await?;
             }
             return Ok((self.plugin(&known.id, Some(account)).await?, false));
         }
         self.has_room(account, bytes.len() as u64).await?;
         let length = bytes.len();
-        let _keeping = self.inner.blobs.keeping().await;
+        let _keeping = self.inner.store.locks.keeping().await?;
         self.inner.blobs.put(bytes).await?;
         store.add_blob(&blob, length, "application/octet-stream").await?;
         let now = now_us();
-        let row = SubmissionRow {
+        let row = PluginRow {
             id: uuid::Uuid::now_v7().to_string(),
             account: account.id.clone(),
             blob,
@@ -102,9 +105,9 @@ impl Engine {
         };
         // Two uploads of the same bytes at once: the first stands.
         let note = Note { actor: &account.name, action: "submitted", subject: &row.id, detail: &row.manifest.version };
-        let new = store.add_submission(&row, note).await?;
+        let new = store.add_plugin(&row, note).await?;
         let missing = || EngineError::Fault("The plugin was lost while it was being stored.".into());
-        let kept = store.submission_of(&account.id, &row.blob).await?.ok_or_else(missing)?;
+        let kept = store.plugin_of(&account.id, &row.blob).await?.ok_or_else(missing)?;
         if new {
             self.inner.call();
         }
@@ -113,7 +116,7 @@ impl Engine {
 
     /// What failed counts for nothing.
     async fn has_room(&self, account: &AccountInfo, bytes: u64) -> Result<()> {
-        let all = self.inner.store.submissions().await?;
+        let all = self.inner.store.plugins().await?;
         let mine = || all.iter().filter(|row| row.account == account.id && row.state != PluginState::Failed);
         if mine().map(|row| row.bytes).sum::<u64>() + bytes > QUOTA {
             return Err(EngineError::Busy(format!("With this file, your plugins would exceed {} MiB.", QUOTA >> 20)));
@@ -132,9 +135,8 @@ impl Engine {
     pub async fn plugins(&self, viewer: Option<&AccountInfo>, page: &Page) -> Result<Part<PluginInfo>> {
         let (from, limit) = page.start()?;
         let account = viewer.map(|viewer| viewer.id.as_str());
-        let rows = self.inner.store.submissions_for(account, &from, limit + 1).await?;
-        let Part { entries, next } =
-            Part::of(rows, limit, |row: &SubmissionRow| Cursor::behind(row.created_us, &row.id));
+        let rows = self.inner.store.plugins_for(account, &from, limit + 1).await?;
+        let Part { entries, next } = Part::of(rows, limit, |row: &PluginRow| Cursor::behind(row.created_us, &row.id));
         Ok(Part { entries: self.listed(&entries, viewer).await?, next })
     }
 
@@ -142,13 +144,12 @@ impl Engine {
     #[boxed]
     pub async fn curation(&self, curator: &AccountInfo, page: &Page) -> Result<Part<PluginInfo>> {
         let (from, limit) = page.start()?;
-        let rows = self.inner.store.waiting_submissions(&from, limit + 1).await?;
-        let Part { entries, next } =
-            Part::of(rows, limit, |row: &SubmissionRow| Cursor::behind(-row.changed_us, &row.id));
+        let rows = self.inner.store.waiting_plugins(&from, limit + 1).await?;
+        let Part { entries, next } = Part::of(rows, limit, |row: &PluginRow| Cursor::behind(-row.changed_us, &row.id));
         Ok(Part { entries: self.listed(&entries, Some(curator)).await?, next })
     }
 
-    async fn listed(&self, rows: &[SubmissionRow], viewer: Option<&AccountInfo>) -> Result<Vec<PluginInfo>> {
+    async fn listed(&self, rows: &[PluginRow], viewer: Option<&AccountInfo>) -> Result<Vec<PluginInfo>> {
         let store = &self.inner.store;
         let (mut infos, mut published) = (Vec::new(), HashMap::new());
         for row in rows {
@@ -168,23 +169,23 @@ impl Engine {
     /// One plugin with its report. To who may not see it, it is not there.
     #[boxed]
     pub async fn plugin(&self, id: &str, viewer: Option<&AccountInfo>) -> Result<PluginInfo> {
-        let whole = self.inner.store.whole_submission(id).await?.filter(|(row, ..)| may_see(row, viewer));
+        let whole = self.inner.store.whole_plugin(id).await?.filter(|(row, ..)| may_see(row, viewer));
         let (row, lines, history) = whole.ok_or_else(|| no_plugin(id))?;
         let published = self.inner.store.published_by(&row.account).await?;
         Ok(PluginInfo { history, ..self.shown(&row, lines, &published, viewer).await? })
     }
 
-    async fn visible(&self, id: &str, viewer: Option<&AccountInfo>) -> Result<SubmissionRow> {
-        let row = self.inner.store.submission(id).await?.filter(|row| may_see(row, viewer));
+    async fn visible(&self, id: &str, viewer: Option<&AccountInfo>) -> Result<PluginRow> {
+        let row = self.inner.store.plugin(id).await?.filter(|row| may_see(row, viewer));
         row.ok_or_else(|| no_plugin(id))
     }
 
     /// With what its author has published, newest first.
     async fn shown(
         &self,
-        row: &SubmissionRow,
+        row: &PluginRow,
         lines: Vec<CheckLine>,
-        published: &[SubmissionRow],
+        published: &[PluginRow],
         viewer: Option<&AccountInfo>,
     ) -> Result<PluginInfo> {
         let owner = self.inner.store.account(&row.account).await?;
@@ -245,11 +246,12 @@ impl Engine {
             )));
         }
         // Of two concurrent approvals of one id the second must see the first.
-        let publishing = if step.to == PluginState::Public { Some(self.inner.publishing.lock().await) } else { None };
-        if publishing.is_some() {
+        let store = &self.inner.store;
+        let mut publishing = None;
+        if step.to == PluginState::Public {
+            publishing = Some(store.locks.alone(Lock::Publishing).await?);
             self.is_free_to_publish(&row).await?;
         }
-        let store = &self.inner.store;
         let note = Note { actor: &by.name, action: step.word, subject: id, detail: &reason };
         // Nobody is told of a step of one's own.
         let notice = of_decision(&row, action, &reason).filter(|_| row.account != by.id);
@@ -258,7 +260,7 @@ impl Engine {
         let from = if action == Action::EndCheck { step.from } else { &[row.state] };
         for from in from {
             let new_notice = notice.as_ref().map(|notice| self.inner.new_notice(&row.account, notice));
-            moved = moved || store.move_submission(id, *from, step.to, &reason, new_notice, Some(note)).await?;
+            moved = moved || store.move_plugin(id, *from, step.to, &reason, new_notice, Some(note)).await?;
         }
         if !moved {
             return Err(EngineError::Busy(
@@ -277,10 +279,13 @@ impl Engine {
         self.plugin(id, Some(by)).await
     }
 
-    async fn follow_decision(&self, row: &SubmissionRow, now: PluginState) -> Result<()> {
+    async fn follow_decision(&self, row: &PluginRow, now: PluginState) -> Result<()> {
+        if now == PluginState::Failed {
+            self.inner.store.withdraw(Kind::Check, &row.id, &self.inner.worker).await?;
+        }
         self.inner.renew_plugins().await?;
         if now == PluginState::Public {
-            self.measure_brought(row.algorithms.iter()).await?;
+            self.measure_submitted(row.algorithms.iter()).await?;
         } else if row.state == PluginState::Public {
             self.inner.forget_waiting().await?;
         }
@@ -288,8 +293,8 @@ impl Engine {
     }
 
     /// The ids of its algorithms belong to nobody else.
-    async fn is_free_to_publish(&self, row: &SubmissionRow) -> Result<()> {
-        let all = self.inner.store.submissions().await?;
+    async fn is_free_to_publish(&self, row: &PluginRow) -> Result<()> {
+        let all = self.inner.store.plugins().await?;
         match taken(row, &all) {
             Some(id) => Err(EngineError::Busy(format!("The algorithm id {id:?} belongs to another author's plugin."))),
             None => Ok(()),
@@ -301,13 +306,15 @@ impl crate::engine::Inner {
     /// Offers what may be benchmarked now.
     #[boxed]
     pub async fn renew_plugins(&self) -> Result<()> {
-        let all = brought::brought(&self.store, &self.blobs, &self.config.data).await?;
+        // Of two that read, the later one offers last.
+        let _offering = self.offering.lock().await;
+        let all = submitted::submitted(&self.store, &self.blobs, &self.config.data).await?;
         self.registry.offer(all);
         Ok(())
     }
 }
 
-fn may_see(row: &SubmissionRow, viewer: Option<&AccountInfo>) -> bool {
+fn may_see(row: &PluginRow, viewer: Option<&AccountInfo>) -> bool {
     row.state.is_shown() || viewer.is_some_and(|viewer| viewer.id == row.account || viewer.role >= Role::Curator)
 }
 
@@ -383,24 +390,24 @@ fn step(action: Action) -> Step {
     Step { by, wants_reason, from, to, word }
 }
 
-fn ids(row: &SubmissionRow) -> impl Iterator<Item = &str> {
+fn ids(row: &PluginRow) -> impl Iterator<Item = &str> {
     row.algorithms.iter().map(|a| a.id.as_str())
 }
 
 /// An algorithm id of this plugin that another account's plugin, which is or was public, has as well.
-fn taken(row: &SubmissionRow, all: &[SubmissionRow]) -> Option<String> {
+fn taken(row: &PluginRow, all: &[PluginRow]) -> Option<String> {
     let others = || all.iter().filter(|other| other.account != row.account && other.state.is_shown());
     ids(row).find(|id| others().any(|other| ids(other).any(|known| known == *id))).map(str::to_owned)
 }
 
 /// A public version of the same author that offers one of the same algorithms and came before.
-fn is_version_before(other: &SubmissionRow, row: &SubmissionRow) -> bool {
+fn is_version_before(other: &PluginRow, row: &PluginRow) -> bool {
     let same = ids(row).any(|id| ids(other).any(|known| known == id));
     other.account == row.account && other.state.is_shown() && same && other.created_us < row.created_us
 }
 
 /// Why a finished check must not count: names that are taken, or a version that is there already.
-pub fn conflict(row: &SubmissionRow, all: &[SubmissionRow], installed: impl Fn(&str) -> bool) -> Option<String> {
+pub fn conflict(row: &PluginRow, all: &[PluginRow], installed: impl Fn(&str) -> bool) -> Option<String> {
     if let Some(id) = ids(row).find(|id| installed(id)) {
         return Some(format!("The algorithm id {id:?} belongs to a plugin of this service; choose another id."));
     }
@@ -408,7 +415,7 @@ pub fn conflict(row: &SubmissionRow, all: &[SubmissionRow], installed: impl Fn(&
         return Some(format!("The algorithm id {id:?} belongs to another author's plugin; choose another id."));
     }
     let version = &row.manifest.version;
-    let again = |other: &&SubmissionRow| {
+    let again = |other: &&PluginRow| {
         let same = ids(row).any(|id| ids(other).any(|known| known == id));
         let kept = !matches!(other.state, PluginState::Failed | PluginState::Rejected);
         other.id != row.id && other.account == row.account && kept && same && other.manifest.version == *version
@@ -418,7 +425,7 @@ pub fn conflict(row: &SubmissionRow, all: &[SubmissionRow], installed: impl Fn(&
 
 /// What a curator should look at.
 fn flags(
-    row: &SubmissionRow,
+    row: &PluginRow,
     lines: &[CheckLine],
     before: &[CheckLine],
     twins: usize,

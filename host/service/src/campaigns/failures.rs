@@ -9,12 +9,12 @@ use crate::campaigns::sql::CampaignRow;
 use crate::engine::Inner;
 use crate::model::{AlgorithmResult, OutcomeName, PluginState, RunSpec, State};
 use crate::plugins::notices::to_author;
-use crate::plugins::sql::{SubmissionRow, THE_SERVICE};
+use crate::plugins::sql::{PluginRow, THE_SERVICE};
 use crate::runs::log::{fresh_stages, plain_event};
 use crate::runs::sql::RunRow;
 
 impl Inner {
-    /// Looks at what a run of a campaign found out of plugins that developers brought. Looked at again after a restart, it finds the
+    /// Looks at what a run of a campaign found out of submitted plugins. Looked at again after a restart, it finds the
     /// same, except where a curator has decided since.
     pub(crate) async fn take_out_failing(&self, campaign: &CampaignRow, run: &RunRow) -> Result<()> {
         let Some(finished_us) = run.finished_us else { return Ok(()) };
@@ -25,8 +25,8 @@ impl Inner {
         for stored in self.store.results(&run.id).await? {
             let old = before.iter().find(|old| old.result.algorithm == stored.result.algorithm).map(|old| &old.result);
             let Some(why) = failing(&stored.result, run.suite.is_some(), old) else { continue };
-            let public = |row: &SubmissionRow| row.blob == stored.plugin_sha256 && row.state == PluginState::Public;
-            for plugin in self.store.submissions().await?.into_iter().filter(public) {
+            let public = |row: &PluginRow| row.blob == stored.plugin_sha256 && row.state == PluginState::Public;
+            for plugin in self.store.plugins().await?.into_iter().filter(public) {
                 let report = report(campaign, run, &stored.result.algorithm, &why);
                 self.take_out(&plugin, campaign, finished_us, &report).await?;
             }
@@ -34,19 +34,13 @@ impl Inner {
         Ok(())
     }
 
-    async fn take_out(
-        &self,
-        plugin: &SubmissionRow,
-        campaign: &CampaignRow,
-        failed_us: i64,
-        report: &str,
-    ) -> Result<()> {
+    async fn take_out(&self, plugin: &PluginRow, campaign: &CampaignRow, failed_us: i64, report: &str) -> Result<()> {
         let (id, class) = (plugin.id.as_str(), campaign.hardware_class.as_str());
         let note = Note { actor: THE_SERVICE, action: "excluded", subject: id, detail: report };
         let told = "It is no longer measured on this hardware class until a curator reinstates it; its results on other classes stay.";
         let notice = to_author(plugin, &format!("is excluded on the hardware class {class}"), told, report);
         let new_notice = self.new_notice(&plugin.account, &notice);
-        if !self.store.exclude_submission(id, class, failed_us, Some(new_notice), note).await? {
+        if !self.store.exclude_plugin(id, class, failed_us, Some(new_notice), note).await? {
             return Ok(());
         }
         self.post_soon();
@@ -69,7 +63,7 @@ impl Inner {
                 continue;
             }
             let told = "Its algorithms are no longer public.";
-            if self.store.end_run(&run.id, State::Queued, State::Cancelled, Some(told)).await? {
+            if self.store.end_waiting_run(&run.id, State::Cancelled, Some(told)).await? {
                 self.run_events.tell(&self.store, &run.id, plain_event(State::Cancelled, 0)).await?;
                 if let Some(campaign) = &run.campaign {
                     self.end_campaign_when_through(campaign).await?;

@@ -6,35 +6,35 @@ use std::thread;
 use ocb_lab::check::{Extent, Step, Term, check_plugin};
 use tokio::runtime::Handle;
 
+use crate::attempts::{Attempt, MOST_LOST, superseded};
 use crate::audit::Note;
 use crate::engine::Inner;
 use crate::machine::MeasuringRight;
 use crate::measure::Stop;
 use crate::model::{CheckVerdict, PluginReport, PluginState};
+use crate::plugins::checks_sql::CheckEnd;
 use crate::plugins::conflict;
 use crate::plugins::notices::of_check;
-use crate::plugins::registry::brought;
-use crate::plugins::sql::{SubmissionRow, THE_SERVICE};
+use crate::plugins::registry::submitted;
+use crate::plugins::sql::{PluginRow, THE_SERVICE};
 use crate::{EngineError, Result};
 
-/// A check that was begun this often is not begun again: it may be what ends the service.
-pub const MAX_ATTEMPTS: i64 = 3;
-
-/// Carries out a claimed check and notes where the plugin stands then.
-pub async fn carry_out(inner: &Arc<Inner>, row: &SubmissionRow, stop: &Stop) -> Result<()> {
-    let file = brought::plugin_file(&inner.blobs, &inner.config.data, &row.blob).await?;
+/// Carries out an attempt at a check and notes where the plugin stands then; false when it was stopped.
+pub async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, row: &PluginRow, stop: &Stop) -> Result<bool> {
+    let file = submitted::plugin_file(&inner.blobs, &inner.config.data, &row.blob).await?;
     let (sender, ended) = tokio::sync::oneshot::channel();
-    let (for_check, for_row, for_stop, handle) = (inner.clone(), row.clone(), stop.clone(), Handle::current());
+    let (for_check, for_stop, handle) = (inner.clone(), stop.clone(), Handle::current());
+    let (for_attempt, for_row) = (attempt.clone(), row.clone());
     // A thread of its own: a jail ends with the thread that started it.
     let thread = thread::Builder::new().name("check".into()).spawn(move || {
-        let _ = sender.send(check(&for_check, &for_row, &file, &for_stop, &handle));
+        let _ = sender.send(check(&for_check, &for_attempt, &for_row, &file, &for_stop, &handle));
     });
     thread.map_err(|e| EngineError::fault("Starting the check's thread failed", e))?;
     let report = ended.await.unwrap_or_else(|_| Err(EngineError::Fault("The check failed; see the log.".into())));
     match report {
-        _ if stop.asked() => inner.store.put_back_check(&row.id).await,
-        Ok(Some(report)) => settle(inner, row, report).await,
-        Ok(None) => inner.store.put_back_check(&row.id).await,
+        _ if stop.asked() => Ok(false),
+        Ok(Some(report)) => settle(inner, attempt, row, report).await.map(|()| true),
+        Ok(None) => Ok(false),
         Err(e) => Err(e),
     }
 }
@@ -42,7 +42,8 @@ pub async fn carry_out(inner: &Arc<Inner>, row: &SubmissionRow, stop: &Stop) -> 
 /// The report; `None` when stopped while another process measured.
 fn check(
     inner: &Inner,
-    row: &SubmissionRow,
+    attempt: &Attempt,
+    row: &PluginRow,
     file: &std::path::Path,
     stop: &Stop,
     handle: &Handle,
@@ -54,16 +55,15 @@ fn check(
             match step {
                 Step::Line(line) => {
                     seq += 1;
-                    inner.store.add_line(&row.id, seq, line).await
+                    inner.store.add_line(attempt, seq, line).await
                 }
-                Step::Loads => {
-                    let (from, to) = (PluginState::Uploaded, PluginState::Vetted);
-                    inner.store.move_submission(&row.id, from, to, "", None, None).await.map(|_| ())
-                }
+                Step::Loads => inner.store.note_vetted(attempt).await,
             }
         });
-        if let Err(e) = kept {
-            fault = Some(e);
+        match kept {
+            Ok(true) => {}
+            Ok(false) => fault = Some(superseded()),
+            Err(e) => fault = Some(e),
         }
         fault.is_none() && !stop.asked()
     };
@@ -74,45 +74,48 @@ fn check(
     fault.map_or(Ok(Some(report)), Err)
 }
 
-async fn settle(inner: &Inner, row: &SubmissionRow, report: PluginReport) -> Result<()> {
-    let store = &inner.store;
+async fn settle(inner: &Inner, attempt: &Attempt, row: &PluginRow, report: PluginReport) -> Result<()> {
     let class = &inner.machine.hardware_class;
-    store.describe_submission(&row.id, &report.algorithms, class).await?;
-    let described = SubmissionRow { algorithms: report.algorithms, ..row.clone() };
-    let all = store.submissions().await?;
+    let described = PluginRow { algorithms: report.algorithms, ..row.clone() };
+    let all = inner.store.plugins().await?;
     let failed = report.lines.iter().find(|line| line.verdict == CheckVerdict::Fail);
     let reason = match failed {
         Some(line) => Some(format!("{}: {}", line.check, line.evidence)),
         None if !report.passed => Some("The check did not finish.".to_owned()),
-        None => conflict(&described, &all, |id| inner.registry.contestant(id).is_some()),
+        None => conflict(&described, &all, |id| inner.registry.algorithm(id).is_some()),
     };
-    match reason {
-        Some(reason) => end(inner, row, PluginState::Failed, &reason).await?,
-        None => end(inner, row, PluginState::Validated, &format!("Passed on hardware class {class}.")).await?,
+    let (state, reason) = match reason {
+        Some(reason) => (PluginState::Failed, reason),
+        None => (PluginState::Validated, format!("Passed on hardware class {class}.")),
+    };
+    let notice = of_check(row, state, &reason);
+    let new_notice = inner.new_notice(&row.account, &notice);
+    let end = CheckEnd { algorithms: &described.algorithms, class, state, new_notice, note: note(row, state, &reason) };
+    if inner.store.accept_check(attempt, end).await? {
+        inner.post_soon();
+    } else {
+        tracing::warn!("plugin {}: the report of attempt {} comes too late and is not kept", row.id, attempt.number);
     }
     inner.renew_plugins().await
 }
 
-/// Where the plugin stands after its check, and what its author is told of that.
-async fn end(inner: &Inner, row: &SubmissionRow, state: PluginState, reason: &str) -> Result<()> {
+fn note<'a>(row: &'a PluginRow, state: PluginState, reason: &'a str) -> Note<'a> {
     let action = if state == PluginState::Validated { "validated" } else { "failed the check" };
-    let note = Note { actor: THE_SERVICE, action, subject: &row.id, detail: reason };
-    let notice = of_check(row, state, reason);
-    for from in [PluginState::Uploaded, PluginState::Vetted] {
-        let new_notice = inner.new_notice(&row.account, &notice);
-        if inner.store.move_submission(&row.id, from, state, reason, Some(new_notice), Some(note)).await? {
-            inner.post_soon();
-        }
-    }
-    Ok(())
+    Note { actor: THE_SERVICE, action, subject: &row.id, detail: reason }
 }
 
-/// Checks that did not come to their end wait again; those begun too often fail, and their authors are told.
-pub async fn recover(inner: &Inner) -> Result<()> {
-    for row in inner.store.recover_checks(MAX_ATTEMPTS).await? {
+/// Checks that were lost too often fail, and their authors are told, once.
+pub async fn give_up(inner: &Inner) -> Result<()> {
+    let (from, to) = (PluginState::Uploaded, PluginState::Failed);
+    for row in inner.store.checks_to_give_up().await? {
         let reason =
-            format!("The service ended {MAX_ATTEMPTS} times in the middle of this check, so it is not tried again.");
-        end(inner, &row, PluginState::Failed, &reason).await?;
+            format!("The service ended {MOST_LOST} times in the middle of this check, so it is not tried again.");
+        let notice = of_check(&row, to, &reason);
+        let new_notice = Some(inner.new_notice(&row.account, &notice));
+        let note = Some(note(&row, to, &reason));
+        if inner.store.move_plugin(&row.id, from, to, &reason, new_notice, note).await? {
+            inner.post_soon();
+        }
     }
     Ok(())
 }

@@ -2,15 +2,15 @@
 
 use crate::model::{Action, NoticeInfo, PluginState};
 use crate::notices::notice;
-use crate::plugins::sql::SubmissionRow;
+use crate::plugins::sql::PluginRow;
 
 /// What the author of a plugin is told of a curator's decision; nothing of the steps that are the author's alone.
-pub(crate) fn of_decision(row: &SubmissionRow, action: Action, reason: &str) -> Option<NoticeInfo> {
+pub(crate) fn of_decision(row: &PluginRow, action: Action, reason: &str) -> Option<NoticeInfo> {
     decided(action).map(|(what, text)| to_author(row, what, text, reason))
 }
 
 /// What they are told when its check has ended.
-pub fn of_check(row: &SubmissionRow, state: PluginState, reason: &str) -> NoticeInfo {
+pub fn of_check(row: &PluginRow, state: PluginState, reason: &str) -> NoticeInfo {
     let (what, text) = match state {
         PluginState::Validated => {
             ("passed its check", "You can benchmark it now and submit it for review on its page.")
@@ -21,7 +21,7 @@ pub fn of_check(row: &SubmissionRow, state: PluginState, reason: &str) -> Notice
 }
 
 /// A notice of a plugin, with the words that are the reason in front.
-pub(crate) fn to_author(row: &SubmissionRow, what: &str, text: &str, reason: &str) -> NoticeInfo {
+pub(crate) fn to_author(row: &PluginRow, what: &str, text: &str, reason: &str) -> NoticeInfo {
     let subject = format!("Your plugin {} {} {what}", row.manifest.name, row.manifest.version);
     let text = if reason.is_empty() { text.to_owned() } else { format!("{reason}\n\n{text}") };
     notice(&subject, &text, &format!("/p/{}", row.id))

@@ -1,7 +1,7 @@
 //! Which algorithms there are. A plugin is only ever loaded by the jailed runner, also to read its name.
 
-pub mod brought;
 pub mod sql;
+pub mod submitted;
 
 use std::collections::HashMap;
 use std::fs;
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, RwLockReadGuard};
 
 use ocb_core::query::Query;
-use ocb_lab::contestant::{Contestant, Runner, plugin_hash};
+use ocb_lab::algorithm::{Algorithm, Runner, plugin_hash};
 use ocb_sandbox::Profile;
 
 use crate::blocking::blocking;
@@ -17,7 +17,7 @@ use crate::model::AlgorithmInfo;
 use crate::store::Store;
 use crate::{EngineConfig, Result};
 
-use brought::AllBrought;
+use submitted::AllSubmitted;
 
 /// Our algorithms that a run measures by default: each kind once. Third-party plugins are measured as well. `all`
 /// takes every algorithm; with thirty installed, that can take an hour.
@@ -29,8 +29,8 @@ const MAX_KNOWN: usize = 1000;
 /// The known plugins.
 pub struct Registry {
     runner: Runner,
-    contestants: Vec<Arc<Contestant>>,
-    brought: RwLock<AllBrought>,
+    algorithms: Vec<Arc<Algorithm>>,
+    submitted: RwLock<AllSubmitted>,
     /// What algorithms answer with their settings, by plugin file and name.
     queries: Mutex<HashMap<(String, String), Vec<Query>>>,
     problems: Vec<String>,
@@ -42,8 +42,8 @@ impl Registry {
     pub async fn open(config: &EngineConfig, store: &Store) -> Result<Self> {
         let mut registry = Self {
             runner: Runner { program: config.runner.clone(), profile: config.profile },
-            contestants: Vec::new(),
-            brought: RwLock::default(),
+            algorithms: Vec::new(),
+            submitted: RwLock::default(),
             queries: Mutex::default(),
             problems: Vec::new(),
         };
@@ -54,20 +54,20 @@ impl Registry {
             ));
             return Ok(registry);
         }
-        let mut all: Vec<Arc<Contestant>> = Vec::new();
+        let mut all: Vec<Arc<Algorithm>> = Vec::new();
         for file in plugin_files(&config.plugins) {
             match registry.describe(&file, store).await {
                 Ok(found) => {
-                    for contestant in found {
-                        if let Some(twin) = all.iter().find(|c| c.info.id == contestant.info.id) {
+                    for algorithm in found {
+                        if let Some(twin) = all.iter().find(|c| c.info.id == algorithm.info.id) {
                             registry.problems.push(format!(
                                 "The algorithm {:?} is in both {} and {}; only the first is used.",
-                                contestant.info.id,
+                                algorithm.info.id,
                                 twin.file.display(),
                                 file.display()
                             ));
                         } else {
-                            all.push(Arc::new(contestant));
+                            all.push(Arc::new(algorithm));
                         }
                     }
                 }
@@ -76,44 +76,44 @@ impl Registry {
         }
         all.sort_by(|x, y| x.info.id.cmp(&y.info.id));
         registry.problems.iter().for_each(|problem| tracing::warn!("{problem}"));
-        registry.contestants = all;
+        registry.algorithms = all;
         Ok(registry)
     }
 
     /// Those that this viewer may ask for, by id.
     pub fn algorithms(&self, viewer: Option<&str>) -> Vec<AlgorithmInfo> {
-        let mut all: Vec<AlgorithmInfo> = self.contestants.iter().map(|c| c.info.clone()).collect();
-        let brought = self.brought();
-        all.extend(brought.plugins.iter().filter(|b| b.is_for(viewer)).map(|b| b.contestant.info.clone()));
+        let mut all: Vec<AlgorithmInfo> = self.algorithms.iter().map(|c| c.info.clone()).collect();
+        let submitted = self.submitted();
+        all.extend(submitted.plugins.iter().filter(|b| b.is_for(viewer)).map(|b| b.algorithm.info.clone()));
         all.sort_by(|x, y| x.id.cmp(&y.id));
         all
     }
 
     /// Those of the installed plugins, by id.
     pub fn installed(&self) -> Vec<AlgorithmInfo> {
-        self.contestants.iter().map(|c| c.info.clone()).collect()
+        self.algorithms.iter().map(|c| c.info.clone()).collect()
     }
 
-    /// From now on these, of all that developers brought.
-    pub fn offer(&self, brought: AllBrought) {
-        *self.brought.write().unwrap_or_else(PoisonError::into_inner) = brought;
+    /// From now on these, of all that developers submitted.
+    pub fn offer(&self, submitted: AllSubmitted) {
+        *self.submitted.write().unwrap_or_else(PoisonError::into_inner) = submitted;
     }
 
-    fn brought(&self) -> RwLockReadGuard<'_, AllBrought> {
-        self.brought.read().unwrap_or_else(PoisonError::into_inner)
+    fn submitted(&self) -> RwLockReadGuard<'_, AllSubmitted> {
+        self.submitted.read().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Nobody but its author may ask for this plugin file now.
-    pub fn is_private(&self, contestant: &Contestant) -> bool {
-        let file = &contestant.info.plugin_sha256;
-        let brought = self.brought();
-        let mut twins = brought.plugins.iter().filter(|b| b.contestant.info.plugin_sha256 == *file).peekable();
+    pub fn is_private(&self, algorithm: &Algorithm) -> bool {
+        let file = &algorithm.info.plugin_sha256;
+        let submitted = self.submitted();
+        let mut twins = submitted.plugins.iter().filter(|b| b.algorithm.info.plugin_sha256 == *file).peekable();
         twins.peek().is_some() && twins.all(|b| !b.public)
     }
 
     /// What keeps something from being offered.
     pub fn problems(&self) -> Vec<String> {
-        self.problems.iter().chain(&self.brought().problems).cloned().collect()
+        self.problems.iter().chain(&self.submitted().problems).cloned().collect()
     }
 
     /// What loads plugins here.
@@ -127,38 +127,38 @@ impl Registry {
     }
 
     /// The installed algorithm with this id.
-    pub fn contestant(&self, id: &str) -> Option<Arc<Contestant>> {
-        self.contestants.iter().find(|c| c.info.id == id).cloned()
+    pub fn algorithm(&self, id: &str) -> Option<Arc<Algorithm>> {
+        self.algorithms.iter().find(|c| c.info.id == id).cloned()
     }
 
     /// The algorithm of this name, which may carry settings (`box-tree:leaf_size=4`); `None` when there is no such id for
     /// this viewer.
-    pub fn choose(&self, name: &str, viewer: Option<&str>) -> Result<Option<Arc<Contestant>>> {
+    pub fn choose(&self, name: &str, viewer: Option<&str>) -> Result<Option<Arc<Algorithm>>> {
         let (id, settings) = name.split_once(':').map_or((name, None), |(id, settings)| (id, Some(settings)));
-        let brought = || {
-            let all = self.brought();
-            all.plugins.iter().find(|b| b.contestant.info.id == id && b.is_for(viewer)).map(|b| b.contestant.clone())
+        let submitted = || {
+            let all = self.submitted();
+            all.plugins.iter().find(|b| b.algorithm.info.id == id && b.is_for(viewer)).map(|b| b.algorithm.clone())
         };
-        match (self.contestant(id).or_else(brought), settings) {
+        match (self.algorithm(id).or_else(submitted), settings) {
             (Some(plain), Some(settings)) => Ok(Some(Arc::new(plain.with_settings(settings)?))),
             (found, _) => Ok(found),
         }
     }
 
     /// The kinds of query that an algorithm answers with its settings; a plugin may have to be asked.
-    pub async fn queries(&self, contestant: &Arc<Contestant>) -> Result<Vec<Query>> {
-        if contestant.settings.is_empty() {
-            return Ok(contestant.info.queries.clone());
+    pub async fn queries(&self, algorithm: &Arc<Algorithm>) -> Result<Vec<Query>> {
+        if algorithm.settings.is_empty() {
+            return Ok(algorithm.info.queries.clone());
         }
-        let name = (contestant.info.plugin_sha256.clone(), contestant.info.id.clone());
+        let name = (algorithm.info.plugin_sha256.clone(), algorithm.info.id.clone());
         let known = || -> MutexGuard<'_, _> { self.queries.lock().unwrap_or_else(PoisonError::into_inner) };
         if let Some(queries) = known().get(&name) {
             return Ok(queries.clone());
         }
-        let (runner, asked) = (self.runner.clone(), contestant.clone());
+        let (runner, asked) = (self.runner.clone(), algorithm.clone());
         // How an algorithm ends that ends here is told, with its outcome, when it is measured.
         let Ok(queries) = blocking(move || Ok(runner.queries(&asked))).await? else {
-            return Ok(contestant.info.queries.clone());
+            return Ok(algorithm.info.queries.clone());
         };
         let mut known = known();
         if known.len() >= MAX_KNOWN {
@@ -169,31 +169,31 @@ impl Registry {
     }
 
     /// The algorithms of the plugin file with this hash that are offered here, to whomever.
-    pub fn of_file(&self, sha256: &str) -> Vec<Arc<Contestant>> {
-        let brought = self.brought();
-        let all = self.contestants.iter().chain(brought.plugins.iter().map(|b| &b.contestant));
+    pub fn of_file(&self, sha256: &str) -> Vec<Arc<Algorithm>> {
+        let submitted = self.submitted();
+        let all = self.algorithms.iter().chain(submitted.plugins.iter().map(|b| &b.algorithm));
         all.filter(|c| c.info.plugin_sha256 == sha256).cloned().collect()
     }
 
     /// The algorithms of a file that somebody gives us and that is offered to nobody.
-    pub async fn foreign(&self, file: &Path, sha256: &str) -> Result<Vec<Arc<Contestant>>> {
+    pub async fn foreign(&self, file: &Path, sha256: &str) -> Result<Vec<Arc<Algorithm>>> {
         let described = self.described(file, sha256, false).await?;
-        Ok(described.into_iter().map(|info| Arc::new(Contestant::plain(info, file.to_owned(), false))).collect())
+        Ok(described.into_iter().map(|info| Arc::new(Algorithm::plain(info, file.to_owned(), false))).collect())
     }
 
     /// The one among these that is meant by the name that a run knew it by, which may carry a version and settings.
-    pub fn chosen_of(&self, known: &[Arc<Contestant>], name: &str) -> Result<Option<Contestant>> {
+    pub fn chosen_of(&self, known: &[Arc<Algorithm>], name: &str) -> Result<Option<Algorithm>> {
         let (id, settings) = name.split_once(':').map_or((name, None), |(id, settings)| (id, Some(settings)));
         let id = id.split('@').next().unwrap_or(id);
-        let plain = known.iter().find(|c| c.algorithm == id);
+        let plain = known.iter().find(|c| c.id_in_plugin == id);
         match (plain, settings) {
             (Some(plain), Some(settings)) => Ok(Some(plain.with_settings(settings)?)),
-            (plain, _) => Ok(plain.map(|plain| Contestant::clone(plain))),
+            (plain, _) => Ok(plain.map(|plain| Algorithm::clone(plain))),
         }
     }
 
     /// The algorithms of an installed file. One that was described before is not loaded again.
-    async fn describe(&self, file: &Path, store: &Store) -> Result<Vec<Contestant>> {
+    async fn describe(&self, file: &Path, store: &Store) -> Result<Vec<Algorithm>> {
         let path = file.to_owned();
         let sha256 = blocking(move || Ok(plugin_hash(&path)?)).await?;
         let trusted = self.runner.trusts(file);
@@ -207,11 +207,11 @@ impl Registry {
                 described
             }
         };
-        let contestant = |mut info: AlgorithmInfo| {
+        let algorithm = |mut info: AlgorithmInfo| {
             info.usual = !trusted || USUAL.contains(&info.id.as_str());
-            Contestant::plain(info, file.to_owned(), trusted)
+            Algorithm::plain(info, file.to_owned(), trusted)
         };
-        Ok(algorithms.into_iter().map(contestant).collect())
+        Ok(algorithms.into_iter().map(algorithm).collect())
     }
 
     /// What the file with this hash says of itself, asked in the jail.

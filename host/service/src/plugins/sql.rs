@@ -1,7 +1,7 @@
 //! Plugins that developers bring, and their reports.
 
 use sqlx::any::AnyRow;
-use sqlx::{Any, Executor, Row};
+use sqlx::{Any, AnyConnection, Executor, Row};
 
 use crate::audit::Note;
 use crate::audit::{append, notes_on};
@@ -14,9 +14,9 @@ use crate::{EngineError, Result};
 /// Who acts when nobody does.
 pub const THE_SERVICE: &str = "the service";
 
-/// One row of the table of submissions.
+/// One submitted plugin, as in the table `submissions`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SubmissionRow {
+pub struct PluginRow {
     /// UUIDv7.
     pub id: String,
     /// Id of the account that sent it.
@@ -47,7 +47,7 @@ pub struct SubmissionRow {
     pub changed_us: i64,
 }
 
-macro_rules! select_submissions {
+macro_rules! select_plugins {
     ($rest:literal) => {
         concat!(
             "SELECT id, account, blob, file, bytes, manifest, signed_by, state, reason, hardware_class, excluded_on, ",
@@ -56,11 +56,11 @@ macro_rules! select_submissions {
         )
     };
 }
-pub(crate) use select_submissions;
+pub(crate) use select_plugins;
 
 impl Store {
-    /// Adds a submission, and notes it; false when the account has sent these bytes before.
-    pub async fn add_submission(&self, row: &SubmissionRow, note: Note<'_>) -> Result<bool> {
+    /// Adds a submitted plugin, and notes it; false when the account has sent these bytes before.
+    pub async fn add_plugin(&self, row: &PluginRow, note: Note<'_>) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
         let added = sqlx::query(
             "INSERT INTO submissions (id, account, blob, file, bytes, manifest, state, reason, algorithms, attempts, \
@@ -90,7 +90,7 @@ impl Store {
     }
 
     /// Notes that the author has signed what was sent before.
-    pub async fn sign_submission(&self, id: &str, key: &str, note: Note<'_>) -> Result<()> {
+    pub async fn sign_plugin(&self, id: &str, key: &str, note: Note<'_>) -> Result<()> {
         let mut transaction = self.pool.begin().await?;
         sqlx::query("UPDATE submissions SET signed_by = $1 WHERE id = $2")
             .bind(key)
@@ -102,40 +102,40 @@ impl Store {
         Ok(())
     }
 
-    /// One submission.
-    pub async fn submission(&self, id: &str) -> Result<Option<SubmissionRow>> {
-        submission(&self.pool, id).await
+    /// One submitted plugin.
+    pub async fn plugin(&self, id: &str) -> Result<Option<PluginRow>> {
+        plugin(&self.pool, id).await
     }
 
-    /// One submission with its report and its history, all of one moment: a state that its history does not tell of yet, or
+    /// One submitted plugin with its report and its history, all of one moment: a state that its history does not tell of yet, or
     /// no longer, would look half done.
-    pub async fn whole_submission(&self, id: &str) -> Result<Option<(SubmissionRow, Vec<CheckLine>, Vec<AuditEntry>)>> {
+    pub async fn whole_plugin(&self, id: &str) -> Result<Option<(PluginRow, Vec<CheckLine>, Vec<AuditEntry>)>> {
         let mut moment = self.pool.begin_with(self.one_moment).await?;
-        let row = submission(&mut *moment, id).await?;
+        let row = plugin(&mut *moment, id).await?;
         let lines = lines(&mut *moment, id).await?;
         let history = notes_on(&mut *moment, id).await?;
         moment.commit().await?;
         Ok(row.map(|row| (row, lines, history)))
     }
 
-    /// The account's submission of these bytes.
-    pub async fn submission_of(&self, account: &str, blob: &str) -> Result<Option<SubmissionRow>> {
-        let row = sqlx::query(select_submissions!("WHERE account = $1 AND blob = $2"))
+    /// The account's plugin of these bytes.
+    pub async fn plugin_of(&self, account: &str, blob: &str) -> Result<Option<PluginRow>> {
+        let row = sqlx::query(select_plugins!("WHERE account = $1 AND blob = $2"))
             .bind(account)
             .bind(blob)
             .fetch_optional(&self.pool)
             .await?;
-        row.as_ref().map(read_submission).transpose()
+        row.as_ref().map(read_plugin).transpose()
     }
 
-    /// All submissions, newest first.
-    pub async fn submissions(&self) -> Result<Vec<SubmissionRow>> {
-        let rows = sqlx::query(select_submissions!("ORDER BY created_us DESC, id DESC")).fetch_all(&self.pool).await?;
-        rows.iter().map(read_submission).collect()
+    /// All submitted plugins, newest first.
+    pub async fn plugins(&self) -> Result<Vec<PluginRow>> {
+        let rows = sqlx::query(select_plugins!("ORDER BY created_us DESC, id DESC")).fetch_all(&self.pool).await?;
+        rows.iter().map(read_plugin).collect()
     }
 
-    /// Moves a submission from one state to another, tells its author and notes it; false when it was not in the first.
-    pub async fn move_submission(
+    /// Moves a plugin from one state to another, tells its author and notes it; false when it was not in the first.
+    pub async fn move_plugin(
         &self,
         id: &str,
         from: PluginState,
@@ -145,18 +145,7 @@ impl Store {
         note: Option<Note<'_>>,
     ) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
-        let done = sqlx::query(
-            "UPDATE submissions SET state = $1, reason = $2, changed_us = $3, excluded_on = NULL \
-                 WHERE id = $4 AND state = $5",
-        )
-        .bind(to.name())
-        .bind(reason)
-        .bind(now_us())
-        .bind(id)
-        .bind(from.name())
-        .execute(&mut *transaction)
-        .await?;
-        let moved = done.rows_affected() == 1;
+        let moved = move_from(&mut transaction, id, from, to, reason).await?;
         if let Some(new_notice) = new_notice.filter(|_| moved) {
             tell(&mut transaction, new_notice).await?;
         }
@@ -167,9 +156,9 @@ impl Store {
         Ok(moved)
     }
 
-    /// Takes a public submission out on this hardware class, tells its author and notes it; false when it is not public any more,
+    /// Takes a public plugin out on this hardware class, tells its author and notes it; false when it is not public any more,
     /// or has changed since it failed.
-    pub async fn exclude_submission(
+    pub async fn exclude_plugin(
         &self,
         id: &str,
         class: &str,
@@ -200,80 +189,37 @@ impl Store {
         Ok(moved)
     }
 
-    /// Notes what a check found out beside its lines.
-    pub async fn describe_submission(&self, id: &str, algorithms: &[AlgorithmInfo], class: &str) -> Result<()> {
-        sqlx::query("UPDATE submissions SET algorithms = $1, hardware_class = $2 WHERE id = $3")
-            .bind(to_json(&algorithms)?)
-            .bind(class)
-            .bind(id)
-            .execute(&self.pool)
-            .await?;
-        Ok(())
-    }
-
-    /// Takes the next submission to be checked and forgets the lines of an earlier attempt; one that was begun `most` times
-    /// is not begun again. Authors take turns, so that who sends many holds up nobody's first: next is the one whose latest
-    /// check was begun longest ago.
-    pub async fn claim_check(&self, most: i64) -> Result<Option<SubmissionRow>> {
-        let mut transaction = self.pool.begin().await?;
-        let id: Option<String> = sqlx::query_scalar(
-            "UPDATE submissions SET attempts = attempts + 1, begun_us = $1 WHERE id = (SELECT waiting.id \
-             FROM submissions waiting WHERE waiting.state = 'uploaded' AND waiting.attempts < $2 ORDER BY \
-             (SELECT MAX(other.begun_us) FROM submissions other WHERE other.account = waiting.account), \
-             waiting.created_us, waiting.id LIMIT 1) RETURNING id",
-        )
-        .bind(now_us())
-        .bind(most)
-        .fetch_optional(&mut *transaction)
-        .await?;
-        let Some(id) = id else { return Ok(None) };
-        sqlx::query("DELETE FROM submission_lines WHERE submission = $1").bind(&id).execute(&mut *transaction).await?;
-        transaction.commit().await?;
-        self.submission(&id).await
-    }
-
-    /// Checks that an ended process left behind wait again; those begun `most` times already are given.
-    pub async fn recover_checks(&self, most: i64) -> Result<Vec<SubmissionRow>> {
-        sqlx::query("UPDATE submissions SET state = 'uploaded' WHERE state = 'vetted'").execute(&self.pool).await?;
-        let rows = sqlx::query(select_submissions!("WHERE state = 'uploaded' AND attempts >= $1"))
-            .bind(most)
-            .fetch_all(&self.pool)
-            .await?;
-        rows.iter().map(read_submission).collect()
-    }
-
-    /// A check that was stopped with the service counts as no attempt; one that somebody ended stays so.
-    pub async fn put_back_check(&self, id: &str) -> Result<()> {
-        sqlx::query(
-            "UPDATE submissions SET state = 'uploaded', attempts = attempts - 1 \
-             WHERE id = $1 AND state IN ('uploaded', 'vetted')",
-        )
-        .bind(id)
-        .execute(&self.pool)
-        .await?;
-        Ok(())
-    }
-
-    /// Adds a line to the report.
-    pub async fn add_line(&self, id: &str, seq: i64, line: &CheckLine) -> Result<()> {
-        sqlx::query("INSERT INTO submission_lines (submission, seq, line) VALUES ($1, $2, $3)")
-            .bind(id)
-            .bind(seq)
-            .bind(to_json(line)?)
-            .execute(&self.pool)
-            .await?;
-        Ok(())
-    }
-
     /// The report so far.
     pub async fn lines(&self, id: &str) -> Result<Vec<CheckLine>> {
         lines(&self.pool, id).await
     }
 }
 
-async fn submission(from: impl Executor<'_, Database = Any>, id: &str) -> Result<Option<SubmissionRow>> {
-    let row = sqlx::query(select_submissions!("WHERE id = $1")).bind(id).fetch_optional(from).await?;
-    row.as_ref().map(read_submission).transpose()
+/// Moves a plugin from one state to another within a transaction; false when it was not in the first.
+pub(crate) async fn move_from(
+    connection: &mut AnyConnection,
+    id: &str,
+    from: PluginState,
+    to: PluginState,
+    reason: &str,
+) -> Result<bool> {
+    let done = sqlx::query(
+        "UPDATE submissions SET state = $1, reason = $2, changed_us = $3, excluded_on = NULL \
+         WHERE id = $4 AND state = $5",
+    )
+    .bind(to.name())
+    .bind(reason)
+    .bind(now_us())
+    .bind(id)
+    .bind(from.name())
+    .execute(connection)
+    .await?;
+    Ok(done.rows_affected() == 1)
+}
+
+pub(crate) async fn plugin(from: impl Executor<'_, Database = Any>, id: &str) -> Result<Option<PluginRow>> {
+    let row = sqlx::query(select_plugins!("WHERE id = $1")).bind(id).fetch_optional(from).await?;
+    row.as_ref().map(read_plugin).transpose()
 }
 
 async fn lines(from: impl Executor<'_, Database = Any>, id: &str) -> Result<Vec<CheckLine>> {
@@ -284,10 +230,10 @@ async fn lines(from: impl Executor<'_, Database = Any>, id: &str) -> Result<Vec<
     rows.iter().map(|line| from_json(line)).collect()
 }
 
-pub(crate) fn read_submission(row: &AnyRow) -> Result<SubmissionRow> {
+pub(crate) fn read_plugin(row: &AnyRow) -> Result<PluginRow> {
     let state: &str = row.try_get("state")?;
     let unknown = || EngineError::Fault(format!("The database holds a plugin in the unknown state {state:?}."));
-    Ok(SubmissionRow {
+    Ok(PluginRow {
         id: row.try_get("id")?,
         account: row.try_get("account")?,
         blob: row.try_get("blob")?,

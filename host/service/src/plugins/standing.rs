@@ -1,4 +1,4 @@
-//! Why results of a plugin that was brought have no place any more: what its author or a curator decided since.
+//! Why results of a submitted plugin have no place any more: what its author or a curator decided since.
 
 use std::collections::HashMap;
 
@@ -6,7 +6,7 @@ use crate::Result;
 use crate::board::Measured;
 use crate::engine::Inner;
 use crate::model::PluginState;
-use crate::plugins::sql::SubmissionRow;
+use crate::plugins::sql::PluginRow;
 
 /// Where a plugin file stands that has left the public benchmark.
 pub struct Standing {
@@ -34,10 +34,10 @@ impl Standing {
 impl Inner {
     /// By the hash of the file; a file that somebody else has made public stands as that.
     pub(crate) async fn standings(&self) -> Result<HashMap<String, Standing>> {
-        let rows = self.store.submissions().await?;
+        let rows = self.store.plugins().await?;
         let public = |blob: &str| rows.iter().any(|row| row.blob == blob && row.state == PluginState::Public);
         let left = rows.iter().filter(|row| row.state.is_shown() && !public(&row.blob));
-        let standing = |row: &SubmissionRow| Standing {
+        let standing = |row: &PluginRow| Standing {
             state: row.state,
             reason: row.reason.clone(),
             hardware_class: row.excluded_on.clone().or_else(|| row.hardware_class.clone()),

@@ -1,48 +1,48 @@
-//! Plugins that developers brought, as far as somebody may benchmark them.
+//! Submitted plugins, as far as somebody may benchmark them.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use ocb_lab::contestant::Contestant;
+use ocb_lab::algorithm::Algorithm;
 
 use crate::blobs::Blobs;
 use crate::model::{AlgorithmInfo, Owner, PluginState};
-use crate::plugins::sql::SubmissionRow;
+use crate::plugins::sql::PluginRow;
 use crate::store::Store;
 use crate::{EngineError, Result};
 
-/// An algorithm of a plugin that somebody brought.
-pub struct Brought {
+/// An algorithm of a submitted plugin.
+pub struct Submitted {
     /// Under the name by which it is asked for: the newest public version under its id, others as `id@version`.
-    pub contestant: Arc<Contestant>,
-    /// Who brought it.
+    pub algorithm: Arc<Algorithm>,
+    /// Who submitted it.
     pub owner: String,
     /// Everybody may ask for it.
     pub public: bool,
 }
 
-impl Brought {
+impl Submitted {
     /// May this viewer ask for it?
     pub fn is_for(&self, viewer: Option<&str>) -> bool {
         self.public || viewer == Some(self.owner.as_str())
     }
 }
 
-/// What developers brought.
+/// The submitted plugins.
 #[derive(Default)]
-pub struct AllBrought {
+pub struct AllSubmitted {
     /// The offered ones.
-    pub plugins: Vec<Brought>,
+    pub plugins: Vec<Submitted>,
     /// Why others are not offered, as sentences.
     pub problems: Vec<String>,
 }
 
 /// Every algorithm that may be asked for, with its file on the disk of this machine. A file that cannot be read keeps no other
 /// from being offered.
-pub async fn brought(store: &Store, blobs: &Blobs, data: &Path) -> Result<AllBrought> {
-    let (mut all, mut problems): (Vec<Brought>, Vec<String>) = Default::default();
-    let rows = store.submissions().await?;
+pub async fn submitted(store: &Store, blobs: &Blobs, data: &Path) -> Result<AllSubmitted> {
+    let (mut all, mut problems): (Vec<Submitted>, Vec<String>) = Default::default();
+    let rows = store.plugins().await?;
     for row in rows.iter().filter(|row| row.state.is_usable()) {
         let file = match plugin_file(blobs, data, &row.blob).await {
             Ok(file) => file,
@@ -57,22 +57,22 @@ pub async fn brought(store: &Store, blobs: &Blobs, data: &Path) -> Result<AllBro
         };
         for info in &row.algorithms {
             let public = row.state == PluginState::Public;
-            let newest = public && all.iter().all(|b| !b.public || b.contestant.info.id != info.id);
+            let newest = public && all.iter().all(|b| !b.public || b.algorithm.info.id != info.id);
             all.push(one(row, info, &file, public, newest));
         }
     }
-    Ok(AllBrought { plugins: all, problems })
+    Ok(AllSubmitted { plugins: all, problems })
 }
 
-fn one(row: &SubmissionRow, info: &AlgorithmInfo, file: &Path, public: bool, newest: bool) -> Brought {
-    let mut contestant = Contestant::plain(info.clone(), file.to_owned(), false);
+fn one(row: &PluginRow, info: &AlgorithmInfo, file: &Path, public: bool, newest: bool) -> Submitted {
+    let mut algorithm = Algorithm::plain(info.clone(), file.to_owned(), false);
     if !newest {
-        contestant.info.id = format!("{}@{}", info.id, row.manifest.version);
-        contestant.info.name = format!("{} {}", info.name, row.manifest.version);
+        algorithm.info.id = format!("{}@{}", info.id, row.manifest.version);
+        algorithm.info.name = format!("{} {}", info.name, row.manifest.version);
     }
     // One's own is measured without being named; everybody's would make every run longer.
-    contestant.info.usual = !public;
-    Brought { contestant: Arc::new(contestant), owner: Owner::Account(&row.account).to_string(), public }
+    algorithm.info.usual = !public;
+    Submitted { algorithm: Arc::new(algorithm), owner: Owner::Account(&row.account).to_string(), public }
 }
 
 /// The file of a plugin on this disk, under its hash; the jail needs a path.
