@@ -1,31 +1,35 @@
 //! Asking for runs, looking at them and ending them.
 
+pub mod accept;
 pub mod benchmark;
 pub mod carry_out;
 pub mod current;
 pub mod dispatcher;
 pub mod draw;
 pub mod estimate;
+pub mod events_sql;
 pub mod featured;
 pub mod follow;
+#[cfg(feature = "postgres")]
+pub mod hear;
 pub mod log;
 pub mod looking;
-pub mod pairing;
 pub mod places;
 pub mod preliminary;
 pub mod priority;
 pub mod queue;
 pub mod remaining;
 pub mod repro;
+pub mod share;
 pub mod spec;
 pub mod sql;
 pub mod stored_spec;
-pub mod turn;
 
 use std::time::{Duration, Instant};
 
 use crate::boxed;
 use crate::engine::Engine;
+use crate::locks::Lock;
 use crate::model::{
     AccountInfo, AlgorithmResult, Cursor, Page, Part, Role, RunInfo, RunSpec, Stage, State, Visibility,
 };
@@ -93,7 +97,7 @@ impl Engine {
             id: uuid::Uuid::now_v7().to_string(),
             owner: owner.map(str::to_owned),
             featured,
-            private: checked.contestants.iter().any(|c| self.inner.registry.is_private(c)),
+            private: checked.algorithms.iter().any(|c| self.inner.registry.is_private(c)),
             // The service's own runs are for everybody.
             visibility: if priority == INTERACTIVE { Visibility::default() } else { Visibility::Public },
             priority,
@@ -119,7 +123,7 @@ impl Engine {
             spec: checked.spec,
         };
         // Two concurrent requests must not share the last of a quota.
-        let _alone = self.inner.asking.lock().await;
+        let _alone = self.inner.store.locks.alone(Lock::Admission).await?;
         if !asked_before && campaign.is_none() {
             self.has_room_for_a_run(&row).await?;
         }
@@ -165,7 +169,7 @@ impl Engine {
         // The old secret is known by now.
         let granted_seconds = granted(&checked.spec);
         let row = RunRow { spec: checked.spec, secret: Some(draw::secret()), expected_seconds, granted_seconds, ..row };
-        let _alone = self.inner.asking.lock().await;
+        let _alone = self.inner.store.locks.alone(Lock::Admission).await?;
         self.has_room_for_a_run(&row).await?;
         if !self.inner.store.queue_again(&row, &fresh_stages(&row.spec.algorithms)).await? {
             return Err(nothing());
@@ -237,13 +241,18 @@ impl Engine {
         let asked = Instant::now();
         loop {
             let ended = row.after(State::Cancelled);
-            if self.inner.store.end_run(id, State::Queued, ended, reason).await? {
+            if self.inner.store.end_waiting_run(id, ended, reason).await? {
                 self.inner.run_events.tell(&self.inner.store, id, plain_event(ended, 0)).await?;
                 self.inner.run_events.queue_moved();
                 break;
             }
-            // Between the claim and the start there is a moment in which neither works; so it is tried until it does.
+            // Between the beginning and the start there is a moment in which neither works; so it is tried until it does.
             self.inner.stop_current(Some(id), reason);
+            if self.inner.store.withdraw_run(id, &self.inner.worker, ended, reason).await? {
+                self.inner.run_events.ring(id);
+                self.inner.run_events.queue_moved();
+                break;
+            }
             let state = self.inner.run_row(id).await?.state;
             if !matches!(state, State::Queued | State::Running) || asked.elapsed() > CANCEL_PATIENCE {
                 break;

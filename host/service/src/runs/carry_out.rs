@@ -1,55 +1,58 @@
-//! Carrying out a claimed run: on a thread of its own, in its time, with a record of its end.
+//! Carrying out an attempt at a run: on a thread of its own, in its time, with a record of its end.
 
 use std::sync::Arc;
 use std::time::Duration;
 
 use tokio::runtime::Handle;
 
+use crate::attempts::Attempt;
 use crate::engine::Inner;
 use crate::measure::Stop;
 use crate::model::State;
+use crate::runs::accept::RunEnd;
 use crate::runs::benchmark;
 use crate::runs::benchmark::End;
-use crate::runs::log::plain_event;
+use crate::runs::spec::reference;
+use crate::runs::sql::RunRow;
 use crate::{EngineError, Result};
 
 /// After a fault of the database.
 pub const BACK_OFF: Duration = Duration::from_secs(2);
 
-/// Carries out a claimed run; idle work gives way when more is asked for than was.
-pub async fn carry_out(inner: &Arc<Inner>, id: &str, idle: Option<u64>) -> Result<()> {
-    let stop = Stop::default();
+/// Carries out an attempt at a run; idle work gives way when more is asked for than was.
+pub async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, idle: Option<u64>) -> Result<()> {
+    let (id, stop) = (attempt.job.as_str(), Stop::default());
+    let _held = inner.hold(attempt, &stop);
     match idle {
         Some(asked) => inner.set_current_idle(id, &stop, asked),
         None => inner.set_current(id, &stop),
     }
-    // A shutdown that came between the claim and this line found nothing to stop; it is noticed here.
+    // A shutdown that came between the beginning and this line found nothing to stop; it is noticed here.
     if inner.closing() {
         stop.stop();
     }
     inner.run_events.queue_moved();
-    let ended = run_in_time(inner, id, &stop).await;
+    let row = inner.run_row(id).await?;
+    // Where the reference is none of the algorithms, it takes turns, too.
+    let apart = reference(&row.spec, &inner.registry).filter(|apart| !row.spec.algorithms.contains(&apart.info.id));
+    let algorithms = row.spec.algorithms.len() + usize::from(apart.is_some());
+    let shown = inner.under_way.begin(id, algorithms, row.expected_seconds);
+    let ended = run_in_time(inner, attempt, &row, &stop).await;
     inner.unset_current();
-    let (state, message) = match ended {
-        Ok(End::Done) => (State::Done, None),
-        Ok(End::Stopped) if inner.closing() || stop.for_now() => {
-            inner.store.put_back(id).await?;
-            return inner.run_events.tell(&inner.store, id, plain_event(State::Queued, 0)).await;
+    if let (Ok(End::Stopped), true) = (&ended, inner.closing() || stop.for_now()) {
+        if inner.store.put_back_run(attempt).await? {
+            inner.run_events.ring(id);
         }
-        Ok(End::Stopped) => (State::Cancelled, stop.reason()),
-        Err(e) => {
-            tracing::warn!("run {id} failed: {e}");
-            (State::Failed, Some(e.to_string()))
-        }
-    };
-    // Without this record the run would count as running until the next start, so a database error is retried.
-    while let Err(e) = note_end(inner, id, state, message.as_deref()).await {
-        tracing::error!("the end of run {id} cannot be recorded: {e}");
-        if inner.closing() {
-            return Err(e);
-        }
-        tokio::time::sleep(BACK_OFF).await;
+        return Ok(());
     }
+    let reason = stop.reason();
+    let accepted = accept(inner, attempt, &row, &ended, reason.as_deref()).await?;
+    drop(shown);
+    if !accepted {
+        tracing::warn!("run {id}: the result of attempt {} comes too late and is not kept", attempt.number);
+        return Ok(());
+    }
+    inner.run_events.ring(id);
     if let Err(e) = inner.run_of_campaign_ended(id).await {
         tracing::error!("run {id}: its end could not be recorded in its campaign: {e}");
     }
@@ -58,12 +61,12 @@ pub async fn carry_out(inner: &Arc<Inner>, id: &str, idle: Option<u64>) -> Resul
 }
 
 /// Runs the benchmark on a thread of its own, and stops it when its time limit is over.
-async fn run_in_time(inner: &Arc<Inner>, id: &str, stop: &Stop) -> Result<End> {
-    let longest = inner.longest_run(&inner.run_row(id).await?);
+async fn run_in_time(inner: &Arc<Inner>, attempt: &Attempt, row: &RunRow, stop: &Stop) -> Result<End> {
+    let longest = inner.longest_run(row);
     let (sender, mut ended) = tokio::sync::oneshot::channel();
-    let (for_run, for_id, for_stop, handle) = (inner.clone(), id.to_owned(), stop.clone(), Handle::current());
+    let (for_run, for_attempt, for_stop, handle) = (inner.clone(), attempt.clone(), stop.clone(), Handle::current());
     let thread = std::thread::Builder::new().name("run".into()).spawn(move || {
-        let _ = sender.send(benchmark::run(&for_run, &for_id, &for_stop, &handle));
+        let _ = sender.send(benchmark::run(&for_run, &for_attempt, &for_stop, &handle));
     });
     thread.map_err(|e| EngineError::fault("Starting the run's thread failed", e))?;
     let in_time = match longest {
@@ -81,15 +84,34 @@ async fn run_in_time(inner: &Arc<Inner>, id: &str, stop: &Stop) -> Result<End> {
     ended.unwrap_or_else(|_| Err(EngineError::Fault("The run failed; see the log.".into())))
 }
 
-async fn note_end(inner: &Inner, id: &str, state: State, message: Option<&str>) -> Result<()> {
-    let row = match inner.run_row(id).await {
-        // Deleted meanwhile: there is nothing left to record.
-        Err(EngineError::NotFound(_)) => return Ok(()),
-        row => row?,
+/// Hands in how the run ended; false when this is not the current attempt any more. Without this record the run would count as
+/// running until the next start, so a database error is retried.
+async fn accept(
+    inner: &Inner,
+    attempt: &Attempt,
+    row: &RunRow,
+    ended: &Result<End>,
+    reason: Option<&str>,
+) -> Result<bool> {
+    let (state, message, handed) = match ended {
+        Ok(End::Done { handed, .. }) => {
+            let state = if handed.failed.is_some() { State::Failed } else { State::Done };
+            (state, handed.failed.clone(), Some(&**handed))
+        }
+        Ok(End::Stopped) => (row.after(State::Cancelled), reason.map(str::to_owned), None),
+        Err(e) => {
+            tracing::warn!("run {} failed: {e}", row.id);
+            (row.after(State::Failed), Some(e.to_string()), None)
+        }
     };
-    let state = row.after(state);
-    inner.store.end_run(id, State::Running, state, message).await?;
-    inner.run_events.tell(&inner.store, id, plain_event(state, 0)).await
+    loop {
+        match inner.store.accept_run(attempt, RunEnd { state, message: message.as_deref(), handed }).await {
+            Ok(accepted) => return Ok(accepted),
+            Err(e) if inner.closing() => return Err(e),
+            Err(e) => tracing::error!("the end of run {} cannot be recorded: {e}", row.id),
+        }
+        tokio::time::sleep(BACK_OFF).await;
+    }
 }
 
 fn too_long(longest: Duration) -> String {

@@ -3,10 +3,18 @@
 use std::sync::atomic::Ordering;
 use std::sync::{MutexGuard, PoisonError};
 
+use crate::attempts::Attempt;
+use crate::attempts::worker::Held;
 use crate::engine::{Current, Inner};
 use crate::measure::Stop;
 
 impl Inner {
+    /// Keeps this attempt, and puts its work off when another worker has the job.
+    pub(crate) fn hold(&self, attempt: &Attempt, stop: &Stop) -> Held {
+        let stop = stop.clone();
+        self.holding.hold(attempt, move || stop.stop_for_now())
+    }
+
     /// Notes the work under way and how it is stopped.
     pub(crate) fn set_current(&self, id: &str, stop: &Stop) {
         *self.current() = Some(Current { id: id.to_owned(), stop: stop.clone(), idle: false });

@@ -1,4 +1,4 @@
-//! The local dispatcher: one process owns the queue, one run is at work at a time, each on a thread of its own.
+//! The local dispatcher: one job of the queue is at work at a time, each on a thread of its own.
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -8,32 +8,15 @@ use crate::Result;
 use crate::engine::Inner;
 use crate::idle::Filling;
 use crate::measure::Stop;
-use crate::model::State;
 use crate::plugins::checks;
 use crate::runs::carry_out::{BACK_OFF, carry_out};
-use crate::runs::log::plain_event;
 use crate::runs::priority::INTERACTIVE;
 use crate::stability::work::next_part;
 
-/// A run that was started this often is not tried again: it may be what ends the service.
-const MAX_ATTEMPTS: i64 = 3;
 /// The queue is looked at this often even if nobody rings.
 const IDLE: Duration = Duration::from_secs(30);
 /// After several of checks in succession at most.
 const LONGEST_BACK_OFF: Duration = Duration::from_secs(60);
-
-/// Puts back what an ended process left behind.
-pub async fn recover(inner: &Inner) -> Result<()> {
-    let (queued, failed) = inner.store.recover(MAX_ATTEMPTS).await?;
-    for run in &failed {
-        inner.run_events.tell(&inner.store, run, plain_event(State::Failed, 0)).await?;
-    }
-    checks::recover(inner).await?;
-    if !queued.is_empty() {
-        tracing::info!("{} interrupted run(s) are back in the queue", queued.len());
-    }
-    Ok(())
-}
 
 /// Works on the queue until the engine closes.
 pub async fn work(inner: Arc<Inner>) {
@@ -64,10 +47,10 @@ pub async fn work(inner: Arc<Inner>) {
                 true
             }
         };
-        match inner.store.claim().await {
-            Ok(Some(id)) => {
-                if let Err(e) = carry_out(&inner, &id, None).await {
-                    tracing::error!("run {id}: {e}");
+        match inner.store.begin_run(&inner.worker).await {
+            Ok(Some(attempt)) => {
+                if let Err(e) = carry_out(&inner, &attempt, None).await {
+                    tracing::error!("run {}: {e}", attempt.job);
                     tokio::time::sleep(BACK_OFF).await;
                 }
             }
@@ -92,30 +75,30 @@ fn back_off(faults: u32) -> Duration {
 
 /// Checks the plugin whose turn it is; false when none waits.
 async fn check_next(inner: &Arc<Inner>) -> Result<bool> {
-    let Some(row) = inner.store.claim_check(checks::MAX_ATTEMPTS).await? else { return Ok(false) };
+    let Some((attempt, row)) = inner.store.begin_check(&inner.worker).await? else { return Ok(false) };
     let stop = Stop::default();
+    let _held = inner.hold(&attempt, &stop);
     inner.set_current(&row.id, &stop);
     if inner.closing() {
         stop.stop();
     }
-    // Who ended it between the claim and this line found nothing to stop.
-    let done = match inner.store.submission(&row.id).await {
-        Ok(Some(now)) if now.state.is_checking() => checks::carry_out(inner, &row, &stop).await,
-        other => other.map(|_| ()),
+    // Who ended it between the beginning and this line found nothing to stop.
+    let done = match inner.store.plugin(&row.id).await {
+        Ok(Some(now)) if now.state.is_checking() => checks::carry_out(inner, &attempt, &row, &stop).await,
+        other => other.map(|_| false),
     };
     inner.unset_current();
-    if let Err(e) = done {
-        // Our fault, not the plugin's: the attempt does not count. A database error is retried, as below.
-        while let Err(e) = inner.store.put_back_check(&row.id).await {
-            tracing::error!("the check of plugin {} cannot be put back: {e}", row.id);
-            if inner.closing() {
-                break;
-            }
-            tokio::time::sleep(BACK_OFF).await;
+    // What was stopped, or went wrong by our fault and not the plugin's, is no attempt. A database error is retried, as below.
+    while !matches!(done, Ok(true))
+        && let Err(e) = inner.store.put_back_check(&attempt).await
+    {
+        tracing::error!("the check of plugin {} cannot be put back: {e}", row.id);
+        if inner.closing() {
+            break;
         }
-        return Err(e);
+        tokio::time::sleep(BACK_OFF).await;
     }
-    Ok(true)
+    done.map(|_| true)
 }
 
 #[test]

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use ocb_lab::contestant::Contestant;
+use ocb_lab::algorithm::Algorithm;
 
 use crate::model::Draw;
 use crate::runs::sql::RunRow;
@@ -26,14 +26,14 @@ pub fn commitment(secret: &str) -> String {
 }
 
 /// The seed that the run's owner chose, or the one that follows from the run's secret.
-pub fn seed(row: &RunRow, set_sha256: &str, contestants: &[Arc<Contestant>]) -> u64 {
-    let plugins = contestants.iter().map(|c| c.info.plugin_sha256.as_str());
+pub fn seed(row: &RunRow, set_sha256: &str, algorithms: &[Arc<Algorithm>]) -> u64 {
+    let plugins = algorithms.iter().map(|c| c.info.plugin_sha256.as_str());
     row.spec.seed.unwrap_or_else(|| follow(row.secret.as_deref().unwrap_or_default(), set_sha256, plugins))
 }
 
 /// The seed of the configurations of a run whose suite names none.
-pub fn configurations(row: &RunRow, contestants: &[Arc<Contestant>]) -> u64 {
-    let plugins = contestants.iter().map(|c| c.info.plugin_sha256.as_str());
+pub fn configurations(row: &RunRow, algorithms: &[Arc<Algorithm>]) -> u64 {
+    let plugins = algorithms.iter().map(|c| c.info.plugin_sha256.as_str());
     follow(row.secret.as_deref().unwrap_or_default(), "configurations", plugins)
 }
 

@@ -1,6 +1,6 @@
 //! What a run would cost, from what earlier ones did.
 
-use ocb_lab::contestant::Contestant;
+use ocb_lab::algorithm::Algorithm;
 
 use crate::configurations::set_key;
 use crate::engine::{Engine, Inner};
@@ -62,16 +62,16 @@ pub async fn estimate_alone(inner: &Inner, checked: &Checked) -> Result<Estimate
         None => configurations as f64 * nearest(&inner.store.set_rates().await?, triangles, FIRST_CONFIGURATION),
     };
     let measured = configurations.min(spec.at_most.map_or(u64::MAX, u64::from));
-    let cost = |contestant: &Contestant, counted: bool, rates: &[(u64, f64)]| {
+    let cost = |algorithm: &Algorithm, counted: bool, rates: &[(u64, f64)]| {
         let query = nearest(rates, triangles, FIRST_QUERY);
         let Cost { seconds, budget_limited } =
             measure::cost(measured, spec.passes, spec.budget_seconds, counted, query, START);
-        AlgorithmSeconds { algorithm: contestant.info.id.clone(), seconds, budget_limited }
+        AlgorithmSeconds { algorithm: algorithm.info.id.clone(), seconds, budget_limited }
     };
     let mut measuring_seconds = Vec::new();
-    for contestant in &checked.contestants {
-        let rates = inner.store.result_rates(&contestant.info.id, spec.query).await?;
-        measuring_seconds.push(cost(contestant, contestant.info.counters, &rates));
+    for algorithm in &checked.algorithms {
+        let rates = inner.store.result_rates(&algorithm.info.id, spec.query).await?;
+        measuring_seconds.push(cost(algorithm, algorithm.info.counters, &rates));
     }
     // It takes part in every round, whether it was asked for or not.
     let reference = spec::reference(spec, &inner.registry).filter(|it| !spec.algorithms.contains(&it.info.id));

@@ -5,6 +5,7 @@ use ocb_core::query::{Query, Semantics};
 
 use crate::Result;
 use crate::engine::Engine;
+use crate::locks::Lock;
 use crate::model::RunSpec;
 use crate::runs::RunContext;
 use crate::runs::priority::BACKGROUND;
@@ -17,6 +18,7 @@ const BUDGET_SECONDS: f64 = 6.0;
 impl Engine {
     /// Queues the quick run when it is wanted and there is none.
     pub(crate) async fn feature_a_run(&self) -> Result<()> {
+        let _alone = self.inner.store.locks.alone(Lock::Planning).await?;
         let algorithms = self.inner.registry.algorithms(None);
         if !self.inner.config.featured || self.inner.store.featured_count().await? > 0 {
             return Ok(());

@@ -1,4 +1,4 @@
-//! What a run tells while it is under way: its lanes in the database, its events for whoever follows.
+//! What a run tells while it is under way: its stages in the database, its events for whoever follows.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -7,9 +7,10 @@ use tokio::runtime::Handle;
 use tokio::sync::broadcast;
 
 use crate::Result;
-use crate::model::{AlgorithmResult, RunEvent, Stage, StageKind, State};
+use crate::attempts::{Attempt, superseded};
+use crate::model::{RunEvent, Stage, StageKind, State};
 use crate::runs::preliminary::UnderWay;
-use crate::store::{Store, now_us};
+use crate::store::Store;
 
 /// So often a page learns of progress.
 const TELL_EVERY: Duration = Duration::from_millis(200);
@@ -46,7 +47,6 @@ impl RunEvents {
 
     /// Writes an event and rings.
     pub async fn tell(&self, store: &Store, run: &str, mut event: RunEvent) -> Result<()> {
-        event.at_us = now_us();
         store.add_event(run, &mut event).await?;
         // Nobody listening is no error.
         self.ring(run);
@@ -54,12 +54,12 @@ impl RunEvents {
     }
 }
 
-/// An event without lane and result.
+/// An event without stage and result.
 pub fn plain_event(state: State, runs_ahead: u32) -> RunEvent {
     RunEvent { seq: 0, at_us: 0, state, runs_ahead, stage: None, result: None, seconds_left: None }
 }
 
-/// The lanes of a run that waits for its turn.
+/// The stages of a run that waits for its turn.
 pub fn fresh_stages(algorithms: &[String]) -> Vec<Stage> {
     let stage = |kind, algorithm: Option<&String>| Stage {
         kind,
@@ -77,9 +77,10 @@ pub fn fresh_stages(algorithms: &[String]) -> Vec<Stage> {
     stages
 }
 
-/// The run under way. Lives on the run's own thread, so its database calls may block.
+/// The run under way. Lives on the run's own thread, so its database calls may block. Each of them fails when another worker has
+/// the run.
 pub struct RunLog {
-    run: String,
+    attempt: Attempt,
     store: Store,
     run_events: RunEvents,
     under_way: Arc<UnderWay>,
@@ -89,20 +90,18 @@ pub struct RunLog {
 }
 
 impl RunLog {
-    /// All lanes begin anew: what an earlier attempt left is found again in the store, quickly.
+    /// All stages begin anew: what an earlier attempt left is found again in the store, quickly.
     pub fn begin(
-        run: &str,
+        attempt: &Attempt,
         algorithms: &[String],
         (store, run_events, under_way): (Store, RunEvents, Arc<UnderWay>),
         handle: Handle,
     ) -> Result<Self> {
         let stages = fresh_stages(algorithms);
         let meters = stages.iter().map(|_| Meter::new()).collect();
-        let log = Self { run: run.to_owned(), store, run_events, under_way, handle, stages, meters };
-        for lane in 0..log.stages.len() {
-            log.write(lane)?;
-        }
-        log.send(plain_event(State::Running, 0))?;
+        let log = Self { attempt: attempt.clone(), store, run_events, under_way, handle, stages, meters };
+        let stages: Vec<(usize, &Stage)> = log.stages.iter().enumerate().collect();
+        log.send(&stages, plain_event(State::Running, 0))?;
         Ok(log)
     }
 
@@ -111,85 +110,82 @@ impl RunLog {
         self.handle.block_on(call)
     }
 
-    /// A lane starts to work.
-    pub fn start(&mut self, lane: usize, total: u64) -> Result<()> {
-        self.meters[lane] = Meter::new();
-        let stage = &mut self.stages[lane];
+    /// A stage starts to work.
+    pub fn start(&mut self, index: usize, total: u64) -> Result<()> {
+        self.meters[index] = Meter::new();
+        let stage = &mut self.stages[index];
         (stage.state, stage.done, stage.total) = (State::Running, 0, total);
-        self.tell(lane, None)
+        self.tell(index)
     }
 
-    /// A lane that has worked since its start has come further. The caller keeps it to about five times a second.
-    pub fn progress(&mut self, lane: usize, done: u64, total: u64) -> Result<()> {
-        self.progress_after(lane, done, total, self.meters[lane].begun.elapsed())
+    /// A stage that has worked since its start has come further. The caller keeps it to about five times a second.
+    pub fn progress(&mut self, index: usize, done: u64, total: u64) -> Result<()> {
+        self.progress_after(index, done, total, self.meters[index].begun.elapsed())
     }
 
-    /// A lane that works by turns has come further, after so much work of its own. A total of 0 is not known yet.
-    pub fn progress_after(&mut self, lane: usize, done: u64, total: u64, worked: Duration) -> Result<()> {
-        let rate = self.meters[lane].rate(done, worked);
-        let stage = &mut self.stages[lane];
+    /// A stage that works by turns has come further, after so much work of its own. A total of 0 is not known yet.
+    pub fn progress_after(&mut self, index: usize, done: u64, total: u64, worked: Duration) -> Result<()> {
+        let rate = self.meters[index].rate(done, worked);
+        let stage = &mut self.stages[index];
         stage.state = State::Running;
         (stage.done, stage.total, stage.rate) = (done, total, rate);
         stage.seconds_left = (rate > 0.0 && total > 0).then(|| total.saturating_sub(done) as f64 / rate);
-        self.tell(lane, None)
+        self.tell(index)
     }
 
     /// As [`RunLog::progress`], but at most five times a second however often it is called.
-    pub fn progress_slowly(&mut self, lane: usize, done: u64, total: u64) -> Result<()> {
-        if self.meters[lane].told.elapsed() < TELL_EVERY {
+    pub fn progress_slowly(&mut self, index: usize, done: u64, total: u64) -> Result<()> {
+        if self.meters[index].told.elapsed() < TELL_EVERY {
             return Ok(());
         }
-        self.meters[lane].told = Instant::now();
-        self.progress(lane, done, total)
+        self.meters[index].told = Instant::now();
+        self.progress(index, done, total)
     }
 
-    /// Says something about a lane.
-    pub fn note(&mut self, lane: usize, message: Option<&str>) -> Result<()> {
-        self.stages[lane].message = message.map(str::to_owned);
-        self.tell(lane, None)
+    /// Says something about a stage.
+    pub fn note(&mut self, index: usize, message: Option<&str>) -> Result<()> {
+        self.stages[index].message = message.map(str::to_owned);
+        self.tell(index)
     }
 
-    /// A lane has ended.
-    pub fn end(
-        &mut self,
-        lane: usize,
-        state: State,
-        message: Option<String>,
-        result: Option<AlgorithmResult>,
-    ) -> Result<()> {
-        let stage = &mut self.stages[lane];
+    /// A stage has ended.
+    pub fn end(&mut self, index: usize, state: State, message: Option<String>) -> Result<()> {
+        let stage = &mut self.stages[index];
         if state == State::Done {
             stage.total = stage.done;
         }
         (stage.state, stage.message, stage.seconds_left) = (state, message, None);
-        self.tell(lane, result)
+        self.tell(index)
     }
 
     /// Whatever was at work ends so.
     pub fn end_open(&mut self, state: State, message: Option<&str>) -> Result<()> {
-        for lane in 0..self.stages.len() {
-            match self.stages[lane].state {
-                State::Running => self.end(lane, state, message.map(str::to_owned), None)?,
-                State::Queued if state == State::Cancelled => self.end(lane, state, None, None)?,
+        for index in 0..self.stages.len() {
+            match self.stages[index].state {
+                State::Running => self.end(index, state, message.map(str::to_owned))?,
+                State::Queued if state == State::Cancelled => self.end(index, state, None)?,
                 _ => {}
             }
         }
         Ok(())
     }
 
-    fn tell(&self, lane: usize, result: Option<AlgorithmResult>) -> Result<()> {
-        self.write(lane)?;
-        let stage = Some(self.stages[lane].clone());
-        self.send(RunEvent { stage, result, ..plain_event(State::Running, 0) })
+    fn tell(&self, index: usize) -> Result<()> {
+        let stage = &self.stages[index];
+        self.send(&[(index, stage)], RunEvent { stage: Some(stage.clone()), ..plain_event(State::Running, 0) })
     }
 
-    fn send(&self, event: RunEvent) -> Result<()> {
-        let event = RunEvent { seconds_left: self.under_way.seconds_left(&self.run), ..event };
-        self.handle.block_on(self.run_events.tell(&self.store, &self.run, event))
+    fn send(&self, stages: &[(usize, &Stage)], event: RunEvent) -> Result<()> {
+        let run = self.attempt.job.as_str();
+        let mut event = RunEvent { seconds_left: self.under_way.seconds_left(run), ..event };
+        self.kept(self.store.tell(&self.attempt, stages, &mut event))?;
+        self.run_events.ring(run);
+        Ok(())
     }
 
-    fn write(&self, lane: usize) -> Result<()> {
-        self.handle.block_on(self.store.put_stage(&self.run, lane, &self.stages[lane]))
+    /// Waits for a database call that tells whether this attempt is still the current one.
+    pub fn kept(&self, call: impl Future<Output = Result<bool>>) -> Result<()> {
+        if self.handle.block_on(call)? { Ok(()) } else { Err(superseded()) }
     }
 }
 
@@ -230,7 +226,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_lanes_rate_is_that_of_its_own_work() {
+    fn a_stages_rate_is_that_of_its_own_work() {
         let mut meter = Meter::new();
         let mut rate = |done, milliseconds| meter.rate(done, Duration::from_millis(milliseconds));
         assert_eq!(rate(0, 0), 0.0);

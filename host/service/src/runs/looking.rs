@@ -5,14 +5,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use ocb_core::configuration::ConfigurationSet;
-use ocb_lab::contestant::Contestant;
+use ocb_lab::algorithm::Algorithm;
+use ocb_lab::pairing::Pairing;
 
 use crate::engine::Inner;
 use crate::machine::MeasuringRight;
 use crate::measure::{self, Part, Preliminary, Stop, Task};
 use crate::model::RunSpec;
 use crate::runs::draw;
-use crate::runs::pairing::Pairing;
 use crate::runs::sql::RunRow;
 
 /// One run while it is looked at.
@@ -21,8 +21,8 @@ pub struct Looking<'a> {
     stop: &'a Stop,
     run: String,
     spec: RunSpec,
-    contestants: Vec<Arc<Contestant>>,
-    reference: Option<Arc<Contestant>>,
+    algorithms: Vec<Arc<Algorithm>>,
+    reference: Option<Arc<Algorithm>>,
     /// Of the processes that look; those that measure have another.
     seed: u64,
     watched: bool,
@@ -36,16 +36,16 @@ impl<'a> Looking<'a> {
         inner: &'a Inner,
         stop: &'a Stop,
         row: &RunRow,
-        contestants: Vec<Arc<Contestant>>,
-        reference: Option<Arc<Contestant>>,
+        algorithms: Vec<Arc<Algorithm>>,
+        reference: Option<Arc<Algorithm>>,
     ) -> Self {
         Self {
             inner,
             stop,
             run: row.id.clone(),
             spec: row.spec.clone(),
-            seed: draw::seed(row, "first look", &contestants),
-            contestants,
+            seed: draw::seed(row, "first look", &algorithms),
+            algorithms,
             reference,
             watched: row.suite.is_none() && row.campaign.is_none() && !row.is_refined(),
             looked: AtomicBool::new(false),
@@ -55,11 +55,7 @@ impl<'a> Looking<'a> {
     /// The run's task on this set, without controls.
     pub fn task<'t>(&'t self, pairing: &'t Pairing, set: &'t ConfigurationSet, part: Part) -> Task<'t> {
         Task {
-            mesh_a: &pairing.mesh_a,
-            mesh_b: &pairing.mesh_b,
-            a: &pairing.a,
-            b: &pairing.b,
-            same: pairing.same,
+            pairing,
             set,
             controls: &[],
             query: self.spec.query,
@@ -67,10 +63,12 @@ impl<'a> Looking<'a> {
             passes: self.spec.passes,
             budget: Duration::from_secs_f64(self.spec.budget_seconds),
             seed: self.seed,
-            contestants: &self.contestants,
+            algorithms: &self.algorithms,
             reference: self.reference.as_ref(),
             part,
             watched: self.watched,
+            in_order: measure::is_coherent(&set.method),
+            rounds_only: false,
         }
     }
 
@@ -98,8 +96,8 @@ impl<'a> Looking<'a> {
     }
 
     /// An algorithm is so far in the rounds.
-    pub fn progress(&self, lane: usize, done: u64, total: u64, worked: Duration) {
-        self.inner.under_way.estimate(|it| it.progress(lane, done, total, worked.as_secs_f64()));
+    pub fn progress(&self, index: usize, done: u64, total: u64, worked: Duration) {
+        self.inner.under_way.estimate(|it| it.progress(index, done, total, worked.as_secs_f64()));
     }
 
     /// The algorithm at this place of the run's list has something to show.

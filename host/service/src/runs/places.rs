@@ -4,10 +4,10 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::Result;
-use crate::runs::turn::{Since, Turn};
+use crate::runs::share::{QueueShare, Since};
 use crate::store::Store;
 
-/// Turns of which there are so many are not counted anew for everybody who looks.
+/// Shares of which there are so many are not counted anew for everybody who looks.
 const MANY: usize = 100;
 /// So long they stand.
 const STAND: Duration = Duration::from_secs(1);
@@ -52,20 +52,20 @@ impl Store {
         .fetch_one(&self.pool)
         .await?;
         let since = (served_us, first_us.unwrap_or(created_us), first.unwrap_or_else(|| id.to_owned()));
-        let others = of_others(&turn, &since, of_turn, &self.turns(priority).await?);
+        let others = of_others(&turn, &since, of_turn, &self.shares(priority).await?);
         Ok(Some((sooner + of_turn + others) as u32))
     }
 
-    /// The turns at this priority. Who comes while they are counted waits for that and has them as well.
-    async fn turns(&self, priority: i64) -> Result<Arc<Vec<Turn>>> {
-        let mut known = self.turns.lock().await;
-        if let Some((counted, of, turns)) = &*known
+    /// The shares at this priority. Who comes while they are counted waits for that and has them as well.
+    async fn shares(&self, priority: i64) -> Result<Arc<Vec<QueueShare>>> {
+        let mut known = self.shares.lock().await;
+        if let Some((counted, of, shares)) = &*known
             && *of == priority
             && counted.elapsed() < STAND
         {
-            return Ok(turns.clone());
+            return Ok(shares.clone());
         }
-        let turns: Vec<(String, i64, i64, i64, String)> = sqlx::query_as(
+        let rows: Vec<(String, i64, i64, i64, String)> = sqlx::query_as(
             "SELECT t.turn, t.waiting, COALESCE(s.served_us, 0), t.first_us, t.first_id FROM \
              (SELECT turn, COUNT(*) AS waiting, MIN(created_us) AS first_us, MIN(id) AS first_id FROM runs \
              WHERE state = 'queued' AND priority = $1 GROUP BY turn) AS t LEFT JOIN served s ON s.owner = t.turn",
@@ -73,18 +73,18 @@ impl Store {
         .bind(priority)
         .fetch_all(&self.pool)
         .await?;
-        let turn =
-            |(turn, waiting, served_us, first_us, first)| Turn { turn, waiting, since: (served_us, first_us, first) };
-        let turns: Arc<Vec<Turn>> = Arc::new(turns.into_iter().map(turn).collect());
-        *known = (turns.len() >= MANY).then(|| (Instant::now(), priority, turns.clone()));
-        Ok(turns)
+        let share =
+            |(of, waiting, served_us, first_us, first)| QueueShare { of, waiting, since: (served_us, first_us, first) };
+        let shares: Arc<Vec<QueueShare>> = Arc::new(rows.into_iter().map(share).collect());
+        *known = (shares.len() >= MANY).then(|| (Instant::now(), priority, shares.clone()));
+        Ok(shares)
     }
 }
 
-/// How many runs of others come before the run of this turn that has so many of its own before it: turns go round, so that
-/// those whose turn is sooner have one more than it, as far as they have any.
-pub(crate) fn of_others(turn: &str, since: &Since, before: i64, turns: &[Turn]) -> i64 {
-    let others = turns.iter().filter(|other| other.turn != turn);
+/// How many runs of others come before the run of this share that has so many of its own before it: the shares are served in
+/// turn, and those that are served sooner have one more before it, as far as they have any.
+pub(crate) fn of_others(of: &str, since: &Since, before: i64, shares: &[QueueShare]) -> i64 {
+    let others = shares.iter().filter(|other| other.of != of);
     others.map(|other| other.waiting.min(before + i64::from(other.since < *since))).sum()
 }
 
@@ -94,13 +94,13 @@ mod tests {
 
     #[test]
     fn who_has_many_runs_does_not_keep_others_waiting() {
-        let turn =
-            |turn: &str, waiting, served_us| Turn { turn: turn.into(), waiting, since: (served_us, 1, turn.into()) };
-        let turns = [turn("a", 100, 5), turn("b", 2, 7), turn("c", 1, 0)];
+        let share =
+            |of: &str, waiting, served_us| QueueShare { of: of.into(), waiting, since: (served_us, 1, of.into()) };
+        let shares = [share("a", 100, 5), share("b", 2, 7), share("c", 1, 0)];
         // c1 a1 b1 a2 b2 a3 ...
         let place = |name: &str, before| {
-            let own = turns.iter().find(|turn| turn.turn == name).unwrap();
-            before + of_others(name, &own.since, before, &turns)
+            let own = shares.iter().find(|share| share.of == name).unwrap();
+            before + of_others(name, &own.since, before, &shares)
         };
         assert_eq!([place("c", 0), place("a", 0), place("b", 0)], [0, 1, 2]);
         assert_eq!([place("a", 1), place("b", 1), place("a", 2), place("a", 99)], [3, 4, 5, 102]);

@@ -1,5 +1,4 @@
-//! The preliminary results of the run under way. They are kept in memory only and dropped when the run ends, in whatever way;
-//! those of an algorithm are dropped when its result is stored.
+//! The preliminary results of the run under way. They are kept in memory only and dropped when the run ends, in whatever way.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
@@ -21,7 +20,7 @@ struct Showing {
     run: String,
     /// The configurations that the records are of, while the whole set is being found.
     beginning: Option<Arc<ConfigurationSet>>,
-    lanes: Vec<Lane>,
+    results: Vec<SoFar>,
     /// Grows with each change.
     version: u64,
     begun: Instant,
@@ -29,7 +28,7 @@ struct Showing {
     seconds_left: f64,
 }
 
-struct Lane {
+struct SoFar {
     place: usize,
     version: u64,
     result: AlgorithmResult,
@@ -49,12 +48,12 @@ impl Drop for Shown<'_> {
 
 impl UnderWay {
     /// This run is under way now. So many algorithms take turns, and earlier runs would have taken so many seconds.
-    pub fn begin(&self, run: &str, lanes: usize, expected: f64) -> Shown<'_> {
-        let mut remaining = Remaining::new(lanes, expected);
+    pub fn begin(&self, run: &str, algorithms: usize, expected: f64) -> Shown<'_> {
+        let mut remaining = Remaining::new(algorithms, expected);
         *self.lock() = Some(Showing {
             run: run.to_owned(),
             beginning: None,
-            lanes: Vec::new(),
+            results: Vec::new(),
             version: 0,
             begun: Instant::now(),
             seconds_left: remaining.tell(0.0),
@@ -90,24 +89,17 @@ impl UnderWay {
         }
         if let Some(showing) = &mut *self.lock() {
             showing.version += 1;
-            showing.lanes.retain(|lane| lane.place != place);
-            showing.lanes.push(Lane { place, version: showing.version, result, records: Arc::new(records) });
-            showing.lanes.sort_by_key(|lane| lane.place);
-        }
-    }
-
-    /// The result of the algorithm at this place is stored.
-    pub fn stored(&self, place: usize) {
-        if let Some(showing) = &mut *self.lock() {
-            showing.lanes.retain(|lane| lane.place != place);
+            showing.results.retain(|it| it.place != place);
+            showing.results.push(SoFar { place, version: showing.version, result, records: Arc::new(records) });
+            showing.results.sort_by_key(|it| it.place);
         }
     }
 
     /// The results that are newer than a version, and the newest version.
     pub fn newer(&self, run: &str, than: u64) -> (Vec<AlgorithmResult>, u64) {
         self.of(run, |showing| {
-            let newer = showing.lanes.iter().filter(|lane| lane.version > than);
-            (newer.map(|lane| lane.result.clone()).collect(), showing.version)
+            let newer = showing.results.iter().filter(|it| it.version > than);
+            (newer.map(|it| it.result.clone()).collect(), showing.version)
         })
         .unwrap_or((Vec::new(), than))
     }
@@ -120,8 +112,8 @@ impl UnderWay {
     /// Numbers and records of one algorithm so far.
     pub fn records(&self, run: &str, algorithm: &str) -> Option<(AlgorithmResult, Arc<RecordColumns>)> {
         self.of(run, |showing| {
-            let lane = showing.lanes.iter().find(|lane| lane.result.algorithm == algorithm)?;
-            Some((lane.result.clone(), lane.records.clone()))
+            let found = showing.results.iter().find(|it| it.result.algorithm == algorithm)?;
+            Some((found.result.clone(), found.records.clone()))
         })?
     }
 
@@ -164,8 +156,6 @@ mod tests {
         assert_eq!((n("run", 2), under_way.newer("run", 3)), (vec![5], (vec![], 3)));
         assert!(under_way.records("run", "b").is_some() && under_way.records("other", "b").is_none());
         assert_eq!(under_way.seconds_left("run"), Some(2.0 + 5.0));
-        under_way.stored(0);
-        assert_eq!(n("run", 0), [5]);
         drop(shown);
         assert!(under_way.results("run").is_empty() && under_way.records("run", "b").is_none());
     }

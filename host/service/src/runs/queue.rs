@@ -1,7 +1,16 @@
-//! The queue: which run is next, and what becomes of interrupted ones.
+//! The queue: which run is next.
+
+use sqlx::AnyConnection;
 
 use crate::Result;
+use crate::attempts::sql::{at_rest, begin, end, withdraw};
+use crate::attempts::worker::Worker;
+use crate::attempts::{Attempt, Kind, Outcome};
+use crate::model::State;
+use crate::runs::events_sql::append_event;
+use crate::runs::log::plain_event;
 use crate::runs::priority::{BACKGROUND, IDLE};
+use crate::runs::sql::state_name;
 use crate::store::{Store, now_us};
 
 /// The queued and running work of an owner or an address.
@@ -26,68 +35,74 @@ macro_rules! granted {
 }
 
 impl Store {
-    /// Takes the next run: smallest priority, then whose turn was longest ago, then the oldest. Idle work is not among them.
-    pub async fn claim(&self) -> Result<Option<String>> {
-        self.claim_between(i64::MIN, BACKGROUND).await
+    /// Begins an attempt at the next run: smallest priority, then whose turn was longest ago, then the oldest. Idle work is not
+    /// among them.
+    pub async fn begin_run(&self, worker: &Worker) -> Result<Option<Attempt>> {
+        self.begin_between(worker, i64::MIN, BACKGROUND).await
     }
 
-    /// Takes a run that the service queued for when it is idle.
-    pub async fn claim_idle(&self) -> Result<Option<String>> {
-        self.claim_between(IDLE, IDLE).await
+    /// Begins an attempt at a run that the service queued for when it is idle.
+    pub async fn begin_idle_run(&self, worker: &Worker) -> Result<Option<Attempt>> {
+        self.begin_between(worker, IDLE, IDLE).await
     }
 
-    async fn claim_between(&self, smallest: i64, largest: i64) -> Result<Option<String>> {
-        let now = now_us();
-        let claimed: Option<(String, String)> = sqlx::query_as(
-            "UPDATE runs SET state = 'running', attempts = attempts + 1, started_us = $1, message = NULL \
-             WHERE state = 'queued' AND id = ( \
-                 SELECT r.id FROM runs r LEFT JOIN served s ON s.owner = r.turn \
-                 WHERE r.state = 'queued' AND r.priority BETWEEN $2 AND $3 \
-                 ORDER BY r.priority, COALESCE(s.served_us, 0), r.created_us, r.id LIMIT 1) \
-             RETURNING id, turn",
-        )
-        .bind(now)
-        .bind(smallest)
-        .bind(largest)
-        .fetch_optional(&self.pool)
-        .await?;
-        let Some((id, turn)) = claimed else { return Ok(None) };
-        sqlx::query(
-            "INSERT INTO served (owner, served_us) VALUES ($1, $2) \
-             ON CONFLICT (owner) DO UPDATE SET served_us = excluded.served_us",
-        )
-        .bind(turn)
-        .bind(now)
-        .execute(&self.pool)
-        .await?;
-        Ok(Some(id))
-    }
-
-    /// Runs that an ended process left behind go back into the queue; those that were started `max_attempts` times fail.
-    /// Gives the ids of both.
-    pub async fn recover(&self, max_attempts: i64) -> Result<(Vec<String>, Vec<String>)> {
-        let failed = sqlx::query_scalar(
-            "UPDATE runs SET state = 'failed', finished_us = $1, message = $2 \
-             WHERE state = 'running' AND attempts >= $3 RETURNING id",
-        )
-        .bind(now_us())
-        .bind(format!("The service ended {max_attempts} times in the middle of this run, so it is not tried again."))
-        .bind(max_attempts)
-        .fetch_all(&self.pool)
-        .await?;
-        let queued = sqlx::query_scalar("UPDATE runs SET state = 'queued' WHERE state = 'running' RETURNING id")
-            .fetch_all(&self.pool)
+    async fn begin_between(&self, worker: &Worker, smallest: i64, largest: i64) -> Result<Option<Attempt>> {
+        // Another worker may take what this one has chosen; then it chooses again.
+        loop {
+            let next: Option<String> = sqlx::query_scalar(concat!(
+                "SELECT r.id FROM runs r LEFT JOIN served s ON s.owner = r.turn ",
+                "WHERE r.state = 'queued' AND r.priority BETWEEN $1 AND $2 AND ",
+                at_rest!("measure", "r.id"),
+                " ORDER BY r.priority, COALESCE(s.served_us, 0), r.created_us, r.id LIMIT 1"
+            ))
+            .bind(smallest)
+            .bind(largest)
+            .fetch_optional(&self.pool)
             .await?;
-        Ok((queued, failed))
+            let Some(next) = next else { return Ok(None) };
+            let mut transaction = self.pool.begin().await?;
+            let Some(attempt) = begin(&mut transaction, Kind::Measure, &next, worker).await? else { continue };
+            let turn: Option<String> = sqlx::query_scalar(
+                "UPDATE runs SET state = 'running', attempts = attempts + 1, started_us = $1, message = NULL \
+                 WHERE id = $2 AND state = 'queued' RETURNING turn",
+            )
+            .bind(now_us())
+            .bind(&next)
+            .fetch_optional(&mut *transaction)
+            .await?;
+            let Some(turn) = turn else { continue };
+            served(&mut transaction, &turn).await?;
+            transaction.commit().await?;
+            return Ok(Some(attempt));
+        }
     }
 
-    /// Puts a run under way back without counting the attempt: it was asked to stop, and not because of what it did.
-    pub async fn put_back(&self, id: &str) -> Result<()> {
-        sqlx::query("UPDATE runs SET state = 'queued', attempts = attempts - 1 WHERE id = $1 AND state = 'running'")
-            .bind(id)
-            .execute(&self.pool)
-            .await?;
-        Ok(())
+    /// Puts a run under way back without counting the attempt: it was asked to stop, and not because of what it did. False when
+    /// the attempt is not the current one.
+    pub async fn put_back_run(&self, attempt: &Attempt) -> Result<bool> {
+        let mut transaction = self.pool.begin().await?;
+        if !end(&mut transaction, attempt, Outcome::PutBack).await? {
+            return Ok(false);
+        }
+        let text = "UPDATE runs SET state = 'queued', attempts = attempts - 1 WHERE id = $1 AND state = 'running'";
+        sqlx::query(text).bind(&attempt.job).execute(&mut *transaction).await?;
+        append_event(&mut transaction, &attempt.job, &mut plain_event(State::Queued, 0)).await?;
+        transaction.commit().await?;
+        Ok(true)
+    }
+
+    /// Ends a run that another worker is at; false when none is.
+    pub async fn withdraw_run(&self, id: &str, here: &Worker, to: State, message: Option<&str>) -> Result<bool> {
+        let mut transaction = self.pool.begin().await?;
+        if !withdraw(&mut transaction, Kind::Measure, id, here).await? {
+            return Ok(false);
+        }
+        let text = "UPDATE runs SET state = $1, message = $2, finished_us = $3 WHERE id = $4 AND state = 'running'";
+        let query = sqlx::query(text).bind(state_name(to)).bind(message).bind(now_us()).bind(id);
+        query.execute(&mut *transaction).await?;
+        append_event(&mut transaction, id, &mut plain_event(to, 0)).await?;
+        transaction.commit().await?;
+        Ok(true)
     }
 
     /// Of this owner, without runs of campaigns.
@@ -111,4 +126,12 @@ impl Store {
                     WHERE state = 'running' AND priority <= $1";
         Ok(sqlx::query_as(text).bind(BACKGROUND).fetch_all(&self.pool).await?)
     }
+}
+
+/// Who has this turn was served now.
+pub(crate) async fn served(connection: &mut AnyConnection, turn: &str) -> Result<()> {
+    let text = "INSERT INTO served (owner, served_us) VALUES ($1, $2) \
+                ON CONFLICT (owner) DO UPDATE SET served_us = excluded.served_us";
+    sqlx::query(text).bind(turn).bind(now_us()).execute(connection).await?;
+    Ok(())
 }

@@ -16,14 +16,14 @@ pub struct Remaining {
     /// Seconds until its configurations are found.
     finding: f64,
     /// Of each algorithm, and of the reference where it is none of them.
-    lanes: Vec<f64>,
+    algorithms: Vec<f64>,
     told: Option<f64>,
 }
 
 impl Remaining {
     /// So many algorithms take turns, and earlier runs would have taken so long.
-    pub fn new(lanes: usize, expected: f64) -> Self {
-        Self { finding: 0.0, lanes: vec![expected / lanes.max(1) as f64; lanes], told: None }
+    pub fn new(algorithms: usize, expected: f64) -> Self {
+        Self { finding: 0.0, algorithms: vec![expected / algorithms.max(1) as f64; algorithms], told: None }
     }
 
     /// Configurations are being found for so long.
@@ -34,22 +34,22 @@ impl Remaining {
     }
 
     /// A first look says how long an algorithm will take.
-    pub fn looked(&mut self, lane: usize, seconds: f64) {
-        if let Some(left) = self.lanes.get_mut(lane) {
+    pub fn looked(&mut self, index: usize, seconds: f64) {
+        if let Some(left) = self.algorithms.get_mut(index) {
             *left = seconds;
         }
     }
 
     /// An algorithm has answered so many queries of a total, which is 0 while it is not known, in so much time.
-    pub fn progress(&mut self, lane: usize, done: u64, total: u64, worked: f64) {
-        if let (Some(known), true) = (self.lanes.get_mut(lane), done > 0 && total > 0) {
+    pub fn progress(&mut self, index: usize, done: u64, total: u64, worked: f64) {
+        if let (Some(known), true) = (self.algorithms.get_mut(index), done > 0 && total > 0) {
             *known = left(done, total, worked);
         }
     }
 
     /// Seconds left, `elapsed` after the run has begun.
     pub fn tell(&mut self, elapsed: f64) -> f64 {
-        let now = (self.finding + self.lanes.iter().sum::<f64>()).max(LEAST);
+        let now = (self.finding + self.algorithms.iter().sum::<f64>()).max(LEAST);
         let told = match self.told {
             Some(told) if elapsed > SETTLING => now.clamp(told / FACTOR, told * FACTOR),
             _ => now,

@@ -5,8 +5,10 @@ use std::sync::Arc;
 
 use ocb_core::instance;
 use ocb_core::mesh::{Mesh, obj};
+use ocb_core::validation::Precision;
+use ocb_lab::algorithm::{Algorithm, read_plugin};
 use ocb_lab::check::is_free;
-use ocb_lab::contestant::{Contestant, read_plugin};
+use ocb_lab::pairing::Pairing;
 use tokio::runtime::Handle;
 
 use crate::blocking::blocking;
@@ -14,7 +16,7 @@ use crate::boxed;
 use crate::columns::{AnswerRow, read_answers, set_versions};
 use crate::engine::Engine;
 use crate::model::{ObjectId, Recipe, RecipeAlgorithm, RecipeObject, RecipeVersions, Replay, Replayed, State};
-use crate::plugins::registry::brought;
+use crate::plugins::registry::submitted;
 use crate::replay::{Packing, Questions, Unpacked};
 use crate::results::not_yet;
 use crate::results::sql::StoredResult;
@@ -81,7 +83,13 @@ impl Engine {
             // By number: two ids may differ by nothing that a file name shows.
             let answers = packing.add(&format!("answers/{}.parquet", algorithms.len() + 1), &records)?;
             let plugin = self.free_plugin(&plugin_sha256, packing)?;
-            algorithms.push(RecipeAlgorithm { id: result.algorithm, plugin_sha256, plugin, answers });
+            algorithms.push(RecipeAlgorithm {
+                id: result.algorithm,
+                plugin_sha256,
+                plugin,
+                rounded: result.rounded,
+                answers,
+            });
         }
         Ok(algorithms)
     }
@@ -93,8 +101,8 @@ impl Engine {
             return Ok(Some(path));
         }
         let known = self.inner.registry.of_file(sha256);
-        let Some(contestant) = known.first().filter(|c| is_free(&c.info.license)) else { return Ok(None) };
-        let bytes = read_plugin(&contestant.file)?;
+        let Some(found) = known.first().filter(|c| is_free(&c.info.license)) else { return Ok(None) };
+        let bytes = read_plugin(&found.file)?;
         // It may have been replaced since the service began.
         if sha256_hex(&bytes) != sha256 {
             return Ok(None);
@@ -121,35 +129,31 @@ impl Engine {
         let mesh_b = if recipe.objects.len() > 1 { Some(self.replayed_object(&archive, 1).await?) } else { None };
         let mut asked = Vec::new();
         for algorithm in recipe.algorithms.iter().filter(|a| only.is_empty() || only.contains(&a.id)) {
-            let contestant = match self.same_plugin(&archive, algorithm).await {
+            let found = match self.same_plugin(&archive, algorithm).await {
                 Ok(found) => found.ok_or_else(|| not_here(algorithm)),
                 Err(EngineError::Invalid(why)) => Err(why),
                 Err(fault) => return Err(fault),
             };
-            asked.push((algorithm.id.clone(), archive.answers(algorithm)?, contestant));
+            asked.push((algorithm.clone(), archive.answers(algorithm)?, found));
         }
         let inner = self.inner.clone();
         // A thread of its own: a jail ends with the thread that started it.
         let (sender, algorithms) = tokio::sync::oneshot::channel();
         std::thread::spawn(move || {
             let (recipe, poses) = (&archive.recipe, &archive.poses);
-            let (mesh_a, mesh_b, runner) = (&mesh_a, mesh_b.as_deref(), inner.registry.runner());
-            let questions = Questions { recipe, runner, mesh_a, mesh_b, poses };
-            let ask =
-                |(algorithm, rows, contestant): (String, Vec<AnswerRow>, std::result::Result<Contestant, String>)| {
-                    let replayed = match contestant {
-                        Ok(contestant) => Replayed { algorithm, ..questions.ask(&contestant, &rows) },
-                        Err(why) => Replayed {
-                            algorithm,
-                            answers: rows.len() as u32,
-                            equal: 0,
-                            first: None,
-                            trouble: Some(why),
-                        },
-                    };
-                    each(&replayed);
-                    replayed
+            let (pairing, runner) = (&Pairing::new(mesh_a, mesh_b), inner.registry.runner());
+            let questions = Questions { recipe, runner, pairing, poses };
+            let ask = |(of, rows, found): (RecipeAlgorithm, Vec<AnswerRow>, std::result::Result<Algorithm, String>)| {
+                let (algorithm, precision) = (of.id, if of.rounded { Precision::Single } else { Precision::Double });
+                let replayed = match found {
+                    Ok(found) => Replayed { algorithm, ..questions.ask(&found, precision, &rows) },
+                    Err(why) => {
+                        Replayed { algorithm, answers: rows.len() as u32, equal: 0, first: None, trouble: Some(why) }
+                    }
                 };
+                each(&replayed);
+                replayed
+            };
             let algorithms: Vec<Replayed> = asked.into_iter().map(ask).collect();
             let _ = sender.send((recipe.run.clone(), algorithms));
         });
@@ -174,7 +178,7 @@ impl Engine {
     }
 
     /// The algorithm in the very file that answered then: one that is installed here, or the archive's own copy.
-    async fn same_plugin(&self, archive: &Unpacked, of: &RecipeAlgorithm) -> Result<Option<Contestant>> {
+    async fn same_plugin(&self, archive: &Unpacked, of: &RecipeAlgorithm) -> Result<Option<Algorithm>> {
         let registry = &self.inner.registry;
         let mut known = registry.of_file(&of.plugin_sha256);
         if let (true, Some(bytes)) = (known.is_empty(), archive.plugin(of)) {
@@ -182,7 +186,7 @@ impl Engine {
             if sha256 != of.plugin_sha256 {
                 return Err(EngineError::Invalid(format!("The archive's plugin for {:?} is another file.", of.id)));
             }
-            let file = brought::plugin_file(&self.inner.blobs, &self.inner.config.data, &sha256).await?;
+            let file = submitted::plugin_file(&self.inner.blobs, &self.inner.config.data, &sha256).await?;
             known = registry.foreign(&file, &sha256).await?;
         }
         registry.chosen_of(&known, &of.id)

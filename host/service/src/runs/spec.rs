@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ocb_core::configuration::{Method, Separation};
 use ocb_core::query::{Query, Semantics};
 use ocb_core::sampling;
-use ocb_lab::contestant::Contestant;
+use ocb_lab::algorithm::Algorithm;
 
 use crate::blobs::Blobs;
 use crate::configurations;
@@ -31,7 +31,7 @@ pub struct Checked {
     /// Object B.
     pub object_b: ObjectInfo,
     /// The algorithms in the order of the spec.
-    pub contestants: Vec<Arc<Contestant>>,
+    pub algorithms: Vec<Arc<Algorithm>>,
     /// Number of configurations (rays, before any is missed).
     pub configurations: u64,
 }
@@ -64,8 +64,7 @@ pub async fn check(
         );
     }
     let configurations = set_size(spec, store, blobs).await?;
-    let contestants = contestants(spec, registry, viewer).await?;
-    check_partial(spec, contestants.len())?;
+    let algorithms = algorithms(spec, registry, viewer).await?;
     let object_a = objects.info_for(&spec.object_a, viewer).await?;
     let object_b = match &spec.object_b {
         Some(id) => objects.info_for(id, viewer).await?,
@@ -74,15 +73,40 @@ pub async fn check(
     if spec.semantics == Semantics::Solid {
         check_solid(&[&object_a, &object_b])?;
     }
+    let flat = [&object_a, &object_b].iter().any(|object| object.rounding.is_some_and(|rounding| rounding.flattens));
+    let single = algorithms.iter().find(|c| flat && c.info.single_precision);
+    if let Some(algorithm) = single.filter(|_| names_algorithms(spec)) {
+        return Err(flattened(&algorithm.info.id));
+    }
+    let algorithms: Vec<_> = algorithms.into_iter().filter(|c| !(flat && c.info.single_precision)).collect();
+    if algorithms.is_empty() {
+        return invalid(
+            "Every algorithm that answers this computes in single precision, which flattens an object.".into(),
+        );
+    }
+    check_partial(spec, algorithms.len())?;
     let mut spec = spec.clone();
     spec.object_a = object_a.id.clone();
     spec.object_b = Some(object_b.id.clone()).filter(|id| *id != object_a.id);
-    spec.algorithms = contestants.iter().map(|c| c.info.id.clone()).collect();
-    Ok(Checked { spec, object_a, object_b, contestants, configurations })
+    spec.algorithms = algorithms.iter().map(|c| c.info.id.clone()).collect();
+    Ok(Checked { spec, object_a, object_b, algorithms, configurations })
+}
+
+/// Are there algorithms asked for by name, rather than those that fit?
+fn names_algorithms(spec: &RunSpec) -> bool {
+    !spec.algorithms.is_empty() && spec.algorithms != [ALL]
+}
+
+/// An algorithm in single precision cannot be asked about such an object.
+pub fn flattened(algorithm: &str) -> EngineError {
+    EngineError::Invalid(format!(
+        "{algorithm:?} computes in single precision, in which an object of this run has no triangle with area (it is small \
+         and far from the origin); leave out the algorithm, or move the object to the origin."
+    ))
 }
 
 /// Can a part of the configurations tell what is asked?
-fn check_partial(spec: &RunSpec, contestants: usize) -> Result<()> {
+fn check_partial(spec: &RunSpec, algorithms: usize) -> Result<()> {
     let why_not = match (spec.precision, spec.at_most) {
         (Some(precision), _) if !(precision > 0.0 && precision < 1.0) => {
             format!("The precision must be more than 0 and less than 1 (0.05 is 5 %), not {precision}.")
@@ -94,7 +118,7 @@ fn check_partial(spec: &RunSpec, contestants: usize) -> Result<()> {
              look."
                 .into()
         }
-        (Some(_), _) if contestants < 2 => {
+        (Some(_), _) if algorithms < 2 => {
             "A precision requires a comparison; choose at least two algorithms, or leave it out.".into()
         }
         (Some(_), _) if spec.passes < MIN_PASSES => {
@@ -144,7 +168,7 @@ pub async fn set_size(spec: &RunSpec, store: &Store, blobs: &Blobs) -> Result<u6
 const ALL: &str = "all";
 
 /// The named algorithms, each once; without names the usual ones that answer the question.
-async fn contestants(spec: &RunSpec, registry: &Registry, viewer: Option<&str>) -> Result<Vec<Arc<Contestant>>> {
+async fn algorithms(spec: &RunSpec, registry: &Registry, viewer: Option<&str>) -> Result<Vec<Arc<Algorithm>>> {
     if spec.semantics == Semantics::Solid && spec.query == Query::CollisionAll {
         return Err(EngineError::Invalid(
             "All contacts are pairs of intersecting triangles, and an object inside another one has none; for solid \
@@ -164,20 +188,20 @@ async fn contestants(spec: &RunSpec, registry: &Registry, viewer: Option<&str>) 
     if names.is_empty() {
         return Err(EngineError::Invalid(format!("No installed algorithm answers {question}.")));
     }
-    let mut chosen: Vec<(&str, Arc<Contestant>)> = Vec::new();
+    let mut chosen: Vec<(&str, Arc<Algorithm>)> = Vec::new();
     for name in names {
         let there_are = || fitting.join(", ");
-        let contestant = registry.choose(name, viewer)?.ok_or_else(|| {
+        let algorithm = registry.choose(name, viewer)?.ok_or_else(|| {
             EngineError::Invalid(format!("There is no algorithm {name:?}; available for {question}: {}.", there_are()))
         })?;
         // With its settings it may answer less than without.
-        if !answers(&contestant.info, spec) || !registry.queries(&contestant).await?.contains(&spec.query) {
+        if !answers(&algorithm.info, spec) || !registry.queries(&algorithm).await?.contains(&spec.query) {
             return Err(EngineError::Invalid(format!(
                 "The algorithm {name:?} does not answer {question}; these do: {}.",
                 there_are()
             )));
         }
-        match chosen.iter().find(|(_, c)| c.info.id == contestant.info.id) {
+        match chosen.iter().find(|(_, c)| c.info.id == algorithm.info.id) {
             Some((other, _)) if *other != name => {
                 return Err(EngineError::Invalid(format!(
                     "{other:?} and {name:?} are the same algorithm: a setting at its default value makes no \
@@ -185,18 +209,18 @@ async fn contestants(spec: &RunSpec, registry: &Registry, viewer: Option<&str>) 
                 )));
             }
             Some(_) => {}
-            None => chosen.push((name, contestant)),
+            None => chosen.push((name, algorithm)),
         }
     }
-    Ok(chosen.into_iter().map(|(_, contestant)| contestant).collect())
+    Ok(chosen.into_iter().map(|(_, algorithm)| algorithm).collect())
 }
 
 /// Our own algorithms that others are compared with, in the order of preference.
 const REFERENCES: [&str; 2] = ["box-tree", "brute-force"];
 
 /// The reference of a run: the first that answers its question and was built from our own sources.
-pub fn reference(spec: &RunSpec, registry: &Registry) -> Option<Arc<Contestant>> {
-    let known = REFERENCES.iter().filter_map(|id| registry.contestant(id));
+pub fn reference(spec: &RunSpec, registry: &Registry) -> Option<Arc<Algorithm>> {
+    let known = REFERENCES.iter().filter_map(|id| registry.algorithm(id));
     known.into_iter().find(|c| c.trusted && answers(&c.info, spec))
 }
 

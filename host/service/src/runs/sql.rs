@@ -1,9 +1,11 @@
-//! Runs, their lanes and their events.
+//! Runs and their stages.
 
-use sqlx::Row;
 use sqlx::any::AnyRow;
+use sqlx::{Any, Executor, Row};
 
-use crate::model::{Cursor, Environment, Preview, RunEvent, RunSpec, SetInfo, Stage, State, Visibility};
+use crate::attempts::Attempt;
+use crate::attempts::sql::while_current;
+use crate::model::{Cursor, Environment, Preview, RunSpec, SetInfo, Stage, State, Visibility};
 use crate::runs::stored_spec::read_spec;
 use crate::store::{Store, from_json, now_us, to_json};
 use crate::visibility::sql::visibility;
@@ -105,7 +107,7 @@ macro_rules! select_runs {
 pub(crate) use select_runs;
 
 impl Store {
-    /// Queues a run with its lanes; false when its owner has used this key of a request before, or its campaign
+    /// Queues a run with its stages; false when its owner has used this key of a request before, or its campaign
     /// repeats the same run already.
     pub async fn add_run(&self, run: &RunRow, stages: &[Stage], key: Option<&str>) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
@@ -169,7 +171,7 @@ impl Store {
         let mut transaction = self.pool.begin().await?;
         let queued = sqlx::query(
             "UPDATE runs SET state = 'queued', attempts = 0, message = NULL, spec = $1, secret = $2, \
-             expected_seconds = $3, finished_us = NULL, granted_seconds = $5 WHERE id = $4 AND state = 'done'",
+             expected_seconds = $3, finished_us = NULL, granted_seconds = $5, last_event = 0 WHERE id = $4 AND state = 'done'",
         )
         .bind(to_json(&run.spec)?)
         .bind(run.secret.as_deref())
@@ -196,8 +198,7 @@ impl Store {
 
     /// One run.
     pub async fn run(&self, id: &str) -> Result<Option<RunRow>> {
-        let row = sqlx::query(select_runs!("WHERE id = $1")).bind(id).fetch_optional(&self.pool).await?;
-        row.as_ref().map(read_run).transpose()
+        find_run(&self.pool, id).await
     }
 
     /// The owner's runs from this place on, newest first, at most `limit`.
@@ -247,52 +248,28 @@ impl Store {
         .await?)
     }
 
-    /// Ends a run that is in state `from`; false when it was not.
-    pub async fn end_run(&self, id: &str, from: State, to: State, message: Option<&str>) -> Result<bool> {
-        let done =
-            sqlx::query("UPDATE runs SET state = $1, message = $2, finished_us = $3 WHERE id = $4 AND state = $5")
-                .bind(state_name(to))
-                .bind(message)
-                .bind(now_us())
-                .bind(id)
-                .bind(state_name(from))
-                .execute(&self.pool)
-                .await?;
-        Ok(done.rows_affected() == 1)
+    /// Ends a run that waits; false when it does not.
+    pub async fn end_waiting_run(&self, id: &str, to: State, message: Option<&str>) -> Result<bool> {
+        let text = "UPDATE runs SET state = $1, message = $2, finished_us = $3 WHERE id = $4 AND state = 'queued'";
+        let done = sqlx::query(text).bind(state_name(to)).bind(message).bind(now_us()).bind(id);
+        Ok(done.execute(&self.pool).await?.rows_affected() == 1)
     }
 
-    /// Notes the run's configuration set.
-    pub async fn set_of_run(&self, id: &str, info: &SetInfo, blob: &str) -> Result<()> {
-        sqlx::query("UPDATE runs SET set_info = $1, set_blob = $2 WHERE id = $3")
-            .bind(to_json(info)?)
-            .bind(blob)
-            .bind(id)
-            .execute(&self.pool)
-            .await?;
-        Ok(())
+    /// Notes the run's configuration set; false when the attempt is not the current one.
+    pub async fn set_of_run(&self, attempt: &Attempt, info: &SetInfo, blob: &str) -> Result<bool> {
+        let text = concat!("UPDATE runs SET set_info = $1, set_blob = $2 WHERE id = $3 AND ", while_current!("$4"));
+        let done = sqlx::query(text).bind(to_json(info)?).bind(blob).bind(&attempt.job).bind(&attempt.id);
+        Ok(done.execute(&self.pool).await?.rows_affected() == 1)
     }
 
-    /// Records the machine that measured the run.
-    pub async fn environment_of_run(&self, id: &str, environment: &Environment) -> Result<()> {
-        self.set_column("UPDATE runs SET environment = $1 WHERE id = $2", Some(to_json(environment)?), id).await
+    /// Records the request with the configurations' seed that was drawn for it; false when the attempt is not the current one.
+    pub async fn spec_of_run(&self, attempt: &Attempt, spec: &RunSpec) -> Result<bool> {
+        let text = concat!("UPDATE runs SET spec = $1 WHERE id = $2 AND ", while_current!("$3"));
+        let done = sqlx::query(text).bind(to_json(spec)?).bind(&attempt.job).bind(&attempt.id);
+        Ok(done.execute(&self.pool).await?.rows_affected() == 1)
     }
 
-    /// Records the request with the configurations' seed that was drawn for it.
-    pub async fn spec_of_run(&self, id: &str, spec: &RunSpec) -> Result<()> {
-        self.set_column("UPDATE runs SET spec = $1 WHERE id = $2", Some(to_json(spec)?), id).await
-    }
-
-    /// Records what the run's results are a preview of, if so.
-    pub async fn preview_of_run(&self, id: &str, preview: Option<&Preview>) -> Result<()> {
-        self.set_column("UPDATE runs SET preview = $1 WHERE id = $2", preview.map(to_json).transpose()?, id).await
-    }
-
-    async fn set_column(&self, text: &'static str, value: Option<String>, id: &str) -> Result<()> {
-        sqlx::query(text).bind(value).bind(id).execute(&self.pool).await?;
-        Ok(())
-    }
-
-    /// The run's lanes in order.
+    /// The run's stages in order.
     pub async fn stages(&self, id: &str) -> Result<Vec<Stage>> {
         let rows: Vec<String> = sqlx::query_scalar("SELECT stage FROM run_stages WHERE run_id = $1 ORDER BY position")
             .bind(id)
@@ -300,45 +277,12 @@ impl Store {
             .await?;
         rows.iter().map(|stage| from_json(stage)).collect()
     }
+}
 
-    /// Writes one lane.
-    pub async fn put_stage(&self, id: &str, position: usize, stage: &Stage) -> Result<()> {
-        sqlx::query("UPDATE run_stages SET stage = $1 WHERE run_id = $2 AND position = $3")
-            .bind(to_json(stage)?)
-            .bind(id)
-            .bind(position as i64)
-            .execute(&self.pool)
-            .await?;
-        Ok(())
-    }
-
-    /// Appends an event and gives it its number; a run that was taken away meanwhile has no events.
-    pub async fn add_event(&self, id: &str, event: &mut RunEvent) -> Result<()> {
-        let seq: Option<i64> = sqlx::query_scalar(
-            "INSERT INTO run_events (run_id, seq, event) \
-             SELECT $1, COALESCE(MAX(seq), 0) + 1, $2 FROM run_events WHERE run_id = $3 \
-             HAVING EXISTS (SELECT 1 FROM runs WHERE id = $4) RETURNING seq",
-        )
-        .bind(id)
-        .bind(to_json(event)?)
-        .bind(id)
-        .bind(id)
-        .fetch_optional(&self.pool)
-        .await?;
-        event.seq = seq.unwrap_or(event.seq);
-        Ok(())
-    }
-
-    /// The events behind `after_seq`, oldest first.
-    pub async fn events(&self, id: &str, after_seq: i64) -> Result<Vec<RunEvent>> {
-        let rows: Vec<(i64, String)> =
-            sqlx::query_as("SELECT seq, event FROM run_events WHERE run_id = $1 AND seq > $2 ORDER BY seq")
-                .bind(id)
-                .bind(after_seq)
-                .fetch_all(&self.pool)
-                .await?;
-        rows.iter().map(|(seq, event)| Ok(RunEvent { seq: *seq, ..from_json(event)? })).collect()
-    }
+/// One run.
+pub(crate) async fn find_run(from: impl Executor<'_, Database = Any>, id: &str) -> Result<Option<RunRow>> {
+    let row = sqlx::query(select_runs!("WHERE id = $1")).bind(id).fetch_optional(from).await?;
+    row.as_ref().map(read_run).transpose()
 }
 
 pub(crate) fn read_run(row: &AnyRow) -> Result<RunRow> {

@@ -1,0 +1,22 @@
+//! A share of the queue: what one participant, an account or all guests of one address, has waiting.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use tokio::sync::Mutex;
+
+/// The shares at one priority as they were a moment ago, if they were many.
+pub type Known = Arc<Mutex<Option<(Instant, i64, Arc<Vec<QueueShare>>)>>>;
+
+/// What one participant has waiting.
+#[derive(Clone, Debug)]
+pub struct QueueShare {
+    /// The participant, as in the column `turn`.
+    pub of: String,
+    /// So many runs.
+    pub waiting: i64,
+    pub since: Since,
+}
+
+/// The share with the smallest is next: when it was served last, then what it waits with.
+pub type Since = (i64, i64, String);
