@@ -5,6 +5,7 @@ use std::time::Duration;
 
 pub use ocb_sandbox::Profile;
 
+use crate::advice::jailed::PROGRAM;
 use crate::mail::MailServer;
 use ocb_lab::check::CHECK_LIMIT;
 
@@ -39,6 +40,8 @@ pub struct EngineConfig {
     pub blob_url: Option<String>,
     /// The `ocb-runner` binary, the only program that ever loads a plugin.
     pub runner: PathBuf,
+    /// The `ocb-advisor` binary, which does the advisor's work in the jail.
+    pub advisor: PathBuf,
     /// Plugin files, or folders whose `*.so` are plugins.
     pub plugins: Vec<PathBuf>,
     /// How much a foreign plugin needs of this machine; results of the development profile are not ranked.
@@ -54,6 +57,8 @@ pub struct EngineConfig {
     pub check_limit: Duration,
     /// Checks ask only the short part of their questions, as `ocb plugin check --quick` does. For tests about other things.
     pub quick_checks: bool,
+    /// Advice asks a few dozen configurations of each kind. For tests about other things.
+    pub quick_advice: bool,
     /// Work on the queue. Off for commands that only read.
     pub dispatch: bool,
     /// When nothing is asked for, measure what of the suite is missing, and try the installed algorithms for stability.
@@ -80,6 +85,7 @@ impl EngineConfig {
             database_url: None,
             blob_url: None,
             runner: folder.join("ocb-runner"),
+            advisor: folder.join(PROGRAM),
             plugins: vec![folder],
             profile: Profile::Production,
             stock_dir: None,
@@ -87,6 +93,7 @@ impl EngineConfig {
             machine_note: None,
             check_limit: CHECK_LIMIT,
             quick_checks: false,
+            quick_advice: false,
             dispatch: true,
             idle: false,
             featured: false,
@@ -94,5 +101,11 @@ impl EngineConfig {
             ceilings: Ceilings::default(),
             mail: None,
         }
+    }
+
+    /// The database's address, if it is PostgreSQL.
+    #[cfg(feature = "postgres")]
+    pub(crate) fn postgres_url(&self) -> Option<&str> {
+        self.database_url.as_deref().filter(|url| url.starts_with("postgres://") || url.starts_with("postgresql://"))
     }
 }

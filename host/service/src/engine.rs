@@ -8,12 +8,14 @@ use ocb_core::configuration::ConfigurationSet;
 use ocb_core::heatmap::VertexMap;
 use ocb_core::oracle::Shape;
 use tokio::sync::Notify;
-use tokio::task::JoinHandle;
+use tokio::task::{AbortHandle, JoinHandle};
 
 use crate::advice::work::Advices;
+use crate::attempts::worker::{Holding, Worker};
 use crate::blobs::Blobs;
 use crate::cache::Cache;
 use crate::columns::RecordColumns;
+use crate::house::House;
 use crate::machine::Machine;
 use crate::measure::Stop;
 use crate::objects::Objects;
@@ -55,16 +57,16 @@ pub struct Inner {
     pub under_way: Arc<UnderWay>,
     /// What public plugins are measured on.
     pub suite: Suite,
-    /// Held while it is found out what of the suite is missing, until that is in the queue.
-    pub planning: tokio::sync::Mutex<()>,
-    /// Held while a plugin is published: its ids must still be free then.
-    pub publishing: tokio::sync::Mutex<()>,
-    /// Held while a run is admitted: its quota must still be free then.
-    pub asking: tokio::sync::Mutex<()>,
+    /// Held from reading which plugins are offered until they are.
+    pub offering: tokio::sync::Mutex<()>,
     /// Rung when the queue has something new.
     pub wake: Notify,
     /// Work under way.
     pub current: Mutex<Option<Current>>,
+    /// Who this process is to others on the same database.
+    pub worker: Worker,
+    /// The attempts that it works on.
+    pub holding: Arc<Holding>,
     /// Number of requests for work.
     pub asked: AtomicU64,
     pub sets: Cache<ConfigurationSet>,
@@ -74,10 +76,12 @@ pub struct Inner {
     pub charts: Cache<ocb_chart::Chart>,
     pub advices: Advices,
     pub closing: AtomicBool,
-    /// Rung when the engine shuts down, for what would sleep on.
-    pub closed: Notify,
-    /// Rung when there is a mail to bring, or the engine shuts down.
+    /// Whether this service does what is done once for all on the database.
+    pub house: House,
+    /// Rung when there is a mail to bring.
     pub posting: Notify,
+    /// Hears of other services on the same database.
+    pub hearing: Mutex<Option<AbortHandle>>,
     /// What closing waits for.
     pub tasks: Mutex<Vec<JoinHandle<()>>>,
     /// Held as long as this process uses the folder.

@@ -23,6 +23,9 @@ pub enum EngineError {
     /// Not now: somebody else holds what is needed (409).
     #[error("{0}")]
     Busy(String),
+    /// A program of ours came to a bad end at its work; the sentence says nothing of this machine (500).
+    #[error("{0}")]
+    Ended(String),
     /// Ours or the machine's fault, never the caller's (500).
     #[error("{0}")]
     Fault(String),

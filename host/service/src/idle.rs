@@ -1,7 +1,7 @@
 //! Idle work: a service without requests measures the examples of its start page and the missing results of the suite, and
 //! tests its algorithms for stability.
 //!
-//! It queues one thing at a time, at the lowest priority, and gives way to any request: the work is put back, and begins again
+//! The service that keeps house queues one thing at a time, at the lowest priority, and idle work gives way to any request: the work is put back, and begins again
 //! when the service is idle again. It is tried once, whatever its outcome: a failure would be repeated for ever.
 
 pub mod sql;
@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 
 use crate::engine::{Engine, Inner};
 use crate::idle::sql::{Tried, TriedSet};
+use crate::locks::Lock;
 use crate::model::{AlgorithmInfo, RunSpec, StabilitySpec, State};
 use crate::runs::RunContext;
 use crate::runs::carry_out::carry_out;
@@ -49,8 +50,8 @@ impl Filling {
 
     async fn go_on(&mut self, inner: &Arc<Inner>, asked: u64) -> Result<bool> {
         // Work that gave way before.
-        if let Some(id) = inner.store.claim_idle().await? {
-            carry_out(inner, &id, Some(asked)).await?;
+        if let Some(attempt) = inner.store.begin_idle_run(&inner.worker).await? {
+            carry_out(inner, &attempt, Some(asked)).await?;
             return Ok(true);
         }
         let tried = next_part(inner, IDLE, |id, stop| inner.set_current_idle(id, stop, asked)).await;
@@ -58,7 +59,7 @@ impl Filling {
         if tried? {
             return Ok(true);
         }
-        if self.next.is_some_and(|next| Instant::now() < next) {
+        if !inner.house.is_here() || self.next.is_some_and(|next| Instant::now() < next) {
             return Ok(false);
         }
         let queued = queue_next(inner).await?;
@@ -70,7 +71,7 @@ impl Filling {
 /// Queues the next missing work: the examples first, then the suite, then stability. False when nothing is missing.
 async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
     // Another planner queues work, and then the service is not idle any more.
-    let Ok(_alone) = inner.planning.try_lock() else { return Ok(false) };
+    let Some(_alone) = inner.store.locks.try_alone(Lock::Planning).await? else { return Ok(false) };
     let tried = inner.store.tried().await?;
     if let Some((spec, what)) = inner.next_example(&tried) {
         queue_run(inner, spec, &[what], None).await?;

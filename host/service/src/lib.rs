@@ -5,7 +5,9 @@
 
 mod accounts;
 mod advice;
+mod attempts;
 mod audit;
+pub mod backup;
 mod blobs;
 mod blocking;
 pub mod board;
@@ -17,7 +19,10 @@ mod config;
 mod engine;
 mod error;
 mod examples;
+pub mod figures;
+mod house;
 mod idle;
+mod locks;
 #[cfg_attr(not(feature = "mail"), allow(dead_code))]
 mod mail;
 mod notices;
@@ -34,6 +39,7 @@ mod stability;
 mod store;
 pub mod suite;
 mod visibility;
+mod workloads;
 
 /// An asynchronous function whose future comes in a box. All that others call are such: the machine behind a future is
 /// compiled where it is polled, and so the whole engine once more for every program around it.
@@ -43,6 +49,7 @@ pub use ocb_lab::{LabError, sha256_hex};
 use ocb_lab::{columns, configurations, machine, measure, replay};
 
 pub use accounts::SESSION;
+pub use advice::jailed as advising;
 pub use board::ask::board_csv;
 pub use campaigns::campaign_csv;
 pub use charts::ask::{chart_csv, chart_parquet};
@@ -52,9 +59,10 @@ pub use mail::{MailServer, Pace};
 pub use ocb_chart as chart;
 pub use ocb_lab::check::Extent;
 pub use ocb_lab::measure::Stop;
+pub use ocb_lab::recording::{self, Recording};
 pub use ocb_lab::replay::Unpacked;
 pub use ocb_lab::stability::Selection as StabilitySelection;
-pub use ocb_lab::truth;
+pub use ocb_lab::{truth, workload};
 pub use ocb_model as model;
 pub use ocb_sandbox::{doctor, given};
 pub use owned::archive::Contents;
@@ -63,3 +71,4 @@ pub use quotas::Visitor;
 pub use requests::Made;
 pub use sets::SetJob;
 pub use sets::saved::MAX_CONFIGURATION_BYTES;
+pub use workloads::WorkloadSpec;

@@ -15,7 +15,7 @@ use tokio::sync::Semaphore;
 use crate::blobs::Blobs;
 use crate::blocking::blocking;
 use crate::cache::Cache;
-use crate::model::{Cursor, ObjectId, ObjectInfo, Page, Part, Visibility, stock_id};
+use crate::model::{Cursor, ObjectId, ObjectInfo, Page, Part, Rounding, Visibility, stock_id};
 use crate::store::{Store, now_us};
 use crate::{EngineError, Result};
 
@@ -158,17 +158,7 @@ impl Objects {
         let (mesh, warnings, format, unit) = blocking(move || {
             let bad = |e: &dyn std::fmt::Display| EngineError::Invalid(format!("{shown:?} cannot be used: {e}."));
             let read = mesh::read(&bytes).map_err(|e| bad(&e))?;
-            let mut warnings = read.warnings;
-            let exact = read.mesh.clone();
-            let mesh = read.mesh.to_f32_representable().map_err(|e| bad(&e))?;
-            if mesh != exact {
-                warnings.push(
-                    "Coordinates were rounded to single precision, so that algorithms of either precision get the \
-                     same object."
-                        .into(),
-                );
-            }
-            Ok((mesh, warnings, read.format, read.unit))
+            Ok((read.mesh, read.warnings, read.format, read.unit))
         })
         .await?;
         let mut info = describe(&mesh, &uuid::Uuid::now_v7().to_string(), &name, "Added by its owner.", warnings);
@@ -178,7 +168,7 @@ impl Objects {
         }
         let bytes = to_bytes(&mesh);
         let length = bytes.len();
-        let _keeping = self.blobs.keeping().await;
+        let _keeping = self.store.locks.keeping().await?;
         let blob = self.blobs.put(bytes).await?;
         self.store.add_blob(&blob, length, "application/octet-stream").await?;
         self.store.add_object(&info, owner, &blob).await?;
@@ -230,6 +220,7 @@ fn read_shipped(id: &str, name: &str, file: &std::path::Path) -> Result<(Mesh, O
         |e: &dyn std::fmt::Display| EngineError::Fault(format!("The stock file {name}.obj cannot be used: {e}."));
     let bytes = given::read(file, MAX_BYTES as u64).map_err(|e| fault(&e))?;
     let read = obj::read(&bytes).map_err(|e| fault(&e))?;
+    // The file names numbers of single precision, in as few digits as tell them apart.
     let mesh = read.mesh.to_f32_representable().map_err(|e| fault(&e))?;
     let terms = given::read(&file.with_extension("terms"), MAX_TERMS_BYTES)
         .map_err(|e| fault(&format!("its .terms file: {e}")))?;
@@ -254,11 +245,25 @@ fn describe(mesh: &Mesh, id: &str, name: &str, terms: &str, warnings: Vec<String
         closed: mesh.is_closed(),
         format: None,
         unit: None,
+        rounding: rounding(mesh),
         warnings,
         created_us: 0,
         visibility: Visibility::default(),
         mine: false,
     }
+}
+
+/// What single precision changes; nothing where it holds all coordinates.
+fn rounding(mesh: &Mesh) -> Option<Rounding> {
+    if mesh.is_f32_representable() {
+        return None;
+    }
+    let moved = |x: f64| (x - f64::from(x as f32)).abs();
+    let moves = mesh.positions().iter().flat_map(|p| p.iter()).map(|&x| moved(x)).fold(0.0, f64::max);
+    let (all, degenerate) = (mesh.triangles().len() as u32, mesh.degenerate_triangles());
+    let left = mesh.clone().to_f32_representable().map(|rounded| all - rounded.degenerate_triangles());
+    let flattens = left.is_err();
+    Some(Rounding { moves, collapsed: (all - degenerate).saturating_sub(left.unwrap_or(0)), flattens })
 }
 
 /// Endings that names of objects lose; which format a file has, its content says.

@@ -6,11 +6,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 use tokio::sync::Notify;
 
 use crate::advice::work::Advices;
+use crate::attempts::worker::Worker;
+use crate::attempts::{beat, lost};
 use crate::blobs::Blobs;
 use crate::boxed;
 use crate::cache::Cache;
 use crate::engine::{Engine, Inner};
-use crate::idle;
+use crate::house::House;
 use crate::machine::{Machine, lock_data_folder};
 use crate::model::Status;
 use crate::objects::Objects;
@@ -23,7 +25,7 @@ use crate::suite::Suite;
 use crate::{EngineConfig, EngineError, Result};
 
 impl Engine {
-    /// Opens the data folder, migrates the database, puts interrupted runs back into the queue and begins to work on it.
+    /// Opens the data folder, migrates the database, puts the work of its dead predecessor back into the queue and begins to work on it.
     ///
     /// # Errors
     /// [`EngineError::Busy`] when another process has this folder open; `Fault` when folder, database, blob storage or
@@ -38,15 +40,16 @@ impl Engine {
         let blobs = Blobs::open(&config.data, config.blob_url.as_deref())?;
         let registry = Registry::open(&config, &store).await?;
         let suite = Suite::open(config.suite.as_deref())?;
+        let machine = Machine::observe()?.noted(config.machine_note.as_deref());
         let inner = Arc::new(Inner {
+            worker: Worker::of(&lock, &machine.hardware_class)?,
+            holding: Arc::default(),
             objects: Objects::new(store.clone(), blobs.clone(), config.stock_dir.clone()),
-            machine: Machine::observe()?.noted(config.machine_note.as_deref()),
+            machine,
             run_events: RunEvents::new(),
             under_way: Arc::default(),
             suite,
-            planning: tokio::sync::Mutex::default(),
-            publishing: tokio::sync::Mutex::default(),
-            asking: tokio::sync::Mutex::default(),
+            offering: tokio::sync::Mutex::default(),
             wake: Notify::new(),
             current: Mutex::new(None),
             asked: AtomicU64::new(0),
@@ -57,8 +60,9 @@ impl Engine {
             charts: Cache::weighing(crate::charts::KEPT_POINTS, crate::charts::points),
             advices: Advices::default(),
             closing: AtomicBool::new(false),
-            closed: Notify::new(),
+            house: House::default(),
             posting: Notify::new(),
+            hearing: Mutex::default(),
             tasks: Mutex::default(),
             lock,
             config,
@@ -69,17 +73,18 @@ impl Engine {
         let engine = Self { inner };
         engine.inner.renew_plugins().await?;
         if engine.inner.config.dispatch {
-            dispatcher::recover(&engine.inner).await?;
-            if !engine.inner.config.idle {
-                idle::end_waiting(&engine.inner).await?;
-            }
-            engine.recover_advice().await?;
-            engine.feature_a_run().await?;
-            engine.catch_up_with_the_suite().await?;
-            engine.take_up_campaigns().await;
+            lost::take_back(&engine.inner, Some(&engine.inner.worker)).await?;
+            engine.open_house().await?;
             engine.inner.spawn(dispatcher::work(engine.inner.clone()));
             engine.inner.spawn(engine.clone().sweep());
+            engine.inner.spawn(engine.clone().look_after_campaigns());
             engine.inner.spawn(engine.inner.clone().post());
+        }
+        engine.inner.spawn(beat::beat(engine.inner.clone()));
+        #[cfg(feature = "postgres")]
+        if let Some(url) = engine.inner.config.postgres_url() {
+            let task = tokio::spawn(crate::runs::hear::hear(engine.inner.clone(), url.to_owned()));
+            *engine.inner.hearing.lock().unwrap_or_else(PoisonError::into_inner) = Some(task.abort_handle());
         }
         Ok(engine)
     }
@@ -92,12 +97,16 @@ impl Engine {
         self.inner.stop_current(None, None);
         self.inner.advices.stop_all();
         self.inner.wake.notify_one();
-        self.inner.closed.notify_one();
-        self.inner.posting.notify_one();
+        self.inner.house.close();
+        self.inner.holding.closed.notify_one();
+        if let Some(task) = self.inner.hearing.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            task.abort();
+        }
         let tasks = std::mem::take(&mut *self.inner.tasks.lock().unwrap_or_else(PoisonError::into_inner));
         for task in tasks {
             let _ = task.await;
         }
+        self.inner.house.leave().await;
         self.inner.store.close().await;
         // Closing the file does it too; at the latest then it is free.
         let _ = self.inner.lock.unlock();

@@ -14,7 +14,7 @@ use ocb_core::export::{Legend, glb, ply};
 use ocb_core::heatmap::{VertexMap, VertexValues};
 use ocb_core::mesh::Mesh;
 use ocb_core::selection::{Column, Columns};
-use ocb_core::statistics::{self, Outliers, Statistic};
+use ocb_core::statistics;
 
 use crate::blocking::blocking;
 use crate::columns::{self, RecordColumns};
@@ -26,11 +26,6 @@ use crate::{EngineError, Result};
 
 /// Points of a distribution's curve at most.
 const ECDF_POINTS: usize = 512;
-
-/// What the explorer shows first.
-pub fn first_look(algorithm: &str) -> HeatmapRequest {
-    HeatmapRequest::new(algorithm, Measure::Time, Statistic::Median, Outliers::default())
-}
 
 impl Inner {
     /// A stored set, from memory when it was used lately.
@@ -156,6 +151,12 @@ impl Inner {
         }
     }
 
+    /// Prepares what the first heatmap of a run needs besides the records.
+    pub async fn prepare_maps(&self, row: &RunRow) -> Result<()> {
+        let set = self.set_so_far(row).await?;
+        self.vertex_map(row, &set, Side::A).await.map(|_| ())
+    }
+
     /// Which configurations each vertex hears of.
     async fn vertex_map(
         &self,
@@ -197,12 +198,17 @@ impl Inner {
     /// The columns of one algorithm's records that charts need, from memory when they were used lately.
     pub async fn records(&self, run: &str, algorithm: &str) -> Result<(StoredResult, Arc<RecordColumns>)> {
         let (stored, blob) = self.stored_result(run, algorithm).await?;
-        if let Some(records) = self.records.get(&blob) {
-            return Ok((stored, records));
+        Ok((stored, self.records_of(&blob).await?))
+    }
+
+    /// The same of a blob.
+    pub async fn records_of(&self, blob: &str) -> Result<Arc<RecordColumns>> {
+        if let Some(records) = self.records.get(blob) {
+            return Ok(records);
         }
-        let bytes = self.blobs.get(&blob).await?;
+        let bytes = self.blobs.get(blob).await?;
         let records = blocking(move || Ok(columns::read_records(&bytes)?)).await?;
-        Ok((stored, self.records.put(&blob, records)))
+        Ok(self.records.put(blob, records))
     }
 
     async fn stored_result(&self, run: &str, algorithm: &str) -> Result<(StoredResult, String)> {

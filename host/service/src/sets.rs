@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use ocb_core::configuration::{Configuration, ConfigurationSet, Method};
 use ocb_core::mesh::Mesh;
-use ocb_core::oracle::Shape;
+use ocb_lab::pairing::Pairing;
 
 use crate::Result;
 use crate::blocking::blocking;
@@ -34,8 +34,9 @@ pub struct SetJob {
 impl SetJob {
     /// Finds and certifies it on all CPUs; `None` when it was stopped.
     pub fn find(&self, gauge: &Gauge) -> Result<Option<ConfigurationSet>> {
-        let [a, b] = self.meshes.each_ref().map(|mesh| Shape::new(mesh.clone()));
-        Ok(make(&a, &b, self.meshes[0].longest_side(), &self.spec, self.poses.as_deref(), gauge, None)?)
+        let [a, b] = self.meshes.clone();
+        let pairing = Pairing::new(a, self.spec.object_b.is_some().then_some(b));
+        Ok(make(&pairing, &self.spec, self.poses.as_deref(), gauge, None)?)
     }
 }
 
@@ -50,7 +51,7 @@ impl Engine {
         })
         .await?;
         let length = bytes.len();
-        let _keeping = self.inner.blobs.keeping().await;
+        let _keeping = self.inner.store.locks.keeping().await?;
         let sha256 = self.inner.blobs.put(bytes).await?;
         self.inner.store.add_blob(&sha256, length, "application/octet-stream").await?;
         Ok(Method::File { sha256 })
@@ -78,7 +79,7 @@ impl Engine {
     /// Keeps a set that was found in so many seconds; later runs and requests use it again.
     #[boxed]
     pub async fn keep_set(&self, job: &SetJob, set: &ConfigurationSet, seconds: f64) -> Result<SetInfo> {
-        let _keeping = self.inner.blobs.keeping().await;
+        let _keeping = self.inner.store.locks.keeping().await?;
         self.inner.keep_set(&job.key, job.meshes.each_ref().map(AsRef::as_ref), set, seconds).await
     }
 

@@ -12,7 +12,7 @@ use crate::engine::{Engine, Inner};
 use crate::measure::Stop;
 use crate::model::{Stability, StabilityTable};
 use crate::{EngineError, Result};
-use ocb_lab::contestant::Contestant;
+use ocb_lab::algorithm::Algorithm;
 use ocb_lab::stability::{self, Selection};
 
 impl Engine {
@@ -31,7 +31,7 @@ impl Engine {
         at: impl Fn(&str) + Send + 'static,
     ) -> Result<Stability> {
         selection.check()?;
-        let contestant = self.inner.stability_contestant(algorithm, None)?;
+        let algorithm = self.inner.stability_algorithm(algorithm, None)?;
         let whole = selection.parts.is_empty() && selection.at.is_none() && selection.seed.is_none();
         let inner = Arc::clone(&self.inner);
         // A thread of its own: a jail ends with the thread that started it.
@@ -39,7 +39,7 @@ impl Engine {
         std::thread::spawn(move || {
             let tried = work::right_to_measure(&stop, || at("waiting: another process is measuring on this machine"))
                 .and_then(|_right| {
-                    stability::run(inner.registry.runner(), &inner.machine, &contestant, &selection, &stop, &at)
+                    stability::run(inner.registry.runner(), &inner.machine, &algorithm, &selection, &stop, &at)
                 });
             // Who asked may have gone.
             drop(sender.send(tried));
@@ -54,7 +54,7 @@ impl Engine {
 
 impl Inner {
     /// The algorithm of this name, with settings, that the viewer may use.
-    pub(crate) fn stability_contestant(&self, algorithm: &str, viewer: Option<&str>) -> Result<Arc<Contestant>> {
+    pub(crate) fn stability_algorithm(&self, algorithm: &str, viewer: Option<&str>) -> Result<Arc<Algorithm>> {
         let unknown = || {
             let known: Vec<String> = self.registry.algorithms(viewer).into_iter().map(|a| a.id).collect();
             EngineError::Invalid(format!("There is no algorithm {algorithm:?}; available: {}.", known.join(", ")))

@@ -34,7 +34,7 @@ mod tests {
     use super::*;
     use crate::EngineConfig;
     use crate::model::State;
-    use crate::results::sql::StoredResult;
+    use crate::results::sql::{StoredResult, keep_result};
     use crate::store::tests::{result, run};
 
     /// Some of five decisions were wrong.
@@ -57,20 +57,23 @@ mod tests {
             let request = serde_json::from_str(r#"{ "kind": "resolution" }"#).unwrap();
             engine.chart("r", request, None).await.unwrap().series[0].points[0].y
         };
-        let keep = async |wrong| store.keep_result("r", 0, &with_wrong(wrong), 100, Query::Proximity).await.unwrap();
+        let keep = async |wrong| {
+            let mut connection = store.pool.acquire().await.unwrap();
+            keep_result(&mut connection, "r", 0, &with_wrong(wrong), 100, Query::Proximity).await.unwrap();
+        };
         assert!(store.add_run(&run("r", None, 1, 1), &[], None).await.unwrap());
         keep(0).await;
         assert_eq!(ask().await, 0.0);
         keep(1).await;
         assert_eq!(ask().await, 0.2, "a run that goes on changes");
-        assert!(store.end_run("r", State::Queued, State::Done, None).await.unwrap());
+        assert!(store.end_waiting_run("r", State::Done, None).await.unwrap());
         assert_eq!(ask().await, 0.2);
         // No finished run is written to; this shows that nothing is read again.
         keep(2).await;
         assert_eq!(ask().await, 0.2);
         let row = store.run("r").await.unwrap().unwrap();
         assert!(store.queue_again(&row, &[]).await.unwrap());
-        assert!(store.end_run("r", State::Queued, State::Done, None).await.unwrap());
+        assert!(store.end_waiting_run("r", State::Done, None).await.unwrap());
         assert_eq!(ask().await, 0.4, "a refined run is another one");
         engine.shutdown().await;
     }

@@ -8,10 +8,11 @@ use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::query::Query;
 use ocb_core::record::Verdict;
-use ocb_core::selection::{Body, Column, Columns, Selection};
+use ocb_core::selection::{Body, Column, Columns, Kind, Selection};
 use ocb_core::statistics::quantile;
+use ocb_core::validation::Precision;
 
-use super::table::{Lane, Table};
+use super::table::{Entry, RecordTable};
 use crate::blocking::blocking;
 use crate::columns::{self, Numbers};
 use crate::engine::Inner;
@@ -31,7 +32,7 @@ impl Inner {
         blocking(move || {
             let chosen = table.choose(&selection)?;
             let n = chosen.iter().filter(|is| **is).count() as u32;
-            let algorithms = table.lanes.iter().map(|lane| selected_of(lane, &chosen)).collect();
+            let algorithms = table.entries.iter().map(|entry| selected_of(entry, &chosen)).collect();
             Ok(Selected { selection: selection.to_string(), n, of: chosen.len() as u32, algorithms })
         })
         .await
@@ -63,8 +64,9 @@ impl Inner {
         blocking(move || worst(&table, selection.as_ref(), by, limit)).await
     }
 
-    /// All pairs of triangles that meet in one configuration of the run.
-    pub async fn meeting(&self, run: &str, configuration: u32) -> Result<Meeting> {
+    /// All pairs of triangles that meet in one configuration of the run; of the objects with their coordinates `rounded` to single
+    /// precision, or as they are.
+    pub async fn meeting(&self, run: &str, configuration: u32, rounded: bool) -> Result<Meeting> {
         let row = self.run_row(run).await?;
         let set = self.set(row.set_blob.as_deref().ok_or_else(|| super::not_yet(run))?).await?;
         let Some(placed) = set.placed.get(configuration as usize).copied() else {
@@ -73,8 +75,10 @@ impl Inner {
                 "There is no configuration {configuration}; the set has {n}, counted from 0."
             )));
         };
+        let precision = if rounded { Precision::Single } else { Precision::Double };
+        let (placed, rounded) = (placed.seen_in(precision), rounded && placed.rounded.is_some());
         let [a, b] = self.both_meshes(&row).await?;
-        let (a, b) = (self.shape(a).await?, self.shape(b).await?);
+        let (a, b) = (self.shape(a, rounded).await?, self.shape(b, rounded).await?);
         blocking(move || {
             let meet = placed.truth.hit;
             let mut pairs = if meet { Pair::new(&a, &b).contacts(&placed.configuration) } else { Vec::new() };
@@ -86,25 +90,34 @@ impl Inner {
     }
 
     /// What the oracle needs of a mesh, from memory when it was used lately.
-    async fn shape(&self, mesh: Arc<Mesh>) -> Result<Arc<Shape>> {
-        let key = mesh.sha256();
+    async fn shape(&self, mesh: Arc<Mesh>, rounded: bool) -> Result<Arc<Shape>> {
+        let key = if rounded { format!("{} rounded", mesh.sha256()) } else { mesh.sha256() };
         if let Some(shape) = self.shapes.get(&key) {
             return Ok(shape);
         }
-        let shape = blocking(move || Ok(Shape::new(mesh))).await?;
+        let shape = blocking(move || {
+            let seen = if rounded { Arc::unwrap_or_clone(mesh).to_f32_representable().map(Arc::new) } else { Ok(mesh) };
+            Ok(Shape::new(seen.map_err(|e| EngineError::fault("Rounding an object failed", e))?))
+        })
+        .await?;
         Ok(self.shapes.put(&key, shape))
     }
 
-    /// Every column of an algorithm that can be had, one value per configuration of the set, as an Arrow stream.
+    /// Which configurations a selection holds, as an Arrow stream.
+    pub async fn selection_arrow(&self, run: &str, algorithm: &str, selection: &str) -> Result<Vec<u8>> {
+        let chosen = self.chosen(run, algorithm, selection).await?;
+        blocking(move || Ok(columns::stream(vec![("chosen", Numbers::Chosen(chosen.to_vec()))])?)).await
+    }
+
+    /// Every column of an algorithm that a range can test, one value per configuration of the set, as an Arrow stream.
     pub async fn columns_arrow(&self, run: &str, algorithm: &str) -> Result<Vec<u8>> {
-        let table = self.table(run, algorithm, None, true).await?;
+        let table = self.table(run, algorithm, None, false).await?;
         blocking(move || {
-            table.lane(&table.looked_at)?;
-            let of_algorithm = Column::NAMES.iter().filter(|(column, _)| *column != Column::Distance);
-            let all = of_algorithm.filter_map(|(column, name)| {
+            table.entry(&table.looked_at)?;
+            let is_range = |column: &&Column| **column != Column::Distance && column.kind() != Kind::Flag;
+            let all = Column::ALL.iter().filter(is_range).filter_map(|column| {
                 // A column that cannot be had, such as tests that are not counted, is left out.
-                let values = table.column(*column, None).ok()?.into_owned();
-                Some((*name, if column.is_flag() { Numbers::Rough(values) } else { Numbers::Exact(values) }))
+                Some((column.name(), Numbers::Exact(table.column(*column, None).ok()?.into_owned())))
             });
             Ok(columns::stream(all.collect())?)
         })
@@ -138,14 +151,14 @@ pub fn read(text: &str) -> Result<Selection> {
     text.parse().map_err(|e: ocb_core::selection::SelectionError| EngineError::Invalid(e.to_string()))
 }
 
-fn selected_of(lane: &Lane, chosen: &[bool]) -> SelectedOf {
-    let records = &lane.records;
+fn selected_of(entry: &Entry, chosen: &[bool]) -> SelectedOf {
+    let records = &entry.records;
     let rows = || records.rows(Some(chosen));
     let mut times: Vec<f64> = rows().map(|row| records.time_ns[row]).collect();
     times.sort_unstable_by(f64::total_cmp);
     let at = |q: f64| (!times.is_empty()).then(|| quantile(&times, q));
     SelectedOf {
-        algorithm: lane.algorithm.clone(),
+        algorithm: entry.algorithm.clone(),
         n: times.len() as u32,
         wrong: rows().filter(|&row| records.verdict[row].is_wrong()).count() as u32,
         median_ns: at(0.5),
@@ -154,14 +167,14 @@ fn selected_of(lane: &Lane, chosen: &[bool]) -> SelectedOf {
     }
 }
 
-fn worst(table: &Table, selection: Option<&Selection>, by: WorstBy, limit: usize) -> Result<Vec<WorstCase>> {
-    let lane = table.lane(&table.looked_at)?;
+fn worst(table: &RecordTable, selection: Option<&Selection>, by: WorstBy, limit: usize) -> Result<Vec<WorstCase>> {
+    let entry = table.entry(&table.looked_at)?;
     let chosen = selection.map(|selection| table.choose(selection)).transpose()?;
     let errors = match (by, table.query) {
         (WorstBy::Time, Query::CollisionFirst | Query::CollisionAll) => None,
         _ => Some(table.column(Column::Error, None)?),
     };
-    let records = &lane.records;
+    let records = &entry.records;
     let of = |row: usize| records.configuration[row] as usize;
     let key = |row: usize| match (by, &errors) {
         (WorstBy::Error, Some(errors)) => errors[of(row)],
@@ -178,13 +191,14 @@ fn worst(table: &Table, selection: Option<&Selection>, by: WorstBy, limit: usize
         (0..records.configuration.len()).filter(|&row| chosen.as_ref().is_none_or(|chosen| chosen[of(row)])).collect();
     rows.sort_unstable_by(worse);
     rows.truncate(limit);
-    Ok(rows.into_iter().map(|row| case(table, lane, row, errors.as_ref().map(|e| e[of(row)]))).collect())
+    Ok(rows.into_iter().map(|row| case(table, entry, row, errors.as_ref().map(|e| e[of(row)]))).collect())
 }
 
-fn case(table: &Table, lane: &Lane, row: usize, error: Option<f64>) -> WorstCase {
-    let records = &lane.records;
+fn case(table: &RecordTable, entry: &Entry, row: usize, error: Option<f64>) -> WorstCase {
+    let records = &entry.records;
     let placed = &table.set.placed[records.configuration[row] as usize];
-    let (truth, witness) = (&placed.truth, &placed.truth.witness);
+    let truth = table.truth(entry, records.configuration[row] as usize);
+    let witness = truth.witness;
     let inside = truth.is_inside(table.semantics);
     WorstCase {
         configuration: records.configuration[row],

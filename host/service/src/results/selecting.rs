@@ -33,13 +33,20 @@ impl Engine {
         self.inner.worst(run, request).await
     }
 
-    /// All pairs of triangles that meet in one configuration, by the oracle.
+    /// All pairs of triangles that meet in one configuration, by the oracle; of the objects as algorithms in single precision get
+    /// them when `rounded`.
     #[boxed]
-    pub async fn meeting(&self, run: &str, configuration: u32) -> Result<Meeting> {
-        self.inner.meeting(run, configuration).await
+    pub async fn meeting(&self, run: &str, configuration: u32, rounded: bool) -> Result<Meeting> {
+        self.inner.meeting(run, configuration, rounded).await
     }
 
-    /// Every column of an algorithm, one value per configuration of the set (NaN where there is none), as an Arrow stream.
+    /// Which configurations a selection holds, as an Arrow stream.
+    #[boxed]
+    pub async fn selection_arrow(&self, run: &str, algorithm: &str, selection: &str) -> Result<Vec<u8>> {
+        self.inner.selection_arrow(run, algorithm, selection).await
+    }
+
+    /// Every column of an algorithm that a range can test, one value per configuration of the set (NaN where there is none), as an Arrow stream.
     #[boxed]
     pub async fn columns_arrow(&self, run: &str, algorithm: &str) -> Result<Vec<u8>> {
         self.inner.columns_arrow(run, algorithm).await

@@ -4,6 +4,7 @@ use crate::Result;
 use crate::model::AlgorithmResult;
 use crate::store::{Store, from_json, now_us, to_json};
 use ocb_core::query::Query;
+use sqlx::AnyConnection;
 
 /// The result of one algorithm in one run.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,39 +25,6 @@ pub struct StoredResult {
 type ResultRow = (String, Option<String>, Option<String>, String, Option<f64>);
 
 impl Store {
-    /// Keeps the result of one algorithm; a repeated attempt replaces the earlier one.
-    pub async fn keep_result(
-        &self,
-        run: &str,
-        position: usize,
-        stored: &StoredResult,
-        triangles: u64,
-        query: Query,
-    ) -> Result<()> {
-        sqlx::query(
-            "INSERT INTO results (run_id, algorithm, position, plugin_sha256, result, records, \
-             triangle_tests, seconds_per_query, triangles, query, created_us) \
-             VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11) \
-             ON CONFLICT (run_id, algorithm) DO UPDATE SET plugin_sha256 = excluded.plugin_sha256, \
-             result = excluded.result, records = excluded.records, triangle_tests = excluded.triangle_tests, \
-             seconds_per_query = excluded.seconds_per_query, created_us = excluded.created_us",
-        )
-        .bind(run)
-        .bind(&stored.result.algorithm)
-        .bind(position as i64)
-        .bind(&stored.plugin_sha256)
-        .bind(to_json(&stored.result)?)
-        .bind(stored.records.as_deref())
-        .bind(stored.triangle_tests.as_deref())
-        .bind(stored.seconds_per_query)
-        .bind(triangles as i64)
-        .bind(to_json(&query)?)
-        .bind(now_us())
-        .execute(&self.pool)
-        .await?;
-        Ok(())
-    }
-
     /// The results of a run in the order of its algorithms.
     pub async fn results(&self, run: &str) -> Result<Vec<StoredResult>> {
         let rows: Vec<ResultRow> = sqlx::query_as(
@@ -87,4 +55,37 @@ impl Store {
         .await?;
         Ok(rows.into_iter().map(|(triangles, seconds)| (triangles as u64, seconds)).collect())
     }
+}
+
+/// Keeps the result of one algorithm within a transaction; it replaces an earlier one.
+pub(crate) async fn keep_result(
+    connection: &mut AnyConnection,
+    run: &str,
+    position: usize,
+    stored: &StoredResult,
+    triangles: u64,
+    query: Query,
+) -> Result<()> {
+    sqlx::query(
+        "INSERT INTO results (run_id, algorithm, position, plugin_sha256, result, records, \
+         triangle_tests, seconds_per_query, triangles, query, created_us) \
+         VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11) \
+         ON CONFLICT (run_id, algorithm) DO UPDATE SET plugin_sha256 = excluded.plugin_sha256, \
+         result = excluded.result, records = excluded.records, triangle_tests = excluded.triangle_tests, \
+         seconds_per_query = excluded.seconds_per_query, created_us = excluded.created_us",
+    )
+    .bind(run)
+    .bind(&stored.result.algorithm)
+    .bind(position as i64)
+    .bind(&stored.plugin_sha256)
+    .bind(to_json(&stored.result)?)
+    .bind(stored.records.as_deref())
+    .bind(stored.triangle_tests.as_deref())
+    .bind(stored.seconds_per_query)
+    .bind(triangles as i64)
+    .bind(to_json(&query)?)
+    .bind(now_us())
+    .execute(connection)
+    .await?;
+    Ok(())
 }

@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use nalgebra::Point3;
 use ocb_core::agreement::Said;
-use ocb_core::configuration::{ConfigurationSet, Placed};
+use ocb_core::configuration::{ConfigurationSet, Placed, Truth};
 use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{U32, U64, largest_coordinate, scene_size};
 use ocb_core::query::{Query, Semantics};
 use ocb_core::record::Verdict;
 use ocb_core::selection::{Body, Column, Columns, Selection, distances};
+use ocb_core::validation::Precision;
 
 use super::{not_yet, still_measured};
 use crate::columns::RecordColumns;
@@ -19,7 +20,7 @@ use crate::runs::sql::RunRow;
 use crate::{EngineError, Result};
 
 /// What is known of the configurations of a run.
-pub struct Table {
+pub struct RecordTable {
     /// The question.
     pub query: Query,
     /// What counts as an object.
@@ -31,13 +32,13 @@ pub struct Table {
     /// The algorithm whose columns are meant when none is named.
     pub looked_at: String,
     /// The algorithms whose records were loaded.
-    pub lanes: Vec<Lane>,
+    pub entries: Vec<Entry>,
     /// Some of them are still being measured.
     pub preliminary: bool,
 }
 
 /// The records of one algorithm.
-pub struct Lane {
+pub struct Entry {
     /// Algorithm id.
     pub algorithm: String,
     /// Bits of the arithmetic that it declares.
@@ -48,7 +49,13 @@ pub struct Lane {
 
 impl Inner {
     /// The numbers of a run: of the algorithm that is looked at (when one is), of those that a selection names, or of all.
-    pub async fn table(&self, run: &str, looked_at: &str, selection: Option<&Selection>, all: bool) -> Result<Table> {
+    pub async fn table(
+        &self,
+        run: &str,
+        looked_at: &str,
+        selection: Option<&Selection>,
+        all: bool,
+    ) -> Result<RecordTable> {
         let row = self.run_row(run).await?;
         let set = self.set(row.set_blob.as_deref().ok_or_else(|| not_yet(run))?).await?;
         let table = self.table_so_far(&row, set, looked_at, selection, all).await?;
@@ -63,7 +70,7 @@ impl Inner {
         looked_at: &str,
         selection: Option<&Selection>,
         all: bool,
-    ) -> Result<Table> {
+    ) -> Result<RecordTable> {
         let run = row.id.as_str();
         let all = all || selection.is_some_and(|selection| selection.uses(Column::Disputed));
         let mut wanted: Vec<String> = (!looked_at.is_empty()).then(|| looked_at.to_owned()).into_iter().collect();
@@ -73,10 +80,10 @@ impl Inner {
             wanted.extend(with_records.map(|r| r.result.algorithm));
             wanted.extend(self.under_way.results(run).into_iter().map(|result| result.algorithm));
         }
-        let mut lanes: Vec<Lane> = Vec::new();
+        let mut entries: Vec<Entry> = Vec::new();
         let mut preliminary = false;
         for algorithm in wanted {
-            if lanes.iter().all(|lane| lane.algorithm != algorithm) {
+            if entries.iter().all(|entry| entry.algorithm != algorithm) {
                 let (result, records) = self.records_so_far(run, &algorithm).await?;
                 if records.configuration.iter().any(|configuration| *configuration as usize >= set.placed.len()) {
                     // The whole set has come meanwhile.
@@ -84,12 +91,12 @@ impl Inner {
                 }
                 preliminary |= result.preliminary;
                 let bits = result.class.map_or(64, |class| class.bits);
-                lanes.push(Lane { algorithm, bits, records });
+                entries.push(Entry { algorithm, bits, records });
             }
         }
         let meshes = self.both_meshes(row).await?;
         let (query, semantics) = (row.spec.query, row.spec.semantics);
-        Ok(Table { query, semantics, set, meshes, looked_at: looked_at.to_owned(), lanes, preliminary })
+        Ok(RecordTable { query, semantics, set, meshes, looked_at: looked_at.to_owned(), entries, preliminary })
     }
 
     /// Object A and object B.
@@ -103,31 +110,35 @@ impl Inner {
     }
 }
 
-impl Lane {
-    /// What one rounding of its arithmetic may change, relatively.
-    fn unit_roundoff(&self) -> f64 {
-        if self.bits == 32 { U32 } else { U64 }
+impl Entry {
+    fn precision(&self) -> Precision {
+        if self.bits == 32 { Precision::Single } else { Precision::Double }
     }
 }
 
-impl Table {
+impl RecordTable {
     /// Which configurations a selection holds.
     pub fn choose(&self, selection: &Selection) -> Result<Vec<bool>> {
         selection.apply(self)
     }
 
     /// The records of an algorithm.
-    pub fn lane(&self, algorithm: &str) -> Result<&Lane> {
-        self.lanes
+    pub fn entry(&self, algorithm: &str) -> Result<&Entry> {
+        self.entries
             .iter()
-            .find(|lane| lane.algorithm == algorithm)
+            .find(|entry| entry.algorithm == algorithm)
             .ok_or_else(|| EngineError::NotFound(format!("The algorithm {algorithm:?} has no records in this run.")))
     }
 
+    /// The truth about the numbers that an algorithm got.
+    pub fn truth(&self, entry: &Entry, configuration: usize) -> Truth {
+        self.set.placed[configuration].seen_in(entry.precision()).truth
+    }
+
     /// One value per configuration, NaN where the algorithm was not measured.
-    fn spread(&self, lane: &Lane, value: impl Fn(usize) -> f64) -> Vec<f64> {
+    fn spread(&self, entry: &Entry, value: impl Fn(usize) -> f64) -> Vec<f64> {
         let mut values = vec![f64::NAN; self.set.placed.len()];
-        for (row, &i) in lane.records.configuration.iter().enumerate() {
+        for (row, &i) in entry.records.configuration.iter().enumerate() {
             if let Some(slot) = values.get_mut(i as usize) {
                 *slot = value(row);
             }
@@ -136,8 +147,8 @@ impl Table {
     }
 
     /// 0 or 1 by verdict; an answer that was not given is neither right nor wrong.
-    fn verdicts(&self, lane: &Lane, counts: fn(Verdict) -> bool) -> Vec<f64> {
-        self.spread(lane, |row| match lane.records.verdict[row] {
+    fn verdicts(&self, entry: &Entry, counts: fn(Verdict) -> bool) -> Vec<f64> {
+        self.spread(entry, |row| match entry.records.verdict[row] {
             silent if silent.is_silent() => f64::NAN,
             verdict => f64::from(u8::from(counts(verdict))),
         })
@@ -150,41 +161,43 @@ impl Table {
     }
 
     /// By how much the answered distances miss the certified intervals, in u S.
-    fn errors(&self, lane: &Lane) -> Result<Vec<f64>> {
+    fn errors(&self, entry: &Entry) -> Result<Vec<f64>> {
         if self.query != Query::Proximity {
             return Err(EngineError::Invalid(
                 "This run has collision queries, and only distances have an error; use the wrong answers.".into(),
             ));
         }
-        let grain = self.grain(lane.unit_roundoff());
-        Ok(self.spread(lane, |row| {
-            let i = lane.records.configuration[row] as usize;
-            match lane.records.said[row] {
-                Said::Distance(d) => self.set.placed[i].truth.distance_error(d, self.semantics) / grain[i],
+        let grain = self.grain(entry.precision().unit_roundoff());
+        Ok(self.spread(entry, |row| {
+            let i = entry.records.configuration[row] as usize;
+            match entry.records.said[row] {
+                Said::Distance(d) => self.truth(entry, i).distance_error(d, self.semantics) / grain[i],
                 Said::Decision(_) | Said::Nothing => f64::NAN,
             }
         }))
     }
 
-    fn flips(&self, lane: &Lane) -> Result<Vec<f64>> {
-        if lane.records.flips.iter().all(Option::is_none) {
+    fn flips(&self, entry: &Entry) -> Result<Vec<f64>> {
+        if entry.records.flips.iter().all(Option::is_none) {
             let sentence = "The records of this run come from a version that did not count flips; run it again.";
             return Err(EngineError::Invalid(sentence.into()));
         }
-        Ok(self.spread(lane, |row| lane.records.flips[row].map_or(f64::NAN, |n| f64::from(u8::from(n > 0)))))
+        Ok(self.spread(entry, |row| entry.records.flips[row].map_or(f64::NAN, |n| f64::from(u8::from(n > 0)))))
     }
 
     /// Share of the other algorithms that contradict this one, of those that answered.
-    fn disputes(&self, lane: &Lane) -> Result<Vec<f64>> {
-        let said = self.said(lane);
+    fn disputes(&self, entry: &Entry) -> Result<Vec<f64>> {
+        let said = self.said(entry);
         let (mut against, mut others) = (vec![0.0; said.len()], vec![0.0; said.len()]);
         let grain = [self.grain(U32), self.grain(U64)];
-        let tau = |lane: &Lane, i: usize| 32.0 * grain[usize::from(lane.bits != 32)][i];
-        for other in self.lanes.iter().filter(|other| other.algorithm != lane.algorithm) {
+        let tau = |entry: &Entry, i: usize| 32.0 * grain[usize::from(entry.bits != 32)][i];
+        for other in self.entries.iter().filter(|other| other.algorithm != entry.algorithm) {
             for (i, theirs) in self.said(other).into_iter().enumerate() {
-                let truth = &self.set.placed[i].truth;
-                let slack = tau(lane, i) + tau(other, i) + (truth.distance_hi - truth.distance_lo);
-                if let (Some(mine), Some(theirs)) = (said[i], theirs) {
+                // One of them may have got rounded coordinates.
+                let [own, its] = [entry, other].map(|entry| self.truth(entry, i));
+                let between = own.distance_hi.max(its.distance_hi) - own.distance_lo.min(its.distance_lo);
+                let slack = tau(entry, i) + tau(other, i) + between;
+                if let (Some(mine), Some(theirs), true) = (said[i], theirs, own.hit == its.hit) {
                     others[i] += 1.0;
                     against[i] += f64::from(u8::from(mine.contradicts(theirs, slack)));
                 }
@@ -198,9 +211,9 @@ impl Table {
     }
 
     /// What an algorithm answered to each configuration; nothing where it was silent or not measured.
-    fn said(&self, lane: &Lane) -> Vec<Option<Said>> {
+    fn said(&self, entry: &Entry) -> Vec<Option<Said>> {
         let mut all = vec![None; self.set.placed.len()];
-        for (&i, &said) in lane.records.configuration.iter().zip(&lane.records.said) {
+        for (&i, &said) in entry.records.configuration.iter().zip(&entry.records.said) {
             if let Some(slot) = all.get_mut(i as usize) {
                 *slot = Some(said).filter(|said| *said != Said::Nothing);
             }
@@ -219,7 +232,7 @@ impl Table {
     }
 }
 
-impl Columns for Table {
+impl Columns for RecordTable {
     type Error = EngineError;
 
     fn column(&self, column: Column, of: Option<&str>) -> Result<Cow<'_, [f64]>> {
@@ -232,24 +245,24 @@ impl Columns for Table {
                 "The selection does not name an algorithm; write for example `time of box-tree in [1ms, 1s]`.";
             return Err(EngineError::Invalid(sentence.to_owned()));
         }
-        let lane = self.lane(algorithm)?;
+        let entry = self.entry(algorithm)?;
         let counted = |tests: &[Option<u64>]| {
             if tests.iter().all(Option::is_none) {
-                let algorithm = &lane.algorithm;
+                let algorithm = &entry.algorithm;
                 return Err(EngineError::Invalid(format!("The algorithm {algorithm:?} does not report its tests.")));
             }
-            Ok(self.spread(lane, |row| tests[row].map_or(f64::NAN, |n| n as f64)))
+            Ok(self.spread(entry, |row| tests[row].map_or(f64::NAN, |n| n as f64)))
         };
         Ok(Cow::Owned(match column {
-            Column::Time => self.spread(lane, |row| lane.records.time_ns[row]),
-            Column::BvTests => counted(&lane.records.bv_tests)?,
-            Column::PrimitiveTests => counted(&lane.records.primitive_tests)?,
-            Column::Error => self.errors(lane)?,
-            Column::Wrong => self.verdicts(lane, Verdict::is_wrong),
-            Column::Missed => self.verdicts(lane, |verdict| verdict == Verdict::FalseNegative),
-            Column::FalseAlarm => self.verdicts(lane, |verdict| verdict == Verdict::FalsePositive),
-            Column::Flipped => self.flips(lane)?,
-            Column::Disputed => self.disputes(lane)?,
+            Column::Time => self.spread(entry, |row| entry.records.time_ns[row]),
+            Column::BvTests => counted(&entry.records.bv_tests)?,
+            Column::PrimitiveTests => counted(&entry.records.primitive_tests)?,
+            Column::Error => self.errors(entry)?,
+            Column::Wrong => self.verdicts(entry, Verdict::is_wrong),
+            Column::Missed => self.verdicts(entry, |verdict| verdict == Verdict::FalseNegative),
+            Column::FalseAlarm => self.verdicts(entry, |verdict| verdict == Verdict::FalsePositive),
+            Column::Flipped => self.flips(entry)?,
+            Column::Disputed => self.disputes(entry)?,
             Column::Distance => unreachable!("answered above"),
         }))
     }

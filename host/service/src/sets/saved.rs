@@ -6,7 +6,7 @@ use crate::configurations::{ConfigurationFile, read_file, read_text};
 use crate::engine::{Engine, Inner};
 use crate::model::{Cursor, OwnedItem, OwnedItems, Page, Part, SavedConfigurations};
 use crate::objects::clean_name;
-use crate::owned::sql::Belongings;
+use crate::owned::sql::OwnedIds;
 use crate::results::not_yet;
 use crate::store::now_us;
 use crate::{EngineError, Result};
@@ -29,7 +29,7 @@ impl Engine {
         .await?;
         let length = bytes.len();
         self.has_room_for_a_file(Some(owner), length).await?;
-        let _keeping = self.inner.blobs.keeping().await;
+        let _keeping = self.inner.store.locks.keeping().await?;
         let blob = self.inner.blobs.put(bytes).await?;
         self.inner.store.add_blob(&blob, length, "application/octet-stream").await?;
         self.inner.keep_saved(&clean_name(name, "configurations"), blob, &file, owner).await
@@ -40,7 +40,7 @@ impl Engine {
     pub async fn save_configurations_of(&self, run: &str, owner: &str) -> Result<SavedConfigurations> {
         let row = self.inner.run_row(run).await?;
         // What the run was measured on may go with its last run, but not while it is saved here.
-        let _keeping = self.inner.blobs.keeping().await;
+        let _keeping = self.inner.store.locks.keeping().await?;
         let blob = row.set_blob.clone().ok_or_else(|| not_yet(run))?;
         let bytes = self.inner.blobs.get(&blob).await?;
         self.has_room_for_a_file(Some(owner), bytes.len()).await?;
@@ -87,9 +87,9 @@ impl Engine {
     }
 }
 
-fn alone(saved: SavedConfigurations) -> Belongings {
+fn alone(saved: SavedConfigurations) -> OwnedIds {
     let configurations = vec![OwnedItem { id: saved.id, name: saved.name }];
-    Belongings { configurations, ..Belongings::default() }
+    OwnedIds { configurations, ..OwnedIds::default() }
 }
 
 impl Inner {

@@ -3,8 +3,10 @@
 use ocb_lab::stability::{self, Selection};
 
 use super::runs_sql::StabilityRow;
+use crate::attempts::Kind;
 use crate::boxed;
 use crate::engine::{Engine, Inner};
+use crate::locks::Lock;
 use crate::model::{AccountInfo, Cursor, Page, Part, Role, StabilityRunInfo, StabilitySpec, State};
 use crate::quotas::{Visitor, turn};
 use crate::requests::Made;
@@ -35,10 +37,10 @@ impl Engine {
     ) -> Result<(StabilityRunInfo, bool)> {
         let (inner, owner) = (&self.inner, visitor.owner.as_str());
         check(&spec)?;
-        let contestant = inner.stability_contestant(&spec.algorithm, Some(owner))?;
+        let algorithm = inner.stability_algorithm(&spec.algorithm, Some(owner))?;
         let id = self.id_of_request(owner, Made::StabilityRun, key, &spec).await?;
         // Two concurrent requests must not share the last of a quota.
-        let _alone = inner.asking.lock().await;
+        let _alone = inner.store.locks.alone(Lock::Admission).await?;
         if inner.store.stability_run(&id).await?.is_some() {
             return Ok((self.stability_run(&id).await?, false));
         }
@@ -58,7 +60,7 @@ impl Engine {
             state: State::Queued,
             attempts: 0,
             message: None,
-            name: contestant.info.name.clone(),
+            name: algorithm.info.name.clone(),
             spec,
             done: Vec::new(),
             spent_seconds: 0.0,
@@ -167,7 +169,7 @@ impl Inner {
     pub(crate) async fn end_stability(&self, id: &str, reason: Option<&str>) -> Result<()> {
         self.store.end_stability(id, State::Cancelled, reason).await?;
         self.stop_current(Some(id), None);
-        Ok(())
+        self.store.withdraw(Kind::Stability, id, &self.worker).await.map(|_| ())
     }
 }
 

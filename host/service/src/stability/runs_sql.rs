@@ -1,11 +1,17 @@
 //! Stability runs in the queue.
 
+use sqlx::AnyConnection;
+
 use crate::Result;
+use crate::attempts::sql::{at_rest, begin, end, forget};
+use crate::attempts::worker::Worker;
+use crate::attempts::{Attempt, Kind, Outcome};
 use crate::model::{Cursor, Stability, StabilitySpec, State};
 use crate::runs::places::of_others;
 use crate::runs::priority::INTERACTIVE;
+use crate::runs::queue::served;
+use crate::runs::share::QueueShare;
 use crate::runs::sql::{named_state, state_name};
-use crate::runs::turn::Turn;
 use crate::store::{Store, from_json, now_us, to_json};
 
 /// One stability run.
@@ -64,53 +70,88 @@ impl Store {
         Ok(added.rows_affected() == 1)
     }
 
-    /// Claims the run of this priority whose next part is due, and counts the attempt: runs under way first, then the visitor who
-    /// was served longest ago.
-    pub async fn claim_stability(&self, priority: i64) -> Result<Option<StabilityRow>> {
-        let id: Option<String> = sqlx::query_scalar(
-            "UPDATE stability_runs SET state = 'running', attempts = attempts + 1 \
-             WHERE state IN ('queued', 'running') AND id = ( \
-                 SELECT r.id FROM stability_runs r LEFT JOIN served s ON s.owner = r.turn \
-                 WHERE r.state IN ('queued', 'running') AND r.priority = $1 \
-                 ORDER BY CASE r.state WHEN 'running' THEN 0 ELSE 1 END, COALESCE(s.served_us, 0), r.created_us, r.id \
-                 LIMIT 1) \
-             RETURNING id",
-        )
-        .bind(priority)
-        .fetch_optional(&self.pool)
-        .await?;
-        let Some(id) = id else { return Ok(None) };
-        let row = self.stability_run(&id).await?;
-        if let Some(row) = &row {
-            let text = "INSERT INTO served (owner, served_us) VALUES ($1, $2) \
-                        ON CONFLICT (owner) DO UPDATE SET served_us = excluded.served_us";
-            sqlx::query(text).bind(&row.turn).bind(now_us()).execute(&self.pool).await?;
+    /// Begins the next part of the run of this priority that is due: runs under way first, then the visitor who was served longest
+    /// ago.
+    pub async fn begin_part(&self, priority: i64, worker: &Worker) -> Result<Option<(Attempt, StabilityRow)>> {
+        // Another worker may take what this one has chosen; then it chooses again.
+        loop {
+            let next: Option<String> = sqlx::query_scalar(concat!(
+                "SELECT r.id FROM stability_runs r LEFT JOIN served s ON s.owner = r.turn ",
+                "WHERE r.state IN ('queued', 'running') AND r.priority = $1 AND ",
+                at_rest!("stability", "r.id"),
+                " ORDER BY CASE r.state WHEN 'running' THEN 0 ELSE 1 END, COALESCE(s.served_us, 0), r.created_us, r.id ",
+                "LIMIT 1"
+            ))
+            .bind(priority)
+            .fetch_optional(&self.pool)
+            .await?;
+            let Some(next) = next else { return Ok(None) };
+            let mut transaction = self.pool.begin().await?;
+            let Some(attempt) = begin(&mut transaction, Kind::Stability, &next, worker).await? else { continue };
+            let text = "UPDATE stability_runs SET state = 'running', attempts = attempts + 1 \
+                        WHERE id = $1 AND state IN ('queued', 'running') RETURNING turn";
+            let turn: Option<String> = sqlx::query_scalar(text).bind(&next).fetch_optional(&mut *transaction).await?;
+            let Some(turn) = turn else { continue };
+            served(&mut transaction, &turn).await?;
+            transaction.commit().await?;
+            return Ok(self.stability_run(&next).await?.map(|row| (attempt, row)));
         }
-        Ok(row)
     }
 
-    /// Keeps the findings of the finished parts, and their time; a run that was cancelled meanwhile stays as it is.
-    pub async fn keep_parts(&self, id: &str, done: &[String], found: &Stability, seconds: f64) -> Result<()> {
+    /// Keeps the findings of the finished parts, and their time, and ends the run with the last part; a run that was cancelled
+    /// meanwhile stays as it is. True when this has ended it, false also when the attempt is not the current one.
+    pub async fn accept_part(
+        &self,
+        attempt: &Attempt,
+        done: &[String],
+        found: &Stability,
+        seconds: f64,
+    ) -> Result<bool> {
+        let mut transaction = self.pool.begin().await?;
+        if !end(&mut transaction, attempt, Outcome::Accepted).await? {
+            return Ok(false);
+        }
         let text = "UPDATE stability_runs SET attempts = 0, done = $1, found = $2, spent_seconds = $3 \
                     WHERE id = $4 AND state = 'running'";
         let query = sqlx::query(text).bind(to_json(&done)?).bind(to_json(found)?).bind(seconds);
-        query.bind(id).execute(&self.pool).await?;
-        Ok(())
+        query.bind(&attempt.job).execute(&mut *transaction).await?;
+        let ended = found.complete && end_open(&mut transaction, &attempt.job, State::Done, None).await?;
+        transaction.commit().await?;
+        Ok(ended)
+    }
+
+    /// Ends the run of an attempt, for a reason that this came upon; false when the attempt is not the current one.
+    pub async fn give_up_part(&self, attempt: &Attempt, state: State, message: Option<&str>) -> Result<bool> {
+        let mut transaction = self.pool.begin().await?;
+        if !end(&mut transaction, attempt, Outcome::Accepted).await? {
+            return Ok(false);
+        }
+        end_open(&mut transaction, &attempt.job, state, message).await?;
+        transaction.commit().await?;
+        Ok(true)
     }
 
     /// The part under way was not finished, and by no fault of its own: the attempt does not count.
-    pub async fn put_back_part(&self, id: &str) -> Result<()> {
-        let text = "UPDATE stability_runs SET attempts = attempts - 1 WHERE id = $1 AND state = 'running'";
-        sqlx::query(text).bind(id).execute(&self.pool).await?;
+    pub async fn put_back_part(&self, attempt: &Attempt) -> Result<()> {
+        let mut transaction = self.pool.begin().await?;
+        if end(&mut transaction, attempt, Outcome::PutBack).await? {
+            let text = "UPDATE stability_runs SET attempts = attempts - 1 WHERE id = $1 AND state = 'running'";
+            sqlx::query(text).bind(&attempt.job).execute(&mut *transaction).await?;
+        }
+        transaction.commit().await?;
         Ok(())
+    }
+
+    /// The part under way could not be finished by a fault of ours, and is tried again.
+    pub async fn lose_part(&self, attempt: &Attempt) -> Result<()> {
+        let mut connection = self.pool.acquire().await?;
+        end(&mut connection, attempt, Outcome::Lost).await.map(|_| ())
     }
 
     /// Ends one that has not ended; false when it had.
     pub async fn end_stability(&self, id: &str, state: State, message: Option<&str>) -> Result<bool> {
-        let text = "UPDATE stability_runs SET state = $1, message = $2, finished_us = $3 \
-                    WHERE id = $4 AND state IN ('queued', 'running')";
-        let query = sqlx::query(text).bind(state_name(state)).bind(message).bind(now_us()).bind(id);
-        Ok(query.execute(&self.pool).await?.rows_affected() == 1)
+        let mut connection = self.pool.acquire().await?;
+        end_open(&mut connection, id, state, message).await
     }
 
     /// One by its id.
@@ -167,7 +208,7 @@ impl Store {
         .bind(INTERACTIVE)
         .fetch_all(&self.pool)
         .await?;
-        let (mut running, mut own, mut turns) = (0, 0, Vec::<Turn>::new());
+        let (mut running, mut own, mut shares) = (0, 0, Vec::<QueueShare>::new());
         for (state, turn, served_us, created_us, id) in waiting {
             if named_state(&state)? == State::Running {
                 // It may have begun since it was read.
@@ -175,20 +216,27 @@ impl Store {
                 continue;
             }
             own += i64::from(turn == row.turn && (created_us, &id) < (row.created_us, &row.id));
-            match turns.iter_mut().find(|known| known.turn == turn) {
+            match shares.iter_mut().find(|known| known.of == turn) {
                 Some(known) => known.waiting += 1,
-                None => turns.push(Turn { turn, waiting: 1, since: (served_us, created_us, id) }),
+                None => shares.push(QueueShare { of: turn, waiting: 1, since: (served_us, created_us, id) }),
             }
         }
-        let Some(turn) = turns.iter().find(|known| known.turn == row.turn) else { return Ok(running) };
-        Ok(running + (own + of_others(&row.turn, &turn.since, own, &turns)) as u32)
+        let Some(share) = shares.iter().find(|known| known.of == row.turn) else { return Ok(running) };
+        Ok(running + (own + of_others(&row.turn, &share.since, own, &shares)) as u32)
     }
 
     /// Takes one away.
     pub async fn remove_stability(&self, id: &str) -> Result<()> {
         sqlx::query("DELETE FROM stability_runs WHERE id = $1").bind(id).execute(&self.pool).await?;
-        Ok(())
+        forget(&self.pool, id).await
     }
+}
+
+async fn end_open(connection: &mut AnyConnection, id: &str, state: State, message: Option<&str>) -> Result<bool> {
+    let text = "UPDATE stability_runs SET state = $1, message = $2, finished_us = $3 \
+                WHERE id = $4 AND state IN ('queued', 'running')";
+    let query = sqlx::query(text).bind(state_name(state)).bind(message).bind(now_us()).bind(id);
+    Ok(query.execute(connection).await?.rows_affected() == 1)
 }
 
 fn read(columns: Columns) -> Result<StabilityRow> {

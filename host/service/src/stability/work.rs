@@ -5,11 +5,12 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use ocb_lab::LabError;
-use ocb_lab::contestant::Contestant;
+use ocb_lab::algorithm::Algorithm;
 use ocb_lab::stability;
 
 use super::runs::selection;
 use super::runs_sql::StabilityRow;
+use crate::attempts::{Attempt, MOST_LOST};
 use crate::engine::Inner;
 use crate::machine::MeasuringRight;
 use crate::measure::Stop;
@@ -17,47 +18,53 @@ use crate::model::{AlgorithmInfo, Stability, State};
 use crate::quotas::time;
 use crate::{EngineError, Result};
 
-/// A part that was begun this often is not begun again: it may be what ends the service.
-const MAX_ATTEMPTS: i64 = 3;
-
 /// Tries the next part of the run of this priority whose turn it is, which `begun` hears; false when none waits.
 pub async fn next_part(inner: &Arc<Inner>, priority: i64, begun: impl FnOnce(&str, &Stop)) -> Result<bool> {
-    let Some(row) = inner.store.claim_stability(priority).await? else { return Ok(false) };
-    if row.attempts > MAX_ATTEMPTS {
+    let Some((attempt, row)) = inner.store.begin_part(priority, &inner.worker).await? else { return Ok(false) };
+    if row.attempts > MOST_LOST {
         let message = format!(
-            "This run failed {MAX_ATTEMPTS} times in the same part and is not tried again; the service's log says why."
+            "This run failed {MOST_LOST} times in the same part and is not tried again; the service's log says why."
         );
-        inner.store.end_stability(&row.id, State::Failed, Some(&message)).await?;
+        inner.store.give_up_part(&attempt, State::Failed, Some(&message)).await?;
         return Ok(true);
     }
     let stop = Stop::default();
+    let _held = inner.hold(&attempt, &stop);
     begun(&row.id, &stop);
-    // Who ended it between the claim and the line above found nothing to stop.
+    // Who ended it between the beginning and the line above found nothing to stop.
     let open = inner.store.stability_run(&row.id).await?.is_some_and(|now| now.state == State::Running);
     if inner.closing() || !open {
         stop.stop();
     }
-    match in_time(inner, &row, &stop).await {
+    match in_time(inner, &attempt, &row, &stop).await {
         Ok(()) => {}
         // Its time is over.
         Err(LabError::Stopped) if stop.reason().is_some() => {
-            inner.store.end_stability(&row.id, State::Cancelled, stop.reason().as_deref()).await?;
+            inner.store.give_up_part(&attempt, State::Cancelled, stop.reason().as_deref()).await?;
         }
-        Err(LabError::Stopped) => inner.store.put_back_part(&row.id).await?,
+        Err(LabError::Stopped) => inner.store.put_back_part(&attempt).await?,
         // Ours: the part is tried again, after the dispatcher has waited a little.
-        Err(e @ LabError::Fault(_)) => return Err(e.into()),
+        Err(e @ LabError::Fault(_)) => {
+            inner.store.lose_part(&attempt).await?;
+            return Err(e.into());
+        }
         Err(e) => {
             tracing::warn!("stability run {}: {e}", row.id);
             let message = EngineError::from(e).for_visitors().to_string();
-            inner.store.end_stability(&row.id, State::Failed, Some(&message)).await?;
+            inner.store.give_up_part(&attempt, State::Failed, Some(&message)).await?;
         }
     }
     Ok(true)
 }
 
 /// Tries a part, and stops it when the time of its run is over.
-async fn in_time(inner: &Arc<Inner>, row: &StabilityRow, stop: &Stop) -> std::result::Result<(), LabError> {
-    let part = one_part(inner, row, stop);
+async fn in_time(
+    inner: &Arc<Inner>,
+    attempt: &Attempt,
+    row: &StabilityRow,
+    stop: &Stop,
+) -> std::result::Result<(), LabError> {
+    let part = one_part(inner, attempt, row, stop);
     let Some(longest) = inner.longest_of(row.owner.as_deref()) else { return part.await };
     tokio::pin!(part);
     let left = longest.saturating_sub(Duration::from_secs_f64(row.spent_seconds));
@@ -73,28 +80,32 @@ async fn in_time(inner: &Arc<Inner>, row: &StabilityRow, stop: &Stop) -> std::re
     }
 }
 
-async fn one_part(inner: &Arc<Inner>, row: &StabilityRow, stop: &Stop) -> std::result::Result<(), LabError> {
+async fn one_part(
+    inner: &Arc<Inner>,
+    attempt: &Attempt,
+    row: &StabilityRow,
+    stop: &Stop,
+) -> std::result::Result<(), LabError> {
     let begun = Instant::now();
     let fault = |e: EngineError| LabError::Fault(e.to_string());
-    let contestant = inner
-        .stability_contestant(&row.spec.algorithm, row.owner.as_deref())
+    let algorithm = inner
+        .stability_algorithm(&row.spec.algorithm, row.owner.as_deref())
         .map_err(|e| LabError::Invalid(e.to_string()))?;
     let selection = selection(&row.spec);
     let kept = inner.store.stability_found(&row.id).await.map_err(fault)?;
     // What another file found is no part of this result.
-    let kept = kept.filter(|found| found.plugin_sha256 == contestant.info.plugin_sha256);
+    let kept = kept.filter(|found| found.plugin_sha256 == algorithm.info.plugin_sha256);
     let mut done = if kept.is_some() { row.done.clone() } else { Vec::new() };
-    let mut found = kept.unwrap_or_else(|| stability::begin(&contestant, &selection));
+    let mut found = kept.unwrap_or_else(|| stability::begin(&algorithm, &selection));
     let parts = stability::parts(&selection);
     if let Some(part) = parts.iter().find(|part| done.iter().all(|done| done != *part)) {
-        found = tried(inner, &contestant, row, part, found, stop).await?;
+        found = tried(inner, &algorithm, row, part, found, stop).await?;
         done.push((*part).to_owned());
     }
     found.complete = done.len() == parts.len();
     let seconds = row.spent_seconds + begun.elapsed().as_secs_f64();
-    inner.store.keep_parts(&row.id, &done, &found, seconds).await.map_err(fault)?;
-    if found.complete && inner.store.end_stability(&row.id, State::Done, None).await.map_err(fault)? {
-        inner.publish(row, &contestant, &found).await.map_err(fault)?;
+    if inner.store.accept_part(attempt, &done, &found, seconds).await.map_err(fault)? {
+        inner.publish(row, &algorithm, &found).await.map_err(fault)?;
     }
     Ok(())
 }
@@ -102,17 +113,17 @@ async fn one_part(inner: &Arc<Inner>, row: &StabilityRow, stop: &Stop) -> std::r
 /// Tries a part on a thread of its own: a jail ends with the thread that started it.
 async fn tried(
     inner: &Arc<Inner>,
-    contestant: &Arc<Contestant>,
+    algorithm: &Arc<Algorithm>,
     row: &StabilityRow,
     part: &'static str,
     mut found: Stability,
     stop: &Stop,
 ) -> std::result::Result<Stability, LabError> {
-    let (inner, contestant, stop, selection) = (inner.clone(), contestant.clone(), stop.clone(), selection(&row.spec));
+    let (inner, algorithm, stop, selection) = (inner.clone(), algorithm.clone(), stop.clone(), selection(&row.spec));
     let (sender, ended) = tokio::sync::oneshot::channel();
     let work = move || {
         let _right = right_to_measure(&stop, || {})?;
-        stability::part(inner.registry.runner(), &inner.machine, &contestant, &selection, part, &mut found, &stop)?;
+        stability::part(inner.registry.runner(), &inner.machine, &algorithm, &selection, part, &mut found, &stop)?;
         Ok(found)
     };
     let thread = thread::Builder::new().name("stability".into()).spawn(move || drop(sender.send(work())));
@@ -121,14 +132,14 @@ async fn tried(
 }
 
 /// Waits until nobody measures on this machine.
-pub(super) fn right_to_measure(stop: &Stop, waits: impl FnOnce()) -> std::result::Result<MeasuringRight, LabError> {
+pub fn right_to_measure(stop: &Stop, waits: impl FnOnce()) -> std::result::Result<MeasuringRight, LabError> {
     MeasuringRight::wait(|| stop.asked(), waits)?.ok_or(LabError::Stopped)
 }
 
 impl Inner {
     /// A whole run of a public algorithm as it is usually used takes its place in the table that everybody sees.
-    async fn publish(&self, row: &StabilityRow, contestant: &Contestant, found: &Stability) -> Result<()> {
-        let usual = row.spec.parts.is_empty() && row.spec.seeds.is_none() && contestant.settings.is_empty();
+    async fn publish(&self, row: &StabilityRow, algorithm: &Algorithm, found: &Stability) -> Result<()> {
+        let usual = row.spec.parts.is_empty() && row.spec.seeds.is_none() && algorithm.settings.is_empty();
         let named = |info: &AlgorithmInfo| (&info.id, &info.plugin_sha256) == (&found.algorithm, &found.plugin_sha256);
         let public = self.public().iter().any(named);
         if usual && public { self.store.keep_stability(found).await } else { Ok(()) }

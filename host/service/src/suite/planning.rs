@@ -9,6 +9,7 @@ use std::collections::{HashMap, HashSet};
 use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::idle::sql::Tried;
+use crate::locks::Lock;
 use crate::model::{AlgorithmInfo, Environment, PluginState, RunInfo, RunSpec, State, SuiteInfo, SuiteProgress};
 use crate::runs::RunContext;
 use crate::runs::priority::BACKGROUND;
@@ -68,7 +69,7 @@ impl Engine {
     /// them when none is named. Whatever anybody waits for goes before it.
     #[boxed]
     pub async fn measure_suite(&self, only: &[String]) -> Result<Vec<RunInfo>> {
-        let _alone = self.inner.planning.lock().await;
+        let _alone = self.inner.store.locks.alone(Lock::Planning).await?;
         self.queue_missing(only, &self.inner.known().await?).await
     }
 
@@ -112,25 +113,25 @@ impl Engine {
         Ok(())
     }
 
-    /// What developers brought and is public is measured on the suite, also where the service ended before it was queued. What
+    /// Submitted plugins that are public are measured on the suite, also where the service ended before it was queued. What
     /// was measured on another hardware class, suite or oracle is for a campaign, which a curator begins.
     pub(crate) async fn catch_up_with_the_suite(&self) -> Result<()> {
         if !self.inner.config.featured {
             return Ok(());
         }
-        let rows = self.inner.store.submissions().await?;
+        let rows = self.inner.store.plugins().await?;
         let public = rows.iter().filter(|row| row.state == PluginState::Public);
         let only = self.inner.of_these(public.flat_map(|row| &row.algorithms));
         if only.is_empty() {
             return Ok(());
         }
-        let _alone = self.inner.planning.lock().await;
+        let _alone = self.inner.store.locks.alone(Lock::Planning).await?;
         self.queue_missing(&only, &self.inner.known_anywhere().await?).await.map(drop)
     }
 
     /// Queues what is missing of these, as far as they are public.
-    pub(crate) async fn measure_brought(&self, brought: impl Iterator<Item = &AlgorithmInfo>) -> Result<()> {
-        let only = self.inner.of_these(brought);
+    pub(crate) async fn measure_submitted(&self, submitted: impl Iterator<Item = &AlgorithmInfo>) -> Result<()> {
+        let only = self.inner.of_these(submitted);
         if only.is_empty() { Ok(()) } else { self.measure_suite(&only).await.map(drop) }
     }
 }
