@@ -55,12 +55,12 @@ async fn a_good_object_is_kept_once() {
     let obj = b"v 0 0 0\nv 1 0 0\nv 0 0.1 0\nf 1 2 3\n".to_vec();
     let info = engine.add_object("a/b/tri.obj", obj.clone(), Some("guest")).await.unwrap();
     assert_eq!((info.name.as_str(), info.triangles, info.vertices, info.stock), ("tri", 1, 3, false));
-    assert!(info.warnings.iter().any(|w| w.contains("rounded to single precision")), "{:?}", info.warnings);
+    assert!(info.rounding.is_some_and(|rounding| rounding.moves > 0.0 && !rounding.flattens), "{info:?}");
     assert_eq!(engine.add_object("again.obj", obj.clone(), Some("guest")).await.unwrap(), info);
     let theirs = engine.add_object("tri.obj", obj, Some("somebody else")).await.unwrap();
     assert_ne!(theirs.id, info.id, "another owner has an object of their own");
     assert_eq!(common::files(&data.path().join("blobs")), 1, "over the same bytes");
-    assert_eq!(engine.mesh(&info.id).await.unwrap().positions()[2].y, f64::from(0.1f32));
+    assert_eq!(engine.mesh(&info.id).await.unwrap().positions()[2].y, 0.1, "the number of the file");
     assert_eq!(engine.object(&info.id, Some("guest")).await.unwrap(), info);
     let listed = engine.objects(Some("guest"), &Page::default()).await.unwrap().entries;
     assert_eq!(listed.iter().filter(|o| !o.stock).collect::<Vec<_>>(), [&info]);

@@ -86,7 +86,8 @@ async fn many_slow_algorithms_share_one_limit() {
 async fn one_slow_algorithm_is_asked_as_long_as_there_is_time() {
     let _alone = alone().await;
     let folder = tempfile::tempdir().unwrap();
-    let limit = Duration::from_secs(30);
+    // Each part has a share of some seconds, so that it gets an answer beside other work, too.
+    let limit = Duration::from_secs(60);
     let (report, took) = checked_within(limit, &common::slow(folder.path(), 0, 60, 1), false).await;
     assert!(report.passed, "{:?}", report.lines);
     // All of its questions would take hours.
@@ -105,8 +106,10 @@ async fn check_stopped(file: &Path) {
     under_way(&engine, &plugin.id, &author).await;
     let begun = Instant::now();
     engine.shutdown().await;
+    let took = begun.elapsed();
+    println!("stopped after {:.3} s", took.as_secs_f64());
     // A second, and what other work on the machine adds; one slow build takes fifteen seconds.
-    assert!(begun.elapsed() < Duration::from_secs(10), "{:?}", begun.elapsed());
+    assert!(took < Duration::from_secs(10), "{took:?}");
     let engine = Engine::open(EngineConfig { dispatch: false, ..config(data.path()) }).await.unwrap();
     let now = engine.plugin(&plugin.id, Some(&author)).await.unwrap();
     assert_eq!(now.state, PluginState::Uploaded, "{}", now.reason);

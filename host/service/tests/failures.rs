@@ -151,9 +151,9 @@ async fn the_worst_come_wrong_ones_first_with_poses_witnesses_and_triangles() {
     // A false alarm names triangles; what is right points at nothing that would have to be looked at.
     assert!(worst[..failed].iter().all(|case| case.claim.is_some_and(|c| c.triangles.is_some() && c.points.is_none())));
     assert!(worst[failed..].iter().all(|case| case.claim.is_none()));
-    let meeting = engine.meeting(&run.id, first.configuration).await.unwrap();
+    let meeting = engine.meeting(&run.id, first.configuration, false).await.unwrap();
     assert_eq!((meeting.total, meeting.pairs.len()), (0, 0), "they do not meet");
-    assert!(matches!(engine.meeting(&run.id, 60_000).await, Err(EngineError::NotFound(_))));
+    assert!(matches!(engine.meeting(&run.id, 60_000, false).await, Err(EngineError::NotFound(_))));
     assert!(matches!(engine.worst(&run.id, &ask(WorstBy::Time, 0)).await, Err(EngineError::Invalid(_))));
     assert!(matches!(engine.worst(&run.id, &ask(WorstBy::Error, 9)).await, Err(EngineError::Invalid(_))));
 

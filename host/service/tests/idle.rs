@@ -5,8 +5,8 @@ mod common;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use ocb_service::model::{State, SuiteProgress};
-use ocb_service::{Engine, EngineConfig};
+use ocb_service::model::{AdviceSpec, Asked, BoardRequest, Role, State, SuiteProgress};
+use ocb_service::{Engine, EngineConfig, Visitor};
 
 /// The file of a suite of two scenarios, with so many processes and seconds for each algorithm.
 fn suite(data: &Path, passes: u32, budget_seconds: f64) -> std::path::PathBuf {
@@ -66,6 +66,8 @@ async fn an_idle_service_measures_the_suite_and_then_tries_stability() {
     let found = progress(&engine).await;
     assert_eq!((found.measured, found.waiting, found.failed, found.of), (2, 0, 0, 2));
     assert!(engine.suite().await.unwrap().idle);
+    let board = engine.board(&BoardRequest::default(), None).await.unwrap();
+    assert_eq!((board.results, board.suite.map(|suite| suite.version)), (2, Some(3)), "it has filled the board");
     assert_eq!(engine.status().await.unwrap().queued, 0);
     // It goes on part by part, and has no owner.
     until(&database, "SELECT LENGTH(done) FROM stability_runs", |length: &i64| *length > 2).await;
@@ -101,8 +103,21 @@ async fn it_gives_way_to_a_visitor_at_once_and_finishes_later() {
     assert_eq!(run.state, State::Done, "{:?}", run.message);
     let (put_back, _) = common::finish(&engine, &idle).await;
     assert_eq!((put_back.state, put_back.attempts), (State::Done, 1), "{:?}", put_back.message);
+    // The check of a plugin and advice interrupt it, too.
+    let next = until(&database, running, |next: &String| *next != idle).await;
+    send_plugin(&engine).await;
+    put_back_within_seconds(&engine, &next, 1).await;
+    until(&database, running, |again: &String| *again == next).await;
+    let spec = AdviceSpec {
+        object_a: "stock:torus-knot@2000".into(),
+        object_b: None,
+        question: Asked::Distance { tolerance: 0.05 },
+    };
+    let visitor = Visitor { owner: "me".into(), address: None };
+    let (advice, _) = engine.ask_advice(spec, &visitor, None).await.unwrap();
+    put_back_within_seconds(&engine, &next, 2).await;
+    engine.cancel_advice(&advice.id, Some("me")).await.unwrap();
     // Off means off: what waits is missing again, and nothing is begun.
-    until(&database, running, |next: &String| *next != idle).await;
     engine.shutdown().await;
     let engine = opened(data.path(), &suite, false).await;
     let found = progress(&engine).await;
@@ -119,6 +134,29 @@ async fn it_gives_way_to_a_visitor_at_once_and_finishes_later() {
     assert_eq!(progress(&engine).await.measured, 2);
     engine.shutdown().await;
     database.close().await;
+}
+
+/// Sends a file that is no plugin, whose check soon ends.
+async fn send_plugin(engine: &Engine) {
+    let author = engine.add_account("author", "a long enough password", Role::Developer).await.unwrap();
+    let manifest = serde_json::json!({
+        "name": "None", "version": "1", "authors": "Somebody", "license": "MIT", "queries": ["collision_first"],
+    });
+    let manifest = serde_json::from_value(manifest).unwrap();
+    engine.submit_plugin(&author, "none.so", b"\x7fELF".to_vec(), manifest, None).await.unwrap();
+}
+
+/// Waits until this run has been put back into the queue so many times.
+async fn put_back_within_seconds(engine: &Engine, run: &str, times: usize) {
+    let begun = Instant::now();
+    let put_back = async || {
+        let events = engine.events(run, 0).await.unwrap();
+        events.iter().filter(|event| event.state == State::Queued).count()
+    };
+    while put_back().await < times {
+        assert!(begun.elapsed() < Duration::from_secs(3), "run {run} was not put back");
+        tokio::time::sleep(Duration::from_millis(5)).await;
+    }
 }
 
 #[tokio::test(flavor = "multi_thread")]

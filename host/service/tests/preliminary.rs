@@ -4,12 +4,21 @@ mod common;
 
 use std::fs::File;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use futures::StreamExt;
+use ocb_core::comparison::compare;
 use ocb_core::statistics::{Outliers, Statistic};
+use ocb_core::stock;
+use ocb_lab::algorithm::{Algorithm, Runner, plugin_hash};
+use ocb_lab::configurations::{Gauge, make};
+use ocb_lab::machine::{Machine, MeasuringRight};
+use ocb_lab::measure::{Measured, News, Part, Task, first_look, measure};
+use ocb_lab::pairing::Pairing;
 use ocb_service::model::{Heatmap, HeatmapRequest, Measure, RunEvent, RunSpec, StageKind, State};
-use ocb_service::{Engine, EngineConfig, EngineError};
+use ocb_service::{Engine, EngineConfig, EngineError, Profile, Stop};
 use tokio::sync::{Mutex, MutexGuard};
 
 /// One run at a time on a machine.
@@ -134,4 +143,72 @@ async fn the_beginning_of_a_large_set_is_seen_and_goes_when_the_run_is_cancelled
         break;
     }
     engine.shutdown().await;
+}
+
+/// With the same seed, a task that is looked at before its rounds and shown between them asks the same processes the same
+/// questions as one that is not, and finds the same ratio but for chance.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_first_look_changes_neither_questions_nor_ratios() {
+    let _alone = alone().await;
+    let program = common::config(Path::new("")).runner;
+    let (runner, machine) = (Runner { program, profile: Profile::Dev }, Machine::observe().unwrap());
+    let described = |name: &str| {
+        let file = runner.program.with_file_name(name);
+        let info = runner.describe(&file, &plugin_hash(&file).unwrap(), true).unwrap().remove(0);
+        Arc::new(Algorithm::plain(info, file, true))
+    };
+    let algorithms = ["libocb_parry.so", "libocb_box_tree.so"].map(described);
+    let mesh = Arc::new(stock::generate("torus-knot", 600).unwrap());
+    let pairing = Pairing::new(mesh.clone(), None);
+    let spec = RunSpec { passes: 3, ..common::spec("collision_first", 120, 5) };
+    let set = make(&pairing, &spec, None, &Gauge::default(), None).unwrap().unwrap();
+    let _right = MeasuringRight::wait(|| false, || {}).unwrap();
+    let measured = |watched: bool| {
+        let (stop, (sender, news), mut seen) = (Stop::default(), channel(), 0);
+        let task = Task {
+            pairing: &pairing,
+            set: &set,
+            controls: &[],
+            query: spec.query,
+            semantics: spec.semantics,
+            passes: spec.passes,
+            budget: Duration::from_secs(60),
+            seed: 7,
+            algorithms: &algorithms,
+            reference: Some(&algorithms[1]),
+            part: Part::of(&spec, &set),
+            watched,
+            in_order: false,
+            rounds_only: false,
+        };
+        if watched {
+            first_look(&task, &runner, &machine, &stop, &mut |_, _| seen += 1);
+        }
+        measure(&task, &runner, &machine, &stop, &sender);
+        drop(sender);
+        let mut all: Vec<Measured> = Vec::new();
+        for news in news {
+            match news {
+                News::Finished { measured, .. } => all.push(*measured),
+                News::Preliminary { .. } => seen += 1,
+                _ => {}
+            }
+        }
+        (all, seen)
+    };
+    let ((plain, unseen), (looked, seen)) = (measured(false), measured(true));
+    assert!(unseen == 0 && seen >= algorithms.len(), "{unseen} and {seen} preliminary results");
+    for (plain, looked) in plain.iter().zip(&looked) {
+        let questions =
+            |of: &Measured| of.records.iter().map(|r| (r.configuration, r.asked, r.verdict)).collect::<Vec<_>>();
+        assert_eq!(questions(plain), questions(looked));
+        assert_eq!((plain.passes.len(), looked.passes.len()), (3, 3), "rounds");
+    }
+    let ratio = |all: &[Measured]| {
+        let n = set.placed.len() as u64;
+        compare(&all[0].times, Some(&all[1].times), spec.passes, n).unwrap().ratio.unwrap()
+    };
+    let (plain, looked) = (ratio(&plain), ratio(&looked));
+    // Three processes make rough intervals.
+    assert!(plain.lo <= 1.25 * looked.hi && looked.lo <= 1.25 * plain.hi, "{plain:?} and {looked:?}");
 }

@@ -10,7 +10,7 @@ use ocb_core::configuration::{Class, Method, Separation};
 use ocb_core::statistics::{Outliers, Statistic};
 use ocb_lab::columns::read_triangle_tests;
 use ocb_service::model::{
-    ChartKind, ChartRequest, CheckVerdict, Ecdf, HeatmapRequest, Measure, OutcomeName, Page, RunSpec, StageKind, State,
+    ChartKind, ChartRequest, Ecdf, HeatmapRequest, Measure, OutcomeName, Page, RunSpec, StageKind, State,
 };
 use ocb_service::{Ceilings, Engine, EngineConfig, EngineError};
 
@@ -150,7 +150,7 @@ async fn what_is_expected_of_a_run_hardly_changes_and_the_reference_is_no_gap() 
     let spec = RunSpec {
         algorithms: vec!["brute-force".into()],
         separation: Separation::Relative { distance: 0.05 },
-        budget_seconds: 4.0,
+        budget_seconds: 2.0,
         ..common::spec("proximity", 4000, 2)
     };
     let estimate = engine.estimate(&spec, Some("guest")).await.unwrap();
@@ -160,11 +160,11 @@ async fn what_is_expected_of_a_run_hardly_changes_and_the_reference_is_no_gap() 
     let (run, events) = common::finish(&engine, &run.id).await;
     assert!(run.results[0].budget_limited, "{:?}", run.results[0]);
     let stages: Vec<_> = events.iter().filter_map(|event| event.stage.as_ref()).collect();
-    let lane = || stages.iter().filter(|stage| stage.kind == StageKind::Measuring);
+    let measuring = || stages.iter().filter(|stage| stage.kind == StageKind::Measuring);
     let done = run.stages[2].done as f64;
-    let known: Vec<u64> = lane().map(|stage| stage.total).filter(|total| *total > 0).collect();
+    let known: Vec<u64> = measuring().map(|stage| stage.total).filter(|total| *total > 0).collect();
     assert!(known.iter().all(|total| (0.5 * done..2.0 * done).contains(&(*total as f64))), "{done}: {known:?}");
-    assert!(lane().any(|stage| stage.message.as_deref().is_some_and(|said| said.contains("reference algorithm"))));
+    assert!(measuring().any(|stage| stage.message.as_deref().is_some_and(|said| said.contains("reference algorithm"))));
     assert!(run.stages[2].message.as_deref().is_none_or(|said| !said.contains("reference")));
     engine.shutdown().await;
 }
@@ -233,12 +233,13 @@ async fn a_run_ends_as_soon_as_the_database_can_record_it() {
     let spec = |seed| RunSpec { algorithms: vec!["brute-force".into()], ..common::spec("proximity", 20, seed) };
     let run = engine.submit(spec(1), Some("guest")).await.unwrap();
     let begun = Instant::now();
-    while engine.run(&run.id, None).await.unwrap().results.is_empty() {
+    while engine.run(&run.id, None).await.unwrap().stages.last().unwrap().state != State::Done {
         assert!(begun.elapsed() < Duration::from_secs(60), "nothing was measured");
         tokio::time::sleep(Duration::from_millis(20)).await;
     }
     tokio::time::sleep(Duration::from_secs(1)).await;
-    assert_eq!(engine.run(&run.id, None).await.unwrap().state, State::Running);
+    let now = engine.run(&run.id, None).await.unwrap();
+    assert_eq!((now.state, now.environment), (State::Running, None), "all of its end is recorded, or nothing");
 
     sqlx::query("DROP TRIGGER refuse").execute(&database).await.unwrap();
     for run in [run.id, engine.submit(spec(2), Some("guest")).await.unwrap().id] {
@@ -277,7 +278,9 @@ async fn a_replaced_plugin_file_is_reported_as_such() {
 #[tokio::test(flavor = "multi_thread")]
 async fn the_start_page_has_a_measured_run_without_being_asked() {
     let data = tempfile::tempdir().unwrap();
-    let config = EngineConfig { featured: true, ..common::config(data.path()) };
+    let mut config = EngineConfig { featured: true, ..common::config(data.path()) };
+    // One that is through soon: brute force would take all of its time.
+    config.plugins.retain(|file| file.ends_with("libocb_box_tree.so"));
     let engine = Engine::open(config.clone()).await.unwrap();
     let started = std::time::Instant::now();
     let featured = loop {
@@ -298,18 +301,11 @@ async fn the_start_page_has_a_measured_run_without_being_asked() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn our_own_plugins_pass_the_check() {
+async fn a_program_is_no_plugin() {
     let data = tempfile::tempdir().unwrap();
     let config = EngineConfig { dispatch: false, ..common::config(data.path()) };
     let engine = Engine::open(config.clone()).await.unwrap();
-    for file in &config.plugins {
-        let report = engine.check_plugin(file, common::quick()).await.unwrap();
-        // Single precision is wrong about a few of these configurations, see the README of parry.
-        let failed: Vec<_> = report.lines.iter().filter(|line| line.verdict == CheckVerdict::Fail).collect();
-        assert!(failed.iter().all(|line| line.check.starts_with("parry-f32: ")), "{failed:#?}");
-        assert!(report.lines.len() >= 4, "{report:#?}");
-    }
-    // An ELF file that is no plugin: the runner's own program.
+    // An ELF file: the runner's own program. What is a plugin is checked by `known_failures`.
     let report = engine.check_plugin(&config.runner, common::quick()).await.unwrap();
     assert!(!report.passed);
     let gate = &report.lines[1];

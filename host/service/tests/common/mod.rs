@@ -8,7 +8,7 @@ use ocb_service::model::{RunEvent, RunInfo, RunSpec};
 use ocb_service::{Engine, EngineConfig};
 
 /// The folder where cargo puts binaries and plugins; test binaries lie in `deps` below it.
-fn built() -> PathBuf {
+pub fn built() -> PathBuf {
     let exe = std::env::current_exe().expect("a test knows its own file");
     exe.ancestors().nth(2).expect("target/release").to_path_buf()
 }
@@ -22,6 +22,7 @@ pub fn config(data: &Path) -> EngineConfig {
     }
     EngineConfig {
         runner: built.join("ocb-runner"),
+        advisor: built.join("ocb-advisor"),
         plugins: plugins.to_vec(),
         ..EngineConfig::beside_executable(data)
     }
@@ -29,7 +30,8 @@ pub fn config(data: &Path) -> EngineConfig {
 
 /// An engine that offers no algorithm and measures nothing.
 pub fn idle_config(data: &Path) -> EngineConfig {
-    EngineConfig { plugins: Vec::new(), dispatch: false, ..EngineConfig::beside_executable(data) }
+    let advisor = built().join("ocb-advisor");
+    EngineConfig { advisor, plugins: Vec::new(), dispatch: false, ..EngineConfig::beside_executable(data) }
 }
 
 /// A small run: `count` configurations of a torus knot of 600 triangles against itself.
@@ -47,6 +49,19 @@ pub async fn finish(engine: &Engine, id: &str) -> (RunInfo, Vec<RunEvent>) {
     let events = engine.follow(id, 0).await.expect("the run is there");
     let events: Vec<RunEvent> = events.map(|e| e.expect("an event")).collect().await;
     (engine.run(id, None).await.expect("the run is there"), events)
+}
+
+/// Copies a folder with all that is in it.
+pub fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).expect("a folder");
+    for entry in fs::read_dir(from).expect("a folder").map(|entry| entry.expect("an entry")) {
+        let (path, to) = (entry.path(), to.join(entry.file_name()));
+        if path.is_dir() {
+            copy(&path, &to);
+        } else {
+            fs::copy(path, to).expect("a copy");
+        }
+    }
 }
 
 /// Files below a folder.
