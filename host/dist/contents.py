@@ -1,4 +1,4 @@
-"""What a package holds: the command, the runner, our own plugins, the stock objects and all licences.
+"""What a package holds: the command, the runner, the advisor, our own plugins, the stock objects and all licences.
 
 The wrappers of C++ libraries are not shipped: they need the libraries of the machine that built them."""
 import json, os, pathlib, re, subprocess, sys
@@ -38,7 +38,7 @@ def plugins(data):
 
 def files(data):
     """Each file of a package: its place in the folder, where it lies now, and whether it is a program."""
-    names = ["ocb", "ocb-runner", *sorted(plugins(data))]
+    names = ["ocb", "ocb-runner", "ocb-advisor", *sorted(plugins(data))]
     found = [(name, BUILD / "release" / name, True) for name in names]
     stock = [f"{name}.{end}" for name in ("bunny", "dragon") for end in ("obj", "terms")]
     found += [(f"stock/{name}", BUILD / "stock" / name, False) for name in stock]

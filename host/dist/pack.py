@@ -4,7 +4,7 @@ import base64, gzip, hashlib, io, os, pathlib, shutil, subprocess, sys, tarfile,
 import contents, licences
 
 HERE = pathlib.Path(__file__).parent
-MODULE = '''"""The command `ocb`, which lies in this package with its runner and plugins."""
+MODULE = '''"""The command `ocb`, which lies in this package with its runner, advisor and plugins."""
 import os, sys
 
 

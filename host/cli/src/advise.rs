@@ -8,23 +8,13 @@ mod work;
 
 use std::process::ExitCode;
 
-use ocb_advisor::{Advice, HeldOut, Level, Scene, Shelf, advise as make, ladder, sample, usual_distances};
-use ocb_core::mesh::Mesh;
-use ocb_core::sampling::SamplingError;
-use std::sync::Arc;
+use ocb_advice::{HeldOut, usual_distances};
+use ocb_service::advising::{Advisor, Request, SHELF};
+use ocb_service::truth::Machine;
 
 use crate::args::{AdviseArgs, Store};
 use crate::failure::{Failure, INTERRUPTED, Result};
 use crate::{open, output, truth};
-
-/// Where certificates are kept below the data folder.
-const SHELF: &str = "certificates";
-
-/// What the work gives.
-struct Advised {
-    advice: Advice,
-    ladders: [Vec<Level>; 2],
-}
 
 /// Advises, prints the card, writes the files; or checks a certificate.
 pub async fn advise(store: &Store, args: &AdviseArgs, json: bool) -> Result<ExitCode> {
@@ -44,33 +34,13 @@ pub async fn advise(store: &Store, args: &AdviseArgs, json: bool) -> Result<Exit
         [] => usual_distances(question, a.longest_side()),
         given => given.to_vec(),
     };
-    let shelf = Shelf::folder(&open::data(store)?.join(SHELF));
+    let advisor = Advisor::new(&open::advisor(store), &Machine::observe()?, &open::data(store)?.join(SHELF));
+    let counts = [args.configurations, args.held_out];
     let names = [named_a.clone(), named_b.clone()];
-    let (count, held_out, seed) = (args.configurations, args.held_out, args.seed);
-    let done = work::watch(move |watch| {
-        let ladders = ladders(&names, [&a, &b], &shelf, watch)?;
-        let shapes = [0, 1].map(|side: usize| ladders[side][0].lod.shape());
-        let chosen_by = sample(shapes, &distances, count, seed, "configurations", watch)?;
-        let fresh = match held_out {
-            0 => Vec::new(),
-            n => sample(shapes, &distances, n, seed.wrapping_add(1), "held-out configurations", watch)?,
-        };
-        if chosen_by.is_empty() {
-            return Err(Stop::Empty);
-        }
-        let both = [ladders[0].as_slice(), ladders[1].as_slice()];
-        let scene = Scene { ladders: both, question, distances: &distances, sample: &chosen_by, held_out: &fresh };
-        let advice = make(&scene, watch).ok_or(Stop::Interrupted)?;
-        Ok(Advised { advice, ladders })
-    });
-    let advised = match done.await? {
-        Ok(advised) => advised,
-        Err(Stop::Interrupted) => {
-            eprintln!("ocb: Stopped; nothing was written.");
-            return Ok(ExitCode::from(INTERRUPTED));
-        }
-        Err(Stop::Empty) => return Err(Failure::Input("B never reaches these distances; choose others.".to_owned())),
-        Err(Stop::Sampling(e)) => return Err(Failure::Input(format!("These configurations are not possible: {e}."))),
+    let request = Request { names, meshes: [a, b], question, distances, counts, seed: args.seed };
+    let Some(advised) = work::watch(move |watch| advisor.advise(&request, watch)).await?? else {
+        eprintln!("ocb: Stopped; nothing was written.");
+        return Ok(ExitCode::from(INTERRUPTED));
     };
     let written = match &args.out {
         Some(folder) => files::write(folder, [named_a, named_b], &advised)?,
@@ -89,34 +59,4 @@ pub async fn advise(store: &Store, args: &AdviseArgs, json: bool) -> Result<Exit
         )));
     }
     Ok(ExitCode::SUCCESS)
-}
-
-/// Why there is no advice.
-enum Stop {
-    Interrupted,
-    Empty,
-    Sampling(SamplingError),
-}
-
-impl From<SamplingError> for Stop {
-    fn from(error: SamplingError) -> Self {
-        match error {
-            SamplingError::Stopped => Self::Interrupted,
-            other => Self::Sampling(other),
-        }
-    }
-}
-
-fn ladders(
-    names: &[String; 2],
-    [a, b]: [&Arc<Mesh>; 2],
-    shelf: &Shelf,
-    watch: &work::Progress,
-) -> std::result::Result<[Vec<Level>; 2], Stop> {
-    let of_a = ladder(&names[0], a, shelf, watch).ok_or(Stop::Interrupted)?;
-    let of_b = match Arc::ptr_eq(a, b) {
-        true => of_a.clone(),
-        false => ladder(&names[1], b, shelf, watch).ok_or(Stop::Interrupted)?,
-    };
-    Ok([of_a, of_b])
 }

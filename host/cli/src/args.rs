@@ -1,11 +1,13 @@
 //! What can be said on the command line.
 
+mod bench;
 mod campaigns;
 mod data;
 mod looking;
 mod mail;
 mod plugins;
 mod runs;
+mod secret;
 mod services;
 mod suite;
 
@@ -14,6 +16,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+pub use bench::{BenchArgs, Contacts, OrderArg, Question};
 pub use campaigns::{CampaignArgs, CampaignCommand, CampaignOf};
 pub use data::{DataCommand, Deleted, PlaceArgs};
 pub use looking::{HeatmapArgs, SelectArgs, WorstArgs};
@@ -57,13 +60,13 @@ pub struct Store {
     /// Data folder [default: $XDG_DATA_HOME/opencollbench, else ~/.local/share/opencollbench].
     #[arg(long, global = true, env = "OCB_DATA", value_name = "DIR", hide_env_values = true)]
     pub data: Option<PathBuf>,
-    /// Database, `postgres://...` [default: SQLite in the data folder].
-    #[arg(long, global = true, env = "OCB_DATABASE", value_name = "URL", hide_env_values = true)]
+    /// Database, `postgres://...`, or `@FILE` with that address in it [default: SQLite in the data folder].
+    #[arg(long, global = true, env = "OCB_DATABASE", value_name = "URL", hide_env_values = true, value_parser = secret::value)]
     pub database: Option<String>,
-    /// Blob storage, `s3://bucket/prefix?endpoint=...` [default: a folder in the data folder].
-    #[arg(long, global = true, env = "OCB_BLOBS", value_name = "URL", hide_env_values = true)]
+    /// Blob storage, `s3://bucket/prefix?endpoint=...`, or `@FILE` with that address in it [default: a folder in the data folder].
+    #[arg(long, global = true, env = "OCB_BLOBS", value_name = "URL", hide_env_values = true, value_parser = secret::value)]
     pub blobs: Option<String>,
-    /// The `ocb-runner` binary [default: beside this program].
+    /// The `ocb-runner` binary, with `ocb-advisor` in the same folder [default: beside this program].
     #[arg(long, global = true, env = "OCB_RUNNER", value_name = "FILE", hide_env_values = true)]
     pub runner: Option<PathBuf>,
     /// Plugin file, or folder of plugins; may be repeated [default: beside this program].
@@ -157,6 +160,10 @@ pub enum Command {
         #[command(subcommand)]
         command: AdminCommand,
     },
+    /// Write everything that a service has stored (accounts, runs, objects, plugins) into one file; the service may be running.
+    Backup(BackupArgs),
+    /// Restore a backup into a data folder and a database that hold nothing yet, of the same kind or of the other one.
+    Restore(BackupArgs),
     /// Test where algorithms fail: stress families, relations between answers, failures reported elsewhere.
     Stability(StabilityArgs),
     /// Check what the jail needs of this machine, what is missing and how to get it; exit code 1 if third-party plugins
@@ -179,19 +186,27 @@ pub enum Command {
     /// Write a heatmap of a run as .glb, .ply or .csv.
     Heatmap(HeatmapArgs),
     /// List the configurations on which an algorithm was worst: wrong answers first, then by time or error.
-    #[command(after_help = SELECTIONS)]
+    #[command(after_help = selections())]
     Worst(WorstArgs),
     /// Count the configurations of a selection and show the times of each algorithm on them, or write their records.
-    #[command(after_help = SELECTIONS)]
+    #[command(after_help = selections())]
     Select(SelectArgs),
 }
 
-const SELECTIONS: &str = "A selection consists of
-  COLUMN [of ALGORITHM] in [LOW, HIGH]   time (ns, us, ms, s), bv, primitives, error (u S), distance
-  FLAG [of ALGORITHM]                    wrong, missed, false_alarm, flipped, disputed
-  near([a|b] vertex N, R)                witness point within R times the object's longest side of vertex N
-joined by & (and), | (or), ! (not) and parentheses, e.g.
-  'time in [500us, 15ms] & bv in [1200, 35000] & near(vertex 8367, 0.05)'";
+fn selections() -> String {
+    format!(
+        "A selection consists of\n{}\njoined by & (and), | (or), ! (not) and parentheses, e.g.\n  \
+         'time in [500us, 15ms] & bv in [1200, 35000] & near(vertex 8367, 0.05)'",
+        ocb_core::selection::help()
+    )
+}
+
+/// `ocb backup` and `ocb restore`
+#[derive(Debug, Args)]
+pub struct BackupArgs {
+    /// The backup, a tar file.
+    pub file: PathBuf,
+}
 
 /// `ocb serve`
 #[derive(Debug, Args)]
@@ -203,6 +218,13 @@ pub struct ServeArgs {
     /// separated by commas.
     #[arg(long, value_delimiter = ',', env = "OCB_HOST_NAMES", value_name = "NAME", hide_env_values = true)]
     pub host_name: Vec<String>,
+    /// IP address or network (10.1.0.0/16) of a proxy on another machine whose `X-Forwarded-For` names the visitor; repeated, or
+    /// separated by commas. Proxies on this machine are always trusted.
+    #[arg(long, value_delimiter = ',', env = "OCB_TRUSTED_PROXIES", value_name = "NETWORK", hide_env_values = true)]
+    pub trusted_proxies: Vec<ocb_server::ProxyNetwork>,
+    /// Address at which Prometheus finds figures (`/metrics`), such as 127.0.0.1:9090; visitors must not reach it [default: none].
+    #[arg(long, env = "OCB_METRICS", value_name = "ADDRESS", hide_env_values = true)]
+    pub metrics: Option<SocketAddr>,
     /// Days until the data of a guest is deleted, counted from the last item that the guest created or asked to keep.
     #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=36_500), env = "OCB_GUEST_DAYS", value_name = "DAYS", hide_env_values = true)]
     pub guest_days: u32,
@@ -235,65 +257,6 @@ pub struct CeilingArgs {
 
 fn minutes() -> clap::builder::RangedI64ValueParser<u32> {
     clap::value_parser!(u32).range(1..=1_000_000)
-}
-
-/// `ocb bench`
-#[derive(Debug, Args)]
-pub struct BenchArgs {
-    /// Object A (fixed): a file (OBJ, STL, PLY, OFF, glTF, GLB, COLLADA), or a stock object such as `stock:castle@5000`.
-    pub a: String,
-    /// Object B (moving) [default: the same as A].
-    pub b: Option<String>,
-    /// Algorithm ids, with optional settings (box-tree:leaf_size=4, x:threads=2), repeated or separated by commas; or `all`
-    /// [default: the usual ones that answer the query].
-    #[arg(long, value_delimiter = ',', value_name = "ID")]
-    pub algorithm: Vec<String>,
-    /// Collision query (cd) or distance query (pq).
-    #[arg(long, value_enum, default_value_t = Question::Cd)]
-    pub query: Question,
-    /// For cd: stop at the first contact, or list all [default: first].
-    #[arg(long, value_enum)]
-    pub contacts: Option<Contacts>,
-    /// Solid bodies: an object completely inside the other one collides, too. Needs closed objects and algorithms that support it.
-    #[arg(long)]
-    pub solid: bool,
-    #[command(flatten)]
-    pub placing: PlacingArgs,
-    /// Configurations from a file: Parquet as `ocb generate` writes it, or row-major 4x4 matrices that place B in A's frame,
-    /// as CSV (16 or 12 numbers per line), JSON or raw little-endian f64.
-    #[arg(
-        long,
-        value_name = "FILE",
-        conflicts_with_all = ["paper_compat", "rotate", "move_by", "count", "seed", "distance", "step", "ladder", "center_distance", "hit_share"]
-    )]
-    pub configurations: Option<PathBuf>,
-    /// Number of fresh processes, each with one timed pass over the configurations in the unit of the files; the median counts.
-    #[arg(long, default_value_t = 5)]
-    pub passes: u32,
-    /// Seed of the query order, the equivalent instances and the blocks of queries, to repeat a run [default: random].
-    #[arg(long, value_name = "NUMBER")]
-    pub run_seed: Option<u64>,
-    /// Measuring time per algorithm; a slower algorithm is measured on as many configurations as fit.
-    #[arg(long, default_value_t = 60.0, allow_negative_numbers = true, value_name = "SECONDS")]
-    pub budget: f64,
-    /// Stop once the comparison is settled; differences below this share (5%, 0.02) do not matter. The result is a preview,
-    /// which `ocb run refine` completes.
-    #[arg(long, allow_hyphen_values = true, value_name = "SHARE", value_parser = share)]
-    pub precision: Option<f64>,
-    /// Quick look: measure at most 5,000 configurations, evenly spread over all. The result is a preview;
-    /// `ocb run refine` completes it.
-    #[arg(long)]
-    pub quick: bool,
-    /// Folder for the result files: records as Parquet and CSV, configurations, run.json, heatmaps as GLB and PLY.
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-}
-
-/// A share of one, as 5% or 0.05.
-fn share(text: &str) -> Result<f64, String> {
-    let (number, unit) = text.strip_suffix('%').map_or((text, 1.0), |percent| (percent, 100.0));
-    let share = number.trim().parse::<f64>().map(|number| number / unit);
-    share.map_err(|_| format!("{text:?} is not a share; write it as 5% or 0.05"))
 }
 
 /// `ocb generate`
@@ -330,10 +293,10 @@ pub struct AdviseArgs {
     #[arg(long, value_enum, default_value_t = Unit::Mm)]
     pub unit: Unit,
     /// Number of configurations to choose the advice by.
-    #[arg(long, default_value_t = ocb_advisor::CONFIGURATIONS, value_parser = clap::value_parser!(u32).range(8..=1_000_000), value_name = "N")]
+    #[arg(long, default_value_t = ocb_advice::CONFIGURATIONS, value_parser = clap::value_parser!(u32).range(8..=1_000_000), value_name = "N")]
     pub configurations: u32,
     /// Number of other configurations to check the advice by.
-    #[arg(long, default_value_t = ocb_advisor::HELD_OUT, value_parser = clap::value_parser!(u32).range(0..=1_000_000), value_name = "N")]
+    #[arg(long, default_value_t = ocb_advice::HELD_OUT, value_parser = clap::value_parser!(u32).range(0..=1_000_000), value_name = "N")]
     pub held_out: u32,
     /// Relative distances of the configurations, separated by commas [default: distances that fit the query].
     #[arg(long, value_delimiter = ',', value_name = "X")]
@@ -374,6 +337,9 @@ pub struct TruthArgs {
     /// The query.
     #[arg(long, value_enum, default_value_t = TruthQuestion::Pq)]
     pub query: TruthQuestion,
+    /// Round the coordinates to single precision first, as for algorithms that compute in it.
+    #[arg(long)]
+    pub rounded: bool,
     /// File to write: .parquet, .csv or .json [default: a table on stdout].
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
@@ -409,24 +375,6 @@ pub enum TruthQuestion {
     /// Everything, with the distance as a certified interval.
     Pq,
     /// All pairs of intersecting triangles, each with its margin.
-    All,
-}
-
-/// The query.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Question {
-    /// Collision query.
-    Cd,
-    /// Proximity query.
-    Pq,
-}
-
-/// How much of the answer to a collision query.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Contacts {
-    /// The first intersecting pair.
-    First,
-    /// All intersecting pairs.
     All,
 }
 

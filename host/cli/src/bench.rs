@@ -20,7 +20,7 @@ use ocb_service::model::{RunInfo, State};
 use crate::args::{BenchArgs, Store};
 use crate::failure::{Failure, INTERRUPTED, Result};
 use crate::open::{self, OWNER, Purpose};
-use crate::{output, serve, units};
+use crate::{output, serve, units, workload};
 use progress::Progress;
 
 /// How long a cancelled run may take to end its runner.
@@ -28,6 +28,9 @@ const CANCEL_PATIENCE: Duration = Duration::from_secs(20);
 
 /// Measures, prints, writes.
 pub async fn bench(store: &Store, args: &BenchArgs, json: bool) -> Result<ExitCode> {
+    if let Some(recording) = &args.workload {
+        return workload::bench(store, args, recording, json).await;
+    }
     // Everything that can be refused without the store is refused before it is opened.
     let inputs = spec::Inputs::read(args)?;
     if let Some(folder) = &args.out {

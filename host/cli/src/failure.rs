@@ -61,7 +61,7 @@ impl From<LabError> for Failure {
 impl From<EngineError> for Failure {
     fn from(error: EngineError) -> Self {
         match error {
-            EngineError::Fault(sentence) => Self::Fault(sentence),
+            EngineError::Fault(sentence) | EngineError::Ended(sentence) => Self::Fault(sentence),
             EngineError::NotFound(sentence)
             | EngineError::Invalid(sentence)
             | EngineError::Forbidden(sentence)

@@ -3,6 +3,7 @@
 mod admin;
 mod advise;
 mod args;
+mod backup;
 mod bench;
 mod board;
 mod campaign;
@@ -33,6 +34,7 @@ mod suite;
 mod truth;
 mod units;
 mod visibility;
+mod workload;
 mod worst;
 
 use std::process::ExitCode;
@@ -80,6 +82,8 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Data { command } => data::data(&store, &command, json).await,
         Command::Cite(args) => cite::cite(&args, json).await,
         Command::Visibility(args) => visibility::visibility(&args, json).await,
+        Command::Backup(args) => backup::back_up(&store, &args.file, json).await,
+        Command::Restore(args) => backup::restore(&store, &args.file, json).await,
         Command::Admin { command } => admin::admin(&store, &command, json).await,
         Command::Stability(args) => stability::stability(&store, &args, json).await,
         Command::Doctor => doctor::doctor(&store, json),

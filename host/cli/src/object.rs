@@ -36,7 +36,8 @@ pub async fn object(store: &Store, command: &ObjectCommand, json: bool) -> Resul
 fn file(object: &ObjectInfo) -> String {
     let format = object.format.map(|format| format.to_string());
     let unit = object.unit.as_ref().map(|unit| format!("in {}", unit.name));
-    format.into_iter().chain(unit).collect::<Vec<_>>().join(", ")
+    let double = object.rounding.map(|_| "needs double precision".to_owned());
+    format.into_iter().chain(unit).chain(double).collect::<Vec<_>>().join(", ")
 }
 
 async fn all(engine: &Engine) -> Result<Vec<ObjectInfo>> {

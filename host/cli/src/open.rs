@@ -4,6 +4,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use ocb_service::advising::PROGRAM;
 use ocb_service::{Ceilings, Engine, EngineConfig, MailServer, Profile, given};
 
 use crate::args::{CeilingArgs, MailArgs, ServeArgs, Store};
@@ -94,11 +95,17 @@ pub fn runner(store: &Store) -> PathBuf {
     store.runner.clone().unwrap_or_else(|| EngineConfig::beside_executable("").runner)
 }
 
+/// The advisor's program, beside the runner.
+pub fn advisor(store: &Store) -> PathBuf {
+    runner(store).with_file_name(PROGRAM)
+}
+
 fn config(store: &Store, data: PathBuf, purpose: Purpose) -> EngineConfig {
     let mut config = EngineConfig::beside_executable(data);
     config.database_url.clone_from(&store.database);
     config.blob_url.clone_from(&store.blobs);
     config.runner = runner(store);
+    config.advisor = advisor(store);
     config.profile = store.profile();
     if config.profile == Profile::Dev && purpose != Purpose::Look {
         eprintln!(

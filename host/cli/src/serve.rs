@@ -1,9 +1,11 @@
 //! `ocb serve`: pages and API until somebody stops it.
 
+use std::net::SocketAddr;
 use std::process::ExitCode;
 
-use ocb_server::Names;
+use ocb_server::{Names, Network, Proxies};
 use serde_json::json;
+use tokio::net::TcpListener;
 use tokio::signal::unix::{SignalKind, signal};
 
 use crate::args::{ServeArgs, Store};
@@ -14,13 +16,11 @@ use crate::output;
 /// Serves until SIGINT or SIGTERM; a run under way goes on at the next start.
 pub async fn serve(store: &Store, args: &ServeArgs, json: bool) -> Result<ExitCode> {
     // The address first: nothing is opened, queued or measured for a service that cannot listen.
-    let listener = ocb_server::bind(args.address).await.map_err(|e| {
-        let reason = match e.kind() {
-            std::io::ErrorKind::AddrInUse => "the address is already in use".to_owned(),
-            _ => e.to_string(),
-        };
-        Failure::Input(format!("Cannot listen on {}: {reason}; choose another with --address.", args.address))
-    })?;
+    let listener = bind(args.address, "--address").await?;
+    let metrics = match args.metrics {
+        Some(address) => Some(bind(address, "--metrics").await?),
+        None => None,
+    };
     let address = listener.local_addr().map_err(|e| Failure::Fault(format!("cannot read the address: {e}.")))?;
     let stop = stop_signal()?;
     let url = format!("http://{address}");
@@ -34,18 +34,32 @@ pub async fn serve(store: &Store, args: &ServeArgs, json: bool) -> Result<ExitCo
     } else {
         eprintln!("OpenCollBench is running at {url}; press Ctrl-C to stop it.");
     }
-    ocb_server::serve(engine.clone(), names(args), listener, stop).await;
+    ocb_server::serve(engine.clone(), network(args), listener, metrics, stop).await;
     engine.shutdown().await;
     Ok(ExitCode::SUCCESS)
 }
 
-/// Those that were given, and where mails lead to.
-fn names(args: &ServeArgs) -> Names {
+/// Listens; `option` is how another address is chosen.
+async fn bind(address: SocketAddr, option: &str) -> Result<TcpListener> {
+    ocb_server::bind(address).await.map_err(|e| {
+        let reason = match e.kind() {
+            std::io::ErrorKind::AddrInUse => "the address is already in use".to_owned(),
+            _ => e.to_string(),
+        };
+        Failure::Input(format!("Cannot listen on {address}: {reason}; choose another with {option}."))
+    })
+}
+
+/// The host names that were given, and the one that mails lead to.
+fn network(args: &ServeArgs) -> Network {
     let public = args.mail.public_url.as_deref().and_then(|url| {
         let (_, rest) = url.split_once("://")?;
         rest.split(['/', ':']).next().map(str::to_owned)
     });
-    Names::new(args.host_name.iter().cloned().chain(public))
+    Network {
+        names: Names::new(args.host_name.iter().cloned().chain(public)),
+        proxies: Proxies::new(args.trusted_proxies.iter().copied()),
+    }
 }
 
 /// Ready when the process is asked to stop.

@@ -66,9 +66,9 @@ async fn configurations(store: &Store, args: &TruthArgs, json: bool) -> Result<E
     };
     let bytes = read_bounded(file, MAX_CONFIGURATION_BYTES)?;
     let poses = truth::read_matrices(&bytes).map_err(|e| Failure::Input(format!("{}: {e}", file.display())))?;
-    let mesh_a = object(store, a).await?;
+    let mesh_a = seen(store, a, args.rounded).await?;
     let mesh_b = match args.b.as_ref().filter(|b| *b != a) {
-        Some(b) => object(store, b).await?,
+        Some(b) => seen(store, b, args.rounded).await?,
         None => mesh_a.clone(),
     };
     let depth = match args.query {
@@ -86,7 +86,17 @@ async fn configurations(store: &Store, args: &TruthArgs, json: bool) -> Result<E
     Ok(ExitCode::SUCCESS)
 }
 
-/// The mesh as an algorithm would get it.
+/// The mesh as algorithms in double precision get it, or `rounded` as those in single precision do.
+async fn seen(store: &Store, named: &str, rounded: bool) -> Result<Arc<Mesh>> {
+    let mesh = object(store, named).await?;
+    if !rounded {
+        return Ok(mesh);
+    }
+    let bad = |e| Failure::Input(format!("{named} cannot be rounded to single precision: {e}."));
+    Ok(Arc::new(Arc::unwrap_or_clone(mesh).to_f32_representable().map_err(bad)?))
+}
+
+/// The mesh in the numbers of its file.
 pub async fn object(store: &Store, named: &str) -> Result<Arc<Mesh>> {
     if ObjectId::of(named).is_stock() {
         let (engine, _folder) = open::open_aside(store).await?;
@@ -100,11 +110,7 @@ pub async fn object(store: &Store, named: &str) -> Result<Arc<Mesh>> {
     for warning in &read.warnings {
         eprintln!("ocb: {named}: {warning}");
     }
-    let mesh = read.mesh.clone().to_f32_representable().map_err(|e| bad(&e))?;
-    if mesh != read.mesh {
-        eprintln!("ocb: {named}: Coordinates were rounded to single precision, as for the algorithms.");
-    }
-    Ok(Arc::new(mesh))
+    Ok(Arc::new(read.mesh))
 }
 
 fn format_of(path: &Path) -> Result<Format> {

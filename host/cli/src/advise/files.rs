@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use ocb_advisor::{Detail, Paper};
+use ocb_advice::{Detail, Paper};
 use ocb_core::colormap::{Colormap, Scale};
 use ocb_core::export::{Legend, ply};
 use ocb_core::heatmap::VertexValues;
 use ocb_core::mesh::{Mesh, obj};
+use ocb_service::advising::Advised;
 
-use super::Advised;
 use crate::failure::{Failure, Result};
 use crate::output;
 

@@ -1,6 +1,6 @@
 //! The question, with its lengths as people write them: 1%, 0.5mm, 0.02.
 
-use ocb_advisor::Question;
+use ocb_advice::Question;
 
 use crate::args::{AdviseArgs, Unit};
 use crate::failure::{Failure, Result};

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use ocb_advisor::{Advice, Kind, Measured, Point, Question, Share, Unit};
+use ocb_advice::{Advice, Kind, Measured, Point, Question, Share, Unit};
 
 use crate::output;
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use ocb_advisor::{Doubt, Paper};
+use ocb_advice::{Doubt, Paper};
 use ocb_core::mesh::{MAX_BYTES, obj};
 use serde_json::json;
 

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
-use ocb_advisor::Watch;
+use ocb_advice::Watch;
 use ocb_service::truth::{Machine, MakingWay};
 
 use crate::failure::{Failure, Result};

@@ -4,13 +4,15 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::secret;
+
 /// The mail server. Without one nothing is mailed.
 #[derive(Args)]
 pub struct MailArgs {
     /// Mail server of this service: `smtps://user:password@host:port`, or `smtp://...`, which must switch to encryption first
-    /// unless the host is this machine. All users of this machine can see its command lines, so better set the environment
-    /// variable.
-    #[arg(long, env = "OCB_SMTP_URL", value_name = "URL", hide_env_values = true, requires = "mail_from")]
+    /// unless the host is this machine; or `@FILE` with that address in it. All users of this machine can see its command lines,
+    /// so better use a file or the environment variable.
+    #[arg(long, env = "OCB_SMTP_URL", value_name = "URL", hide_env_values = true, requires = "mail_from", value_parser = secret::value)]
     pub smtp_url: Option<String>,
     /// Certificates (PEM) of additional authorities to trust for the mail server; with them, a mail server on this machine
     /// must be encrypted, too.

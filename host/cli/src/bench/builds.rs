@@ -1,4 +1,4 @@
-//! How the contestants of a run were compiled, below its table.
+//! How the algorithms of a run were compiled, below its table.
 
 use ocb_service::model::AlgorithmResult;
 

@@ -9,18 +9,18 @@ use ocb_service::model::{RunEvent, RunInfo, Stage, StageKind, State};
 
 use crate::units;
 
-/// Between two plain lines of one lane.
+/// Between two plain lines of one stage.
 const LINE_EVERY: Duration = Duration::from_secs(5);
 
-/// Shows the lanes of one run.
+/// Shows the stages of one run.
 pub enum Progress {
-    /// One bar per lane.
-    Bars { all: MultiProgress, lanes: HashMap<String, ProgressBar> },
+    /// One bar per stage.
+    Bars { all: MultiProgress, bars: HashMap<String, ProgressBar> },
     /// One line per change, and now and then.
     Lines { last: HashMap<String, Printed> },
 }
 
-/// The last line of one lane.
+/// The last line of one stage.
 pub struct Printed {
     state: State,
     said: bool,
@@ -28,12 +28,12 @@ pub struct Printed {
 }
 
 impl Progress {
-    /// For the lanes that the run has now; further ones appear as they come.
+    /// For the stages that the run has now; further ones appear as they come.
     pub fn new(run: &RunInfo) -> Self {
         if !std::io::stderr().is_terminal() {
             return Self::Lines { last: HashMap::new() };
         }
-        let mut progress = Self::Bars { all: MultiProgress::new(), lanes: HashMap::new() };
+        let mut progress = Self::Bars { all: MultiProgress::new(), bars: HashMap::new() };
         run.stages.iter().for_each(|stage| progress.stage(stage));
         progress
     }
@@ -46,10 +46,10 @@ impl Progress {
     }
 
     fn stage(&mut self, stage: &Stage) {
-        let name = lane_name(stage);
+        let name = stage_name(stage);
         match self {
-            Self::Bars { all, lanes } => {
-                let bar = lanes.entry(name).or_insert_with_key(|name| {
+            Self::Bars { all, bars } => {
+                let bar = bars.entry(name).or_insert_with_key(|name| {
                     all.add(ProgressBar::new(stage.total).with_style(style()).with_prefix(name.clone()))
                 });
                 bar.set_length(stage.total);
@@ -71,8 +71,8 @@ impl Progress {
 
     /// Leaves the terminal as it should be.
     pub fn finish(self) {
-        if let Self::Bars { lanes, .. } = self {
-            lanes.values().filter(|bar| !bar.is_finished()).for_each(ProgressBar::abandon);
+        if let Self::Bars { bars, .. } = self {
+            bars.values().filter(|bar| !bar.is_finished()).for_each(ProgressBar::abandon);
         }
     }
 }
@@ -83,7 +83,7 @@ fn style() -> ProgressStyle {
         .unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
-/// A lane that waits is worth a line only when there is something to say, such as what it waits for.
+/// A stage that waits is worth a line only when there is something to say, such as what it waits for.
 fn is_due(last: Option<&Printed>, stage: &Stage, now: Instant) -> bool {
     let says = stage.message.is_some();
     if stage.state == State::Queued && !says {
@@ -93,7 +93,7 @@ fn is_due(last: Option<&Printed>, stage: &Stage, now: Instant) -> bool {
     last.state != stage.state || (says && !last.said) || now.duration_since(last.at) >= LINE_EVERY
 }
 
-fn lane_name(stage: &Stage) -> String {
+fn stage_name(stage: &Stage) -> String {
     match (stage.kind, &stage.algorithm) {
         (StageKind::Object, _) => "object".to_owned(),
         (StageKind::Configurations, _) => "configurations".to_owned(),
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lane_says_what_it_waits_for() {
+    fn a_stage_says_what_it_waits_for() {
         let now = Instant::now();
         let mut printed = Printed { state: State::Queued, said: false, at: now };
         let due = |printed: Option<&Printed>, stage: &Stage| is_due(printed, stage, now);
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lane_says_whose_turn_it_is() {
+    fn a_stage_says_whose_turn_it_is() {
         let now = Instant::now();
         let printed = Printed { state: State::Running, said: false, at: now };
         let other = stage(State::Running, Some("Now the reference algorithm, Box tree: 5 questions."));

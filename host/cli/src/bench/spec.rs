@@ -36,8 +36,9 @@ impl Inputs {
     pub fn read(args: &BenchArgs) -> Result<Self> {
         let query = query(args)?;
         let placing = placing(args)?;
-        let a = Object::named(&args.a)?;
-        let b = args.b.as_deref().filter(|b| *b != args.a).map(Object::named).transpose()?;
+        let Some(named_a) = &args.a else { return Err(Failure::Input("Name an object.".to_owned())) };
+        let a = Object::named(named_a)?;
+        let b = args.b.as_deref().filter(|b| b != named_a).map(Object::named).transpose()?;
         // What is kept is kept one by one: before the first, all must be known to be good.
         if b.is_some() || matches!(placing, Placing::File(_)) {
             for object in [Some(&a), b.as_ref()].into_iter().flatten() {

@@ -5,8 +5,8 @@ use ocb_core::record::Verdict;
 use ocb_core::resolution::{Resolution, Threshold};
 use ocb_service::Profile;
 use ocb_service::model::{
-    Agreement, AlgorithmResult, ContactQuality, ContractClass, Controls, Estimated, Preview, RunInfo, RunSpec, SetInfo,
-    Timing,
+    Agreement, AlgorithmResult, ContactQuality, ContractClass, Controls, Estimated, Preview, RoundingEffect, RunInfo,
+    RunSpec, SetInfo, Timing,
 };
 
 use super::{builds, by_unit};
@@ -52,6 +52,7 @@ pub fn summary(run: &RunInfo) -> String {
                 reference.algorithm
             )
         }));
+        text.extend(rounding(run));
         text.extend(by_unit::table(&run.results));
         text.extend(builds::table(&run.results));
         text.extend(classes(&run.results));
@@ -177,8 +178,27 @@ fn row(result: &AlgorithmResult) -> Vec<String> {
         result.load_ms.map_or_else(dash, |ms| units::time(ms * 1e6)),
         result.build_ms.map_or_else(dash, |ms| units::time(ms * 1e6)),
         result.memory_bytes.map_or_else(dash, units::bytes),
-        format!("{}{}", result.outcome.name, by_unit::mark(result)),
+        format!("{}{}{}", result.outcome.name, by_unit::mark(result), rounded(result)),
     ]
+}
+
+fn rounded(result: &AlgorithmResult) -> &'static str {
+    if result.rounded { ", rounded coordinates" } else { "" }
+}
+
+/// Who got other coordinates than those of the files, and what that changes.
+fn rounding(run: &RunInfo) -> Option<String> {
+    let names: Vec<&str> = run.results.iter().filter(|r| r.rounded).map(|r| r.algorithm.as_str()).collect();
+    let (set, false) = (run.set.as_ref()?, names.is_empty()) else { return None };
+    let RoundingEffect { other_answers, largest_change } = set.rounding?;
+    Some(format!(
+        "Rounded coordinates: single precision does not hold the coordinates of the files. {}, which compute{} in it, got them \
+         rounded and are judged by the truth about these; all others got those of the files. Rounding changes the answer to \
+         {other_answers} of {} configurations, and distances by up to {largest_change:.1e}.",
+        names.join(", "),
+        if names.len() == 1 { "s" } else { "" },
+        set.configurations
+    ))
 }
 
 /// In how many processes the algorithms were timed.

@@ -114,7 +114,7 @@ fn a_comparison_that_is_settled_is_a_preview_that_can_be_refined() {
     let desk = Desk::new();
     let placing = ["bench", "stock:torus-knot@600", "--method", "random", "--count", "1200", "--hit-share", "0.5"];
     let bench = |precision| {
-        let rest = ["--precision", precision, "--algorithm", "box-tree,box-tree:leaf_size=32"];
+        let rest = ["--passes", "3", "--precision", precision, "--algorithm", "box-tree,box-tree:leaf_size=32"];
         [&placing[..], &rest[..]].concat()
     };
     for wrong in ["no", "5 percent", "0", "-5%", "100%"] {

@@ -35,7 +35,7 @@ fn things<'a>(args: &[&'a str], account: &[&'a str]) -> Vec<&'a str> {
 
 #[test]
 fn what_an_account_has_on_a_service_is_its_own() {
-    let (desk, there) = (Desk::new(), Desk::new());
+    let (desk, there) = (Desk::new(), Desk::with(&["libocb_box_tree.so"]));
     there.account("ada");
     let service = Serving::start(&there);
     let (token, post) = service.log_in("ada");
@@ -51,6 +51,20 @@ fn what_an_account_has_on_a_service_is_its_own() {
     assert_eq!(desk.json(&things(&["show"], &account))["runs"][0]["id"], run);
     let tar = desk.path("all.tar").to_str().expect("text").to_owned();
     assert!(desk.json(&things(&["export", "-o", &tar], &account))["bytes"].as_u64() > Some(1024));
+
+    // A backup of the service while it is at work: the account and its run are there where it is restored.
+    let backup = desk.path("backup.tar").to_str().expect("text").to_owned();
+    assert!(there.json(&["backup", &backup])["rows"]["runs"].as_u64() >= Some(1));
+    assert!(there.refused(&["backup", &backup]).contains("exists already"));
+    assert!(there.refused(&["restore", &backup]).contains("in use"));
+    let elsewhere = Desk::new();
+    assert!(elsewhere.run(&["restore", &backup]).stdout.starts_with("Restored: "));
+    let copy = Serving::start(&elsewhere);
+    let (token, _) = copy.log_in("ada");
+    let shown = desk.json(&things(&["show"], &["--server", &copy.url, "--token", &token]));
+    assert_eq!(shown["runs"][0]["id"], run);
+    assert!(elsewhere.refused(&["backup", &tar]).contains("exists already"));
+
     assert_eq!(desk.json(&things(&["delete", "run", run, "--yes"], &account))["runs"][0]["id"], run);
     assert!(desk.refused(&things(&["delete", "run", run, "--yes"], &account)).contains("There is no run"));
     assert!(desk.refused(&["data", "show", "--server", &service.url]).contains("--token"));

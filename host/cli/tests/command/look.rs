@@ -1,31 +1,18 @@
 //! Commands that only look, and help.
 
-use std::path::Path;
-
 use crate::support::Desk;
 
 #[test]
 fn plugins_are_listed_without_touching_the_data_folder() {
-    let desk = Desk::new();
+    let desk = Desk::with(&[]);
     let algorithms = desk.json(&["plugin", "list"]);
     let ids: Vec<&str> = algorithms.as_array().expect("a list").iter().filter_map(|one| one["id"].as_str()).collect();
     for id in ["box-tree", "brute-force", "parry"] {
         assert!(ids.contains(&id), "{ids:?}");
     }
-    assert!(desk.run(&["plugin", "list"]).stdout.contains("box-tree"));
-    assert!(!desk.path("data").exists());
-}
-
-#[test]
-fn our_own_plugins_pass_the_check() {
-    let desk = Desk::new();
-    let folder = Path::new(env!("CARGO_BIN_EXE_ocb")).parent().expect("a folder");
-    for plugin in ["libocb_box_tree.so", "libocb_brute_force.so", "libocb_fast.so"] {
-        let file = folder.join(plugin).display().to_string();
-        let report = desk.json(&["plugin", "check", "--quick", &file]);
-        assert_eq!(report["passed"], true, "{report:#}");
-        assert_eq!(report["algorithms"].as_array().map(Vec::len), Some(1), "{report:#}");
-    }
+    let some = Desk::new();
+    assert!(some.run(&["plugin", "list"]).stdout.contains("box-tree"));
+    assert!(!desk.path("data").exists() && !some.path("data").exists());
 }
 
 #[test]

@@ -12,17 +12,34 @@ use crate::support::{Desk, Ended};
 #[test]
 fn it_serves_until_it_is_told_to_stop() {
     let desk = Desk::new();
+    let free = TcpListener::bind("127.0.0.1:0").and_then(|port| port.local_addr()).expect("a port").to_string();
     for signal in [Signal::SIGTERM, Signal::SIGINT] {
-        let mut child =
-            desk.command(&["serve", "--address", "127.0.0.1:0", "--json", "--idle", "off"]).spawn().expect("it starts");
+        let serve = ["serve", "--address", "127.0.0.1:0", "--json", "--idle", "off", "--metrics", &free];
+        let mut child = desk.command(&serve).spawn().expect("it starts");
         let stdout = BufReader::new(child.stdout.take().expect("stdout"));
         let url = stdout.lines().map_while(Result::ok).find_map(|line| {
             let (_, rest) = line.split_once("http://")?;
             rest.split('"').next().map(str::to_owned)
         });
-        let answer = get(&url.expect("an address"), "/api/v1/status");
+        let url = url.expect("an address");
+        let answer = get(&url, "/api/v1/status");
         assert!(answer.starts_with("HTTP/1.1 200") || answer.starts_with("HTTP/1.0 200"), "{answer}");
         assert!(answer.contains("\"algorithms\":"), "{answer}");
+        // Figures for the operator are at an address of their own.
+        let figures = get(&free, "/metrics");
+        for expected in [
+            "ocb_http_requests_total{method=\"GET\",route=\"/api/v1/status\",status=\"200\"} 1\n",
+            "ocb_http_request_seconds_count 1\n",
+            "ocb_queue_oldest_seconds 0",
+            "ocb_stored_bytes 0\n",
+        ] {
+            assert!(figures.contains(expected), "{expected}: {figures}");
+        }
+        // Methods that visitors invent are not kept one by one.
+        ask(&url, "BREW", "/");
+        let figures = get(&free, "/metrics");
+        assert!(figures.contains("method=\"other\"") && !figures.contains("BREW"), "{figures}");
+        assert!(figures.ends_with("# EOF\n") && !get(&url, "/metrics").contains("ocb_stored"), "{figures}");
         kill(Pid::from_raw(i32::try_from(child.id()).expect("a pid")), signal).expect("it runs");
         let ended = child.wait_with_output().expect("it ends");
         assert_eq!(ended.status.code(), Some(0), "{}", String::from_utf8_lossy(&ended.stderr));
@@ -30,8 +47,12 @@ fn it_serves_until_it_is_told_to_stop() {
 }
 
 fn get(address: &str, path: &str) -> String {
+    ask(address, "GET", path)
+}
+
+fn ask(address: &str, method: &str, path: &str) -> String {
     let mut connection = TcpStream::connect(address).expect("it listens");
-    write!(connection, "GET {path} HTTP/1.0\r\nHost: {address}\r\n\r\n").expect("it reads");
+    write!(connection, "{method} {path} HTTP/1.0\r\nHost: {address}\r\n\r\n").expect("it reads");
     let mut answer = String::new();
     connection.read_to_string(&mut answer).expect("it answers");
     answer

@@ -11,7 +11,7 @@ const CUBE: &str = "v -0.5 -0.5 -0.5\nv 0.5 -0.5 -0.5\nv 0.5 0.5 -0.5\nv -0.5 0.
                     f 2 7 6\nf 4 1 5\nf 4 5 8\n";
 
 #[test]
-fn one_contestant_under_two_names_is_not_silently_one_row() {
+fn one_algorithm_under_two_names_is_not_silently_one_row() {
     let desk = Desk::new();
     for twice in ["box-tree:leaf_size=8,box-tree:leaf_size=8.0", "box-tree,box-tree:leaf_size=2"] {
         let Ended { code, stderr, .. } = desk.run(&["bench", "stock:torus-knot@600", "--algorithm", twice]);

@@ -13,7 +13,7 @@ const FAMILY: &str = "vertex-face";
 
 #[test]
 fn a_service_tries_an_algorithm_and_the_command_tells_what_it_found() {
-    let (desk, there) = (Desk::new(), Desk::new());
+    let (desk, there) = (Desk::new(), Desk::with(&["libocb_box_tree.so", "libocb_parry.so"]));
     there.account("ada");
     let service = Serving::start(&there);
     let (token, _) = service.log_in("ada");

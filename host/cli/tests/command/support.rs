@@ -10,7 +10,12 @@ use tempfile::TempDir;
 /// A data folder and what is run on it.
 pub struct Desk {
     folder: TempDir,
+    /// The plugins that are there; every one that is built when none is named.
+    plugins: &'static [&'static str],
 }
+
+/// The plugins that most tests ask. To describe all of them takes longer than most tests.
+const OURS: &[&str] = &["libocb_box_tree.so", "libocb_brute_force.so", "libocb_fast.so"];
 
 /// The password of every account.
 const PASSWORD: &str = "a long enough password";
@@ -25,12 +30,15 @@ pub struct Ended {
 
 impl Desk {
     pub fn new() -> Self {
-        let folder = Path::new(env!("CARGO_BIN_EXE_ocb")).parent().expect("a folder");
-        for file in ["ocb-runner", "libocb_box_tree.so", "libocb_brute_force.so"] {
-            let path = folder.join(file);
+        Self::with(OURS)
+    }
+
+    /// With these plugins, or with every one beside the program, as it is where none is named.
+    pub fn with(plugins: &'static [&'static str]) -> Self {
+        for path in ["ocb-runner"].iter().chain(plugins).map(|name| built(name)) {
             assert!(path.exists(), "{} is missing; run `cargo build --release` first", path.display());
         }
-        Self { folder: tempfile::tempdir().expect("a temporary folder") }
+        Self { folder: tempfile::tempdir().expect("a temporary folder"), plugins }
     }
 
     /// A path in the test's folder.
@@ -62,6 +70,10 @@ impl Desk {
             command.env_remove(variable);
         }
         command.env("HOME", self.path("home")).env_remove("XDG_DATA_HOME");
+        if !self.plugins.is_empty() {
+            let plugins: Vec<String> = self.plugins.iter().map(|name| built(name).display().to_string()).collect();
+            command.env("OCB_PLUGINS", plugins.join(":"));
+        }
         command.args(args).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         command.arg("--data").arg(self.path("data"));
         command
@@ -96,6 +108,11 @@ impl Desk {
         assert!(lines[0].starts_with("ocb: ") && lines[0].len() > 15, "{args:?}: {stderr}");
         lines[0].to_owned()
     }
+}
+
+/// A file beside the program.
+fn built(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_BIN_EXE_ocb")).with_file_name(name)
 }
 
 /// A service on a data folder of its own; ends when dropped.

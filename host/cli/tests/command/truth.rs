@@ -136,3 +136,25 @@ fn an_interrupt_stops_it_and_writes_nothing() {
     assert_eq!(child.wait().expect("it ends").code(), Some(130), "{last}");
     assert!(last.contains("Stopped after") && !out.exists(), "{last}");
 }
+
+#[test]
+fn truth_is_about_the_numbers_of_the_file_or_about_their_rounding() {
+    let desk = Desk::new();
+    // Two floors a hundredth apart, near 10^6: in single precision they are one.
+    let floor = |z: f64| format!("v 0 0 {z}\nv 4 0 {z}\nv 0 4 {z}\nf 1 2 3\n");
+    let (a, b) = (desk.file("a.obj", floor(1e6 + 0.01)), desk.file("b.obj", floor(1e6 + 0.02)));
+    let still = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+    let pose = desk.file("still.f64", still.into_iter().flat_map(f64::to_le_bytes).collect::<Vec<u8>>());
+    let ask = |rest: &[&str]| desk.json(&[&["truth", &a, &b, "--configurations", &pose], rest].concat())[0].clone();
+    let [exact, rounded] = [ask(&[]), ask(&["--rounded"])];
+    let apart = exact["distance_lo"].as_f64().expect("a number");
+    assert!((apart - 0.01).abs() < 1e-9 && exact["class64"] == "clear", "{exact:#}");
+    assert_eq!((&rounded["hit"], &rounded["distance_hi"]), (&true.into(), &0.0.into()), "{rounded:#}");
+    let flat = desk.file("flat.obj", "v 1e6 0 0\nv 1000000.01 0 0\nv 1e6 1 0\nf 1 2 3\n");
+    let refused = desk.run(&["truth", &flat, "--configurations", &pose, "--rounded"]);
+    assert_eq!(refused.code, 2, "{refused:?}");
+    assert!(
+        refused.stderr.contains("flat.obj cannot be rounded to single precision: every triangle has zero area"),
+        "{refused:?}"
+    );
+}
