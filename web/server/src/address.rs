@@ -2,31 +2,78 @@
 
 use std::convert::Infallible;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
+use std::str::FromStr;
 
 use axum::extract::{ConnectInfo, FromRequestParts};
+use axum::http::HeaderMap;
 use axum::http::request::Parts;
+use ipnet::IpNet;
 
-/// The visitor's network: an IPv4 address, or the /64 of an IPv6 address. `X-Forwarded-For` is trusted from this machine only.
+use crate::App;
+
+/// A network of proxies, or a single one: `10.1.0.0/16`, `2001:db8::1`.
+#[derive(Clone, Copy, Debug)]
+pub struct ProxyNetwork(IpNet);
+
+impl FromStr for ProxyNetwork {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let one = |_| text.parse::<IpAddr>().map(IpNet::from);
+        let network = text.parse().or_else(one);
+        network.map(Self).map_err(|_| "not an IP address or a network such as 10.1.0.0/16".to_owned())
+    }
+}
+
+/// The machines whose `X-Forwarded-For` is trusted, in addition to this one.
+#[derive(Clone, Debug, Default)]
+pub struct Proxies(Vec<ProxyNetwork>);
+
+impl Proxies {
+    /// Those in these networks.
+    pub fn new(networks: impl IntoIterator<Item = ProxyNetwork>) -> Self {
+        Self(networks.into_iter().collect())
+    }
+
+    fn trust(&self, address: IpAddr) -> bool {
+        let address = address.to_canonical();
+        address.is_loopback() || self.0.iter().any(|ProxyNetwork(network)| network.contains(&address))
+    }
+
+    /// The visitor's address: each proxy appends the one that it was called from, so it is the last that is no proxy's.
+    fn visitor(&self, peer: IpAddr, headers: &HeaderMap) -> Option<IpAddr> {
+        let lists = headers.get_all("x-forwarded-for").iter();
+        let lists: Vec<&str> = lists.map(|list| list.to_str().unwrap_or("unreadable")).collect();
+        let mut visitor = peer;
+        for entry in lists.iter().flat_map(|list| list.split(',')).rev() {
+            if !self.trust(visitor) {
+                break;
+            }
+            visitor = address_of(entry.trim())?;
+        }
+        Some(visitor)
+    }
+}
+
+/// The visitor's network: an IPv4 address, or the /64 of an IPv6 address.
 pub(crate) struct Address(pub String);
 
-impl<S: Send + Sync> FromRequestParts<S> for Address {
+impl FromRequestParts<App> for Address {
     type Rejection = Infallible;
 
-    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Infallible> {
+    async fn from_request_parts(parts: &mut Parts, app: &App) -> Result<Self, Infallible> {
         let peer = parts.extensions.get::<ConnectInfo<SocketAddr>>().map_or(Ipv4Addr::LOCALHOST.into(), |c| c.0.ip());
-        let forwarded = parts.headers.get_all("x-forwarded-for").iter().next_back().filter(|_| peer.is_loopback());
-        Ok(Self(forwarded.map_or_else(|| network(peer), |list| last_of(list.to_str().unwrap_or_default()))))
+        let visitor = app.network.proxies.visitor(peer, &parts.headers);
+        Ok(Self(visitor.map_or_else(|| UNREADABLE.to_owned(), network)))
     }
 }
 
 /// Shared by all visitors whose address the proxy reports in an unknown form.
 const UNREADABLE: &str = "unreadable";
 
-/// The network of the last address in the list, which the proxy on this machine has added.
-fn last_of(list: &str) -> String {
-    let text = list.rsplit(',').next().unwrap_or_default().trim();
-    let with_port = |_| text.parse::<SocketAddr>().map(|address| address.ip());
-    text.parse().or_else(with_port).map_or_else(|_| UNREADABLE.to_owned(), network)
+/// An address as proxies write it, with or without a port.
+fn address_of(text: &str) -> Option<IpAddr> {
+    text.parse().or_else(|_| text.parse::<SocketAddr>().map(|address| address.ip())).ok()
 }
 
 fn network(address: IpAddr) -> String {
@@ -41,31 +88,44 @@ fn network(address: IpAddr) -> String {
 
 #[cfg(test)]
 mod tests {
-    use axum::http::Request;
+    use axum::http::HeaderValue;
 
     use super::*;
 
-    async fn of(peer: &str, forwarded: Option<&str>) -> String {
-        let mut request = Request::builder();
-        if let Some(forwarded) = forwarded {
-            request = request.header("x-forwarded-for", forwarded);
+    fn of(proxies: &Proxies, peer: &str, forwarded: &[&'static str]) -> Option<String> {
+        let mut headers = HeaderMap::new();
+        for list in forwarded {
+            headers.append("x-forwarded-for", HeaderValue::from_static(list));
         }
-        let (mut parts, ()) = request.body(()).unwrap().into_parts();
-        parts.extensions.insert(ConnectInfo(SocketAddr::new(peer.parse().unwrap(), 1)));
-        let Ok(Address(address)) = Address::from_request_parts(&mut parts, &()).await;
-        address
+        proxies.visitor(peer.parse().unwrap(), &headers).map(network)
     }
 
-    #[tokio::test]
-    async fn the_address_is_the_visitors_and_an_ipv6_subnet_is_one() {
-        assert_eq!(of("127.0.0.1", None).await, "127.0.0.1");
-        assert_eq!(of("127.0.0.1", Some("198.51.100.1, 203.0.113.7")).await, "203.0.113.7");
-        assert_eq!(of("203.0.113.9", Some("198.51.100.1")).await, "203.0.113.9", "it is no proxy of ours");
-        assert_eq!(of("::1", Some("2001:db8:1:2:3:4:5:6")).await, "2001:db8:1:2::/64");
-        assert_eq!(of("2001:db8:1:2:ffff::1", None).await, "2001:db8:1:2::/64");
-        assert_eq!(of("::ffff:203.0.113.7", None).await, "203.0.113.7");
-        assert_eq!(of("127.0.0.1", Some("203.0.113.7:4711")).await, "203.0.113.7");
-        assert_eq!(of("127.0.0.1", Some("[2001:db8::1]:4711")).await, "2001:db8::/64");
-        assert_eq!(of("127.0.0.1", Some("nonsense")).await, "unreadable");
+    #[test]
+    fn the_address_is_the_visitors_and_an_ipv6_subnet_is_one() {
+        let of = |peer, forwarded| of(&Proxies::default(), peer, forwarded).unwrap_or_default();
+        assert_eq!(of("127.0.0.1", &[]), "127.0.0.1");
+        assert_eq!(of("127.0.0.1", &["198.51.100.1, 203.0.113.7"]), "203.0.113.7");
+        assert_eq!(of("203.0.113.9", &["198.51.100.1"]), "203.0.113.9", "it is no proxy of ours");
+        assert_eq!(of("::1", &["2001:db8:1:2:3:4:5:6"]), "2001:db8:1:2::/64");
+        assert_eq!(of("2001:db8:1:2:ffff::1", &[]), "2001:db8:1:2::/64");
+        assert_eq!(of("::ffff:203.0.113.7", &[]), "203.0.113.7");
+        assert_eq!(of("127.0.0.1", &["203.0.113.7:4711"]), "203.0.113.7");
+        assert_eq!(of("127.0.0.1", &["[2001:db8::1]:4711"]), "2001:db8::/64");
+        assert_eq!(of("127.0.0.1", &["203.0.113.7, nonsense"]), "", "unreadable");
+    }
+
+    #[test]
+    fn proxies_on_other_machines_are_trusted_when_they_are_named() {
+        let proxies =
+            Proxies::new(["10.1.0.0/16", "2001:db8:ff::/48", "192.0.2.1"].map(|network| network.parse().unwrap()));
+        let of = |peer, forwarded| of(&proxies, peer, forwarded).unwrap_or_default();
+        assert_eq!(of("10.1.2.3", &["203.0.113.7"]), "203.0.113.7");
+        assert_eq!(of("::ffff:10.1.2.3", &["203.0.113.7"]), "203.0.113.7");
+        assert_eq!(of("2001:db8:ff::2", &["203.0.113.7"]), "203.0.113.7");
+        assert_eq!(of("192.0.2.1", &["203.0.113.7"]), "203.0.113.7");
+        assert_eq!(of("10.2.0.1", &["203.0.113.7"]), "10.2.0.1");
+        // Two proxies in a row, in one header or two. What a visitor wrote in front of them does not count.
+        assert_eq!(of("127.0.0.1", &["198.51.100.1, 203.0.113.7, 10.1.9.9"]), "203.0.113.7");
+        assert_eq!(of("10.1.2.3", &["198.51.100.1", "203.0.113.7", "10.1.9.9"]), "203.0.113.7");
     }
 }

@@ -12,7 +12,7 @@ use tower_http::compression::CompressionLayer;
 use tower_http::compression::predicate::{DefaultPredicate, NotForContentType, Predicate};
 use tower_http::trace::TraceLayer;
 
-use crate::{App, Problem, guest, origin, pace, privacy};
+use crate::{App, Problem, guest, metrics, origin, pace, privacy};
 
 /// Scripts only from here and never inline. Style attributes are what Vue and the chart kit write; `blob:` is how the
 /// viewer loads workers, textures and pictures that the page itself has made.
@@ -44,6 +44,7 @@ pub(crate) fn wrap(router: Router<App>, app: &App) -> Router<App> {
         .layer(middleware::from_fn_with_state(app.clone(), origin::refuse_other_names))
         .layer(middleware::from_fn(pace::refuse_slow_bodies))
         .layer(CatchPanicLayer::custom(after_panic))
+        .layer(middleware::from_fn_with_state(app.clone(), metrics::count))
         .layer(middleware::from_fn(protect))
         .layer(CompressionLayer::new().compress_when(worth_it))
         .layer(TraceLayer::new_for_http())

@@ -13,6 +13,7 @@ mod guest;
 mod layers;
 mod limits;
 mod list;
+mod metrics;
 mod origin;
 mod pace;
 mod pages;
@@ -31,6 +32,7 @@ use ocb_service::Engine;
 use tokio::net::TcpListener;
 use tokio::sync::watch;
 
+pub use address::{Proxies, ProxyNetwork};
 pub use origin::Names;
 pub use problem::Problem;
 pub use routes::{document, router};
@@ -38,25 +40,35 @@ pub use routes::{document, router};
 /// How long open requests may take to end after the service was asked to stop.
 const GRACE: Duration = Duration::from_secs(10);
 
+/// How requests reach this service.
+#[derive(Clone, Debug, Default)]
+pub struct Network {
+    /// Its host names.
+    pub names: Names,
+    /// The proxies that it may be behind.
+    pub proxies: Proxies,
+}
+
 /// What every handler may use.
 #[derive(Clone)]
 pub struct App {
     engine: Engine,
-    uploads: std::sync::Arc<upload::Turns>,
+    uploads: std::sync::Arc<upload::UploadSlots>,
     /// Held while a plugin is taken: what room its account has is looked at first, and must be there still when it is added.
     submitting: std::sync::Arc<tokio::sync::Mutex<()>>,
     archives: std::sync::Arc<download::Archives>,
     /// Held while the viewer's copy of a mesh is built.
     drawing: std::sync::Arc<tokio::sync::Semaphore>,
     limits: std::sync::Arc<limits::Limits>,
-    names: origin::Names,
+    meters: std::sync::Arc<metrics::Meters>,
+    network: Network,
     /// True from the moment the service is asked to stop: progress streams end, so that their connections can.
     stopping: watch::Receiver<bool>,
 }
 
 impl App {
-    /// The engine behind HTTP, reached under these names; `stopping` ends the progress streams.
-    pub fn new(engine: Engine, names: Names, stopping: watch::Receiver<bool>) -> Self {
+    /// The engine behind HTTP; `stopping` ends the progress streams.
+    pub fn new(engine: Engine, network: Network, stopping: watch::Receiver<bool>) -> Self {
         Self {
             engine,
             uploads: std::sync::Arc::default(),
@@ -64,7 +76,8 @@ impl App {
             archives: std::sync::Arc::default(),
             drawing: std::sync::Arc::new(tokio::sync::Semaphore::new(2)),
             limits: std::sync::Arc::default(),
-            names,
+            meters: std::sync::Arc::default(),
+            network,
             stopping,
         }
     }
@@ -78,16 +91,20 @@ pub async fn bind(address: SocketAddr) -> io::Result<TcpListener> {
     TcpListener::bind(address).await
 }
 
-/// Serves under these names until `shutdown` is ready, then ends open requests; the engine stays open.
+/// Serves until `shutdown` is ready, then ends open requests; the engine stays open. `metrics` are for the operator alone.
 pub async fn serve(
     engine: Engine,
-    names: Names,
+    network: Network,
     listener: TcpListener,
+    metrics: Option<TcpListener>,
     shutdown: impl Future<Output = ()> + Send + 'static,
 ) {
     let (stop, stopping) = watch::channel(false);
-    let app = router(App::new(engine, names, stopping.clone()));
-    let serving = connections::serve(listener, app, stopping);
+    let app = App::new(engine, network, stopping.clone());
+    if let Some(listener) = metrics {
+        tokio::spawn(connections::serve(listener, metrics::router(app.clone()), stopping.clone()));
+    }
+    let serving = connections::serve(listener, router(app), stopping);
     let ended = async {
         shutdown.await;
         let _ = stop.send(true);

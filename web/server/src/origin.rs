@@ -38,7 +38,7 @@ impl Names {
 /// Refuses requests for other host names.
 pub(crate) async fn refuse_other_names(State(app): State<App>, request: Request, next: Next) -> Response {
     let host = request.headers().get(header::HOST).map(|host| host.to_str().unwrap_or_default());
-    if let Some(host) = host.filter(|host| !app.names.know(host)) {
+    if let Some(host) = host.filter(|host| !app.network.names.know(host)) {
         let shown: String = host.chars().filter(|c| !c.is_control()).take(100).collect();
         let detail = format!("Unknown host name {shown:?}; the operator can add it with `ocb serve --host-name`.");
         return Problem::new(StatusCode::MISDIRECTED_REQUEST, detail).into_response();

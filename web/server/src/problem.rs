@@ -86,6 +86,7 @@ impl From<EngineError> for Problem {
             EngineError::Forbidden(detail) => Self::new(StatusCode::FORBIDDEN, detail),
             EngineError::Busy(detail) => Self::new(StatusCode::CONFLICT, detail),
             EngineError::TooMuch { message, retry_seconds } => Self::too_much(message, retry_seconds),
+            EngineError::Ended(detail) => Self::new(StatusCode::INTERNAL_SERVER_ERROR, detail),
             EngineError::Fault(cause) => Self::fault(cause),
         }
     }

@@ -69,7 +69,7 @@ const PREFIX: &str = "/api/v1";
 
 fn api() -> OpenApiRouter<App> {
     let uploads = routes!(objects::list_objects, objects::add_object);
-    let submissions = routes!(plugins::list_plugins, plugins::submit_plugin);
+    let plugins = routes!(plugins::list_plugins, plugins::submit_plugin);
     let routes = OpenApiRouter::new()
         .routes(
             uploads
@@ -118,6 +118,7 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(charts::chart_as_csv))
         .routes(routes!(charts::chart_as_parquet))
         .routes(routes!(selecting::show_selection))
+        .routes(routes!(selecting::selection_arrow))
         .routes(routes!(selecting::list_worst))
         .routes(routes!(selecting::show_meeting))
         .routes(routes!(selecting::columns_arrow))
@@ -142,7 +143,7 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(notices::read_notice))
         .routes(routes!(notices::remove_notice))
         .routes(
-            submissions
+            plugins
                 .layer(DefaultBodyLimit::max(upload::MAX_BODY_BYTES as usize))
                 .layer(middleware::from_fn(upload::refuse_gently)),
         )

@@ -48,7 +48,7 @@ const DRAIN_BYTES: u64 = 4 << 30;
 const DRAIN_TIME: Duration = Duration::from_secs(60);
 
 /// Bounds memory and disk space of concurrent uploads.
-pub(crate) struct Turns {
+pub(crate) struct UploadSlots {
     small: Semaphore,
     large: Semaphore,
     /// Addresses of the uploads in progress.
@@ -56,7 +56,7 @@ pub(crate) struct Turns {
 }
 
 /// An upload in progress.
-pub(crate) struct Coming<'a>(&'a Turns, String);
+pub(crate) struct Coming<'a>(&'a UploadSlots, String);
 
 impl Drop for Coming<'_> {
     fn drop(&mut self) {
@@ -67,14 +67,14 @@ impl Drop for Coming<'_> {
     }
 }
 
-impl Default for Turns {
+impl Default for UploadSlots {
     fn default() -> Self {
         let coming = std::sync::Mutex::default();
         Self { small: Semaphore::new(SMALL_AT_A_TIME), large: Semaphore::new(LARGE_AT_A_TIME), coming }
     }
 }
 
-impl Turns {
+impl UploadSlots {
     /// Admits an upload; hold the result until the body has been received.
     ///
     /// # Errors
@@ -185,7 +185,7 @@ impl Upload {
 }
 
 /// A submitted plugin.
-pub(crate) struct Submission {
+pub(crate) struct PluginUpload {
     /// Name of the file, without folder and control characters.
     pub name: String,
     /// Its content.
@@ -196,7 +196,7 @@ pub(crate) struct Submission {
     pub signature: Option<String>,
 }
 
-impl Submission {
+impl PluginUpload {
     /// From a form with the manifest first, then a signature if there is one, and the file last.
     pub(crate) async fn read(request: Request, app: &App, from: &str) -> Result<Self> {
         let explained = "Send multipart/form-data with \"manifest\" (JSON), then \"file\" (the shared library).";

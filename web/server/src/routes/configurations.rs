@@ -65,7 +65,7 @@ pub(crate) async fn add_configurations(
         let _coming = app.uploads.begin(&address)?;
         Upload::read(request, MAX_CONFIGURATION_BYTES, &app, &address).await?
     };
-    let _turn = app.uploads.take(&file).await?;
+    let _slot = app.uploads.take(&file).await?;
     let saved = app.engine.save_configurations(&name, file.read().await?, &guest).await?;
     Ok((StatusCode::CREATED, Json(saved)))
 }

@@ -67,7 +67,7 @@ pub(crate) async fn add_object(
         let _coming = app.uploads.begin(&address)?;
         Upload::read(request, MAX_BYTES, &app, &address).await?
     };
-    let _turn = app.uploads.take(&file).await?;
+    let _slot = app.uploads.take(&file).await?;
     let bytes = file.read().await?;
     app.engine.id_of_request(&guest, Made::Object, key.as_deref(), &(&name, sha256_hex(&bytes))).await?;
     let object = app.engine.add_object(&name, bytes, Some(&guest)).await?;
@@ -107,7 +107,7 @@ pub(crate) async fn change_object_visibility(
 }
 
 /// The mesh as glTF binary: positions in f32, triangles in file order, so that triangle and vertex numbers are those of
-/// the records and heatmaps.
+/// the records and heatmaps. Positions of a small object far from the origin count from the node's translation.
 #[utoipa::path(get, path = "/objects/{id}/mesh.glb", tag = "objects",
     params(("id" = String, Path, description = "Object id")),
     responses(
@@ -126,7 +126,7 @@ pub(crate) async fn object_mesh(
     if headers.get(header::IF_NONE_MATCH).is_some_and(|sent| sent.as_bytes() == tag.as_bytes()) {
         return Ok((StatusCode::NOT_MODIFIED, cache).into_response());
     }
-    let _turn = app.drawing.acquire().await;
+    let _slot = app.drawing.acquire().await;
     let mesh = app.engine.mesh(&id).await?;
     let bytes = tokio::task::spawn_blocking(move || glb::geometry(&mesh)).await.map_err(Problem::fault)?;
     Ok((cache, [(header::CONTENT_TYPE, "model/gltf-binary")], bytes).into_response())

@@ -24,7 +24,7 @@ use crate::limits::SUBMIT;
 use crate::list;
 use crate::problem::Result;
 use crate::request_key::{IdempotencyKey, RequestKey};
-use crate::upload::Submission;
+use crate::upload::PluginUpload;
 
 /// How often a report under way is looked at.
 const LOOK: Duration = Duration::from_millis(300);
@@ -46,10 +46,10 @@ pub(crate) async fn list_plugins(State(app): State<App>, viewer: Viewer, Query(p
     Ok(list::answer("/api/v1/plugins", &page, app.engine.plugins(account(&viewer), &page).await?))
 }
 
-/// The form of a submission.
+/// The form of a submitted plugin.
 #[derive(ToSchema)]
 #[expect(dead_code, reason = "only described; the form is read as a stream")]
-struct SubmissionForm {
+struct PluginForm {
     /// A `Manifest` as JSON; it comes before the file.
     manifest: String,
     /// The content of a `.minisig` file, by the key that the account has registered; it comes before the file, too.
@@ -61,7 +61,7 @@ struct SubmissionForm {
 
 /// Sends a plugin, which is then checked. The same bytes twice are one.
 #[utoipa::path(post, path = "/plugins", tag = "plugins",
-    request_body(content = inline(SubmissionForm), content_type = "multipart/form-data"), params(IdempotencyKey),
+    request_body(content = inline(PluginForm), content_type = "multipart/form-data"), params(IdempotencyKey),
     responses(
         (status = 201, description = "Stored; its check is queued", body = PluginInfo),
         (status = 200, description = "Already submitted", body = PluginInfo),
@@ -83,9 +83,9 @@ pub(crate) async fn submit_plugin(
     app.limits.count(SUBMIT, &account.name)?;
     // Before anything is read: who may not submit need not send 64 MiB to hear it.
     app.engine.may_submit(&account)?;
-    let Submission { name, file, manifest, signature } = {
+    let PluginUpload { name, file, manifest, signature } = {
         let _coming = app.uploads.begin(&address)?;
-        Submission::read(request, &app, &address).await?
+        PluginUpload::read(request, &app, &address).await?
     };
     let _turn = app.uploads.take(&file).await?;
     let bytes = file.read().await?;

@@ -41,6 +41,23 @@ pub(crate) async fn show_selection(
     Ok(Json(app.engine.selected(&id, &of.algorithm, &of.selection).await?))
 }
 
+/// Which configurations a selection holds, one value per configuration of the set, as an Arrow IPC stream.
+#[utoipa::path(get, path = "/runs/{id}/selection.arrow", tag = "results",
+    params(("id" = String, Path, description = "Run id"), Where),
+    responses(
+        (status = 200, description = "chosen: true or false", body = [u8], content_type = "application/vnd.apache.arrow.stream"),
+        (status = 404, description = "No such run, or no records of an algorithm"),
+        (status = 422, description = "The selection is not valid or cannot be applied"),
+    ))]
+pub(crate) async fn selection_arrow(
+    State(app): State<App>,
+    Path(id): Path<String>,
+    Query(of): Query<Where>,
+) -> Result<Response> {
+    let bytes = app.engine.selection_arrow(&id, &of.algorithm, &of.selection).await?;
+    Ok(download(ARROW, &format!("{id}-selection.arrow"), bytes))
+}
+
 /// The worst configurations of an algorithm: wrong answers first, missed collisions before all.
 #[utoipa::path(get, path = "/runs/{id}/worst", tag = "results",
     params(("id" = String, Path, description = "Run id"), WorstRequest),
@@ -57,11 +74,21 @@ pub(crate) async fn list_worst(
     Ok(Json(app.engine.worst(&id, &request).await?))
 }
 
+/// In which numbers the objects are meant.
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(crate) struct Numbers {
+    /// With their coordinates rounded to single precision, as algorithms that compute in it get them.
+    #[serde(default)]
+    rounded: bool,
+}
+
 /// All pairs of triangles that meet in one configuration, by the oracle.
 #[utoipa::path(get, path = "/runs/{id}/configurations/{configuration}/contacts", tag = "results",
     params(
         ("id" = String, Path, description = "Run id"),
         ("configuration" = u32, Path, description = "Index in the set, from 0"),
+        Numbers,
     ),
     responses(
         (status = 200, body = Meeting),
@@ -70,16 +97,17 @@ pub(crate) async fn list_worst(
 pub(crate) async fn show_meeting(
     State(app): State<App>,
     Path((id, configuration)): Path<(String, u32)>,
+    Query(of): Query<Numbers>,
 ) -> Result<Json<Meeting>> {
-    Ok(Json(app.engine.meeting(&id, configuration).await?))
+    Ok(Json(app.engine.meeting(&id, configuration, of.rounded).await?))
 }
 
-/// Every column that selections know of one algorithm, one value per configuration of the set (NaN where there is none),
-/// as an Arrow IPC stream. Columns that cannot be had are left out.
+/// The columns of one algorithm that selections test by a range, one value per configuration of the set (NaN where there is
+/// none), as an Arrow IPC stream. Columns that cannot be had are left out.
 #[utoipa::path(get, path = "/runs/{id}/columns.arrow", tag = "results",
     params(("id" = String, Path, description = "Run id"), OfAlgorithm),
     responses(
-        (status = 200, description = "The columns by their names in selections", body = [u8], content_type = "application/vnd.apache.arrow.stream"),
+        (status = 200, description = "The columns by their names in selections, each with the `axis` and `unit` that a chart shows", body = [u8], content_type = "application/vnd.apache.arrow.stream"),
         (status = 404, description = "No such run, or no records of this algorithm"),
     ))]
 pub(crate) async fn columns_arrow(

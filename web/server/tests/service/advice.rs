@@ -31,7 +31,7 @@ async fn ended(guest: &Guest, place: &str) -> Value {
 async fn advice_is_certified_and_its_objects_are_taken_away() {
     let service = Service::start_with(&["libocb_box_tree.so"]).await;
     let guest = service.guest();
-    let place = ask(&guest, &question("stock:torus-knot@4000", 0.02)).await;
+    let place = ask(&guest, &question("stock:torus-knot@1500", 0.02)).await;
     let info = ended(&guest, &place).await;
     assert_eq!(info["state"], "done", "{}", info["message"]);
     let advice = &info["advice"];
@@ -78,7 +78,7 @@ async fn only_who_asked_cancels_and_what_cannot_be_asked_says_so() {
 async fn a_restart_takes_the_work_up_again() {
     let service = Service::start_with(&["libocb_box_tree.so"]).await;
     let guest = service.guest();
-    let place = ask(&guest, &question("stock:torus-knot@6000", 0.01)).await;
+    let place = ask(&guest, &question("stock:torus-knot@1500", 0.02)).await;
     let service = service.restart().await;
     let info = ended(&service.guest(), &place).await;
     assert_eq!(info["state"], "done", "{}", info["message"]);

@@ -7,7 +7,7 @@ use crate::support::{Service, header};
 
 #[tokio::test]
 async fn every_answer_protects_the_visitor() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     for path in ["/", "/r/some-run", "/api/v1/status", "/api/v1/nothing", "/mark.svg"] {
         let response = guest.get(path).send().await.expect("an answer");
@@ -22,7 +22,7 @@ async fn every_answer_protects_the_visitor() {
 
 #[tokio::test]
 async fn the_guest_cookie_is_set_once() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     let first = guest.get("/api/v1/status").send().await.expect("an answer");
     let cookie = header(&first, "set-cookie");
@@ -41,7 +41,7 @@ async fn the_guest_cookie_is_set_once() {
 
 #[tokio::test]
 async fn pages_answer_every_address_that_is_no_api() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     let response = guest.get("/r/0193f1a0?m=time").send().await.expect("an answer");
     let (status, media_type) = (response.status(), header(&response, "content-type"));
@@ -69,7 +69,7 @@ async fn pages_answer_every_address_that_is_no_api() {
 
 #[tokio::test]
 async fn the_document_is_served_compressed() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     let served = guest.json("/api/v1/openapi.json").await;
     let stored: Value = serde_json::from_str(include_str!("../../openapi.json")).expect("JSON");
@@ -81,7 +81,7 @@ async fn the_document_is_served_compressed() {
 
 #[tokio::test]
 async fn status_and_algorithms_answer() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     let status = guest.json("/api/v1/status").await;
     assert_eq!(status["version"], env!("CARGO_PKG_VERSION"));
@@ -96,7 +96,7 @@ async fn status_and_algorithms_answer() {
 
 #[tokio::test]
 async fn the_examples_of_the_document_are_accepted() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_fast.so"]).await;
     let guest = service.guest();
     let document = guest.json("/api/v1/openapi.json").await;
     let example = |path: &str| {

@@ -202,6 +202,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "get /runs/{id}/triangles.parquet",
             "get /runs/{id}/records.parquet",
             "get /runs/{id}/selection",
+            "get /runs/{id}/selection.arrow",
             "get /runs/{id}/vertices/{vertex}",
             "put /runs/{id}/visibility",
             "get /runs/{id}/witnesses.arrow",

@@ -87,7 +87,7 @@ impl Made {
 
 /// An object that advice reduces; everybody's is the same.
 pub async fn uploaded(by: &Guest) -> String {
-    let mesh = stock::generate("torus-knot", 2000).expect("a mesh");
+    let mesh = stock::generate("torus-knot", 800).expect("a mesh");
     let object: Value = by.upload("mine.obj", obj::write(&mesh)).await.json().await.expect("JSON");
     object["id"].as_str().expect("an id").to_owned()
 }
@@ -322,10 +322,18 @@ async fn a_stream_ends_when_its_run_becomes_private() {
     assert_eq!(stream.status(), StatusCode::OK);
     let hide = owner.request(Method::PUT, &format!("{path}/visibility")).json(&json!({ "visibility": "private" }));
     assert_eq!(hide.send().await.expect("an answer").status(), StatusCode::OK);
+    // Preliminary results are for the owner alone.
+    let values = format!("{path}/heatmap?algorithm=box-tree&measure=time&statistic=median&outliers=keep");
+    while owner.get(&values).send().await.expect("an answer").status() != StatusCode::OK {
+        tokio::time::sleep(Duration::from_millis(50)).await;
+    }
+    assert_eq!(owner.json(&values).await["preliminary"], true);
+    let made = Made { owner: owner.clone(), object: String::new(), ids: vec![("runs", run.clone())] };
+    assert!(hidden(&made, &stranger, &["runs"]).await > 0);
     let cancelled = owner.post(&format!("{path}/cancel")).send().await.expect("an answer");
     assert_eq!(cancelled.status(), StatusCode::OK);
     let text = stream.text().await.expect("the stream ends");
-    assert!(!text.contains("cancelled"), "{text}");
+    assert!(!text.contains("cancelled") && !text.contains(r#""preliminary":true"#), "{text}");
     problem(stranger.get(&format!("{path}/events")).send().await.expect("an answer"), 404).await;
     assert!(follow(&owner, &run, 0).await.last().is_some_and(|event| event.data["state"] == "cancelled"));
     service.stop().await;

@@ -5,7 +5,7 @@ use std::io::{Cursor, Read};
 use serde_json::{Value, json};
 
 use crate::stream::follow;
-use crate::support::{Service, problem, small_spec};
+use crate::support::{Service, problem, small_comparison};
 
 #[tokio::test]
 async fn a_run_is_taken_along_with_all_that_its_answers_follow_from() {
@@ -13,7 +13,7 @@ async fn a_run_is_taken_along_with_all_that_its_answers_follow_from() {
     let guest = service.guest();
     let object = "v 0 0 0\nv 1 0.25 0\nv 0 1 0.125\nv 0.3 0.2 1.1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
     let object: Value = guest.upload("own.obj", object).await.json().await.expect("JSON");
-    let mut spec = small_spec();
+    let mut spec = small_comparison();
     spec["object_b"] = object["id"].clone();
     let run = guest.start(&spec).await;
     let path = format!("/api/v1/runs/{run}/repro.zip");

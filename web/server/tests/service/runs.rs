@@ -4,18 +4,18 @@ use reqwest::StatusCode;
 use serde_json::Value;
 
 use crate::stream::follow;
-use crate::support::{Guest, Service, header, problem, small_spec};
+use crate::support::{Guest, Service, header, problem, small_comparison, small_spec};
 
 #[tokio::test]
 async fn a_run_ends_with_every_result() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let (guest, other) = (service.guest(), service.guest());
 
-    let estimate = guest.post("/api/v1/estimates").json(&small_spec()).send().await.expect("an answer");
+    let estimate = guest.post("/api/v1/estimates").json(&small_comparison()).send().await.expect("an answer");
     let estimate: Value = estimate.json().await.expect("JSON");
     assert_eq!(estimate["configurations"], 60);
 
-    let id = guest.start(&small_spec()).await;
+    let id = guest.start(&small_comparison()).await;
     follow(&guest, &id, 0).await;
     let path = format!("/api/v1/runs/{id}");
     let run = guest.json(&path).await;
@@ -36,7 +36,7 @@ async fn a_run_ends_with_every_result() {
 
 #[tokio::test]
 async fn a_request_that_is_sent_again_makes_no_second_run() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let (guest, other) = (service.guest(), service.guest());
     let ask = |by: &Guest, key: &str, passes: u32| {
         let mut spec = small_spec();
@@ -99,8 +99,10 @@ async fn check_numbers(guest: &Guest, path: &str, configurations: u64) {
     assert!(worst[0]["time_ns"].as_f64() >= worst[1]["time_ns"].as_f64() && worst[0]["pose_b"].as_array().is_some());
     let meeting = guest.json(&format!("{path}/configurations/{}/contacts", worst[0]["configuration"])).await;
     assert_eq!(meeting["total"].as_u64().expect("a count") as usize, meeting["pairs"].as_array().expect("pairs").len());
-    let bad = guest.get(&format!("{path}/selection?algorithm=box-tree&where=tame")).send().await.expect("an answer");
-    assert!(problem(bad, 422).await.contains("at character 1"));
+    for route in ["selection", "selection.arrow"] {
+        let bad = guest.get(&format!("{path}/{route}?algorithm=box-tree&where=tame")).send().await.expect("an answer");
+        assert!(problem(bad, 422).await.contains("at character 1"));
+    }
 
     let (csv, media_type) = guest.bytes(&format!("{path}/records.csv?algorithm=box-tree")).await;
     assert_eq!(media_type, "text/csv; charset=utf-8");
@@ -125,6 +127,7 @@ async fn check_files(guest: &Guest, path: &str) {
         ("records.parquet?algorithm=brute-force&where=!wrong".to_owned(), b"PAR1"),
         // A stream of Arrow begins with its sign for "a message follows".
         ("columns.arrow?algorithm=brute-force".to_owned(), &[255; 4]),
+        ("selection.arrow?algorithm=brute-force&where=!wrong".to_owned(), &[255; 4]),
         ("witnesses.arrow".to_owned(), &[255; 4]),
     ] {
         let response = guest.get(&format!("{path}/{file}")).send().await.expect("an answer");
@@ -147,7 +150,7 @@ async fn check_others(guest: &Guest, other: &Guest, id: &str) {
 
 #[tokio::test]
 async fn its_owner_cancels_a_run() {
-    let service = Service::start().await;
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
     let mut spec = small_spec();
     spec["object_a"] = "stock:torus-knot@20000".into();

@@ -35,11 +35,6 @@ pub struct How {
 }
 
 impl Service {
-    /// With every plugin of ours.
-    pub async fn start() -> Self {
-        Self::open(How { plugins: vec![built()], ..How::default() }).await
-    }
-
     /// With these plugins of ours alone. What is sent to it is run with whatever jail this machine has.
     pub async fn start_with(plugins: &[&str]) -> Self {
         Self::open(How { plugins: ours(plugins), ..How::default() }).await
@@ -73,6 +68,7 @@ impl Service {
     async fn open_in(data: TempDir, how: How) -> Self {
         let mut config = EngineConfig::beside_executable(data.path());
         config.runner = built().join("ocb-runner");
+        config.advisor = built().join("ocb-advisor");
         config.plugins.clone_from(&how.plugins);
         config.suite.clone_from(&how.suite);
         config.machine_note.clone_from(&how.machine_note);
@@ -81,13 +77,15 @@ impl Service {
         config.ceilings = how.ceilings.unwrap_or_default();
         config.dispatch = !how.idle;
         config.quick_checks = !how.whole_checks;
+        config.quick_advice = true;
         let engine = Engine::open(config).await.expect("the engine opens");
         let listener = ocb_server::bind(([127, 0, 0, 1], 0).into()).await.expect("a free port");
         let url = format!("http://{}", listener.local_addr().expect("an address"));
         let (stop, stopped) = oneshot::channel();
-        let served = tokio::spawn(ocb_server::serve(engine.clone(), ocb_server::Names::default(), listener, async {
-            let _ = stopped.await;
-        }));
+        let served =
+            tokio::spawn(ocb_server::serve(engine.clone(), ocb_server::Network::default(), listener, None, async {
+                let _ = stopped.await;
+            }));
         Self { url, engine, stop, served, how, data }
     }
 
@@ -156,7 +154,7 @@ fn ours(plugins: &[&str]) -> Vec<PathBuf> {
 pub fn built() -> PathBuf {
     let program = std::env::current_exe().expect("a path");
     let folder = program.parent().and_then(|deps| deps.parent()).expect("target/<profile>/deps").to_path_buf();
-    for file in ["ocb-runner", "libocb_box_tree.so", "libocb_brute_force.so"] {
+    for file in ["ocb-runner", "ocb-advisor", "libocb_box_tree.so", "libocb_brute_force.so"] {
         let path = folder.join(file);
         assert!(path.exists(), "{} is missing; run `cargo build --release` first", path.display());
     }
@@ -222,16 +220,23 @@ impl Guest {
     }
 }
 
-/// A small run of two algorithms.
+/// A small run of one algorithm: each more is six processes.
 pub fn small_spec() -> Value {
     json!({
         "object_a": "stock:torus-knot@600",
         "query": "collision_first",
         "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 60 } },
-        "algorithms": ["box-tree", "brute-force"],
+        "algorithms": ["box-tree"],
         "passes": 1,
         "budget_seconds": 10.0,
     })
+}
+
+/// The same of two, which are compared.
+pub fn small_comparison() -> Value {
+    let mut spec = small_spec();
+    spec["algorithms"] = json!(["box-tree", "brute-force"]);
+    spec
 }
 
 pub fn header(response: &Response, name: &str) -> String {

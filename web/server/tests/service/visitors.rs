@@ -8,11 +8,11 @@ use reqwest::{RequestBuilder, Response, StatusCode};
 use serde_json::{Value, json};
 
 use crate::people::{PASSWORD, log_in, member};
-use crate::support::{Guest, Service, header, problem, small_spec};
+use crate::support::{Guest, Service, header, problem, small_comparison};
 
 /// Two algorithms that may take so long each.
 fn spec(seconds: f64) -> Value {
-    let mut spec = small_spec();
+    let mut spec = small_comparison();
     spec["budget_seconds"] = seconds.into();
     spec
 }
