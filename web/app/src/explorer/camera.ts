@@ -45,7 +45,7 @@ export class CameraRig {
     element.addEventListener('wheel', () => this.wheel(), { signal, capture: true, passive: true })
     element.addEventListener('focusin', () => (element.style.touchAction = 'none'), { signal })
     element.addEventListener('focusout', () => (element.style.touchAction = 'pan-y'), { signal })
-    element.addEventListener('pointerdown', (event) => (this.down = [event.clientX, event.clientY]), { signal })
+    element.addEventListener('pointerdown', (event) => this.press(event), { signal })
     element.addEventListener('pointerup', (event) => this.up(event), { signal })
   }
 
@@ -151,6 +151,12 @@ export class CameraRig {
 
   private wheel(): void {
     this.controls.enableZoom = this.element.contains(document.activeElement)
+  }
+
+  private press(event: PointerEvent): void {
+    // A second finger makes it a pinch, which zooms whatever the wheel may do.
+    this.down = event.isPrimary ? [event.clientX, event.clientY] : null
+    this.controls.enableZoom = true
   }
 
   private up(event: PointerEvent): void {

@@ -8,8 +8,18 @@ export interface VertexData {
   dropped: readonly number[]
 }
 
-/** What the shader reads per vertex: value, has a value, lost all values to outlier removal, trust 0..1. */
-export function datum(map: VertexData, fadeFew: boolean): Float32Array<ArrayBuffer> {
+type Datum = Float32Array<ArrayBuffer>
+const made = [new WeakMap<VertexData, Datum>(), new WeakMap<VertexData, Datum>()] as const
+
+/** What the shader reads per vertex: value, has a value, lost all values to outlier removal, trust 0..1. The same for the same map. */
+export function datum(map: VertexData, fadeFew: boolean): Datum {
+  const known = made[fadeFew ? 1 : 0]
+  const out = known.get(map) ?? make(map, fadeFew)
+  known.set(map, out)
+  return out
+}
+
+function make(map: VertexData, fadeFew: boolean): Datum {
   const out = new Float32Array(map.values.length * 4)
   map.values.forEach((value, i) => {
     const has = value !== null && Number.isFinite(value)

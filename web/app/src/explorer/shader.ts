@@ -145,13 +145,21 @@ function setUniform(material: ShaderMaterial, name: string, value: boolean): voi
   if (found) found.value = value
 }
 
+const known = new Map<string, [number, number, number]>()
+
 /** Red, green and blue (0..255) of any colour that CSS can compute. */
 export function cssBytes(css: string): [number, number, number] {
-  const context = document.createElement('canvas').getContext('2d')
+  const bytes = known.get(css) ?? read(css)
+  known.set(css, bytes)
+  return bytes
+}
+
+function read(css: string): [number, number, number] {
+  // A canvas that the processor draws: to read another one, the page waits until the graphics card has drawn everything before.
+  const context = document.createElement('canvas').getContext('2d', { willReadFrequently: true })
   if (!context) return [128, 128, 128]
   context.fillStyle = css
   context.fillRect(0, 0, 1, 1)
   const [r = 0, g = 0, b = 0] = context.getImageData(0, 0, 1, 1).data
   return [r, g, b]
 }
-

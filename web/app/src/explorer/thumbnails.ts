@@ -2,6 +2,7 @@ import { Mesh, PerspectiveCamera, Scene, Sphere, Vector3, WebGLRenderer } from '
 import { BufferAttribute } from 'three'
 import { heatmapMaterial, setNeutrals } from './shader'
 import { graphics } from './software'
+import { whenIdle } from '../ui/idle'
 import { loadSurface } from './surface'
 
 /** Draws small pictures of objects, one after the other, with one renderer that is given up at the end. */
@@ -18,7 +19,7 @@ export class Thumbnails {
 
   /** Puts the picture of an object onto a canvas when its turn comes; the canvas stays empty when it cannot be drawn. */
   draw(object: string, target: HTMLCanvasElement): void {
-    this.queue = this.queue.then(() => this.render(object, target)).catch(() => {
+    this.queue = this.queue.then(whenIdle).then(() => this.render(object, target)).catch(() => {
       // A card without a picture is still a card; the list itself reports a service that does not answer.
     })
   }

@@ -1,8 +1,9 @@
 import { useQueries, useQueryClient } from '@tanstack/vue-query'
-import { computed, watch, type ComputedRef } from 'vue'
+import { computed, markRaw, watch, type ComputedRef } from 'vue'
 import { getEcdf, getHeatmap } from '../api/client'
 import type { AlgorithmResult, Ecdf, Heatmap, HeatmapRequest, RunInfo } from '../api/types'
 import { count } from '../ui/format'
+import { steadyList } from '../ui/steady'
 import { differs, MAX_PANES, type ExplorerState } from './url-state'
 
 /** One picture: whose values, and the map when it is there. */
@@ -85,24 +86,30 @@ function useRenewal(what: 'heatmap' | 'ecdf', run: ComputedRef<RunInfo>): void {
 /** A finished run never changes, so what was fetched stays good. */
 const staleTime = ({ state }: { state: { data?: { preliminary: boolean } | undefined } }): number => (state.data?.preliminary ? 0 : Number.POSITIVE_INFINITY)
 
+// Tens of thousands of numbers are read as they are: Vue would watch each of them, and a new answer would be compared with the
+// old one number by number.
+
 /** The heatmaps on the screen. */
 export function useHeatmaps(run: ComputedRef<RunInfo>, state: ComputedRef<ExplorerState>): ComputedRef<PaneData[]> {
   useRenewal('heatmap', run)
-  const visible = computed(() => visibleAlgorithms(run.value, state.value))
+  // While it is measured, a run changes several times a second, but its pictures seldom do.
+  const runId = computed(() => run.value.id)
+  const visible = steadyList(() => visibleAlgorithms(run.value, state.value))
   const queries = useQueries({
     queries: computed(() =>
       visible.value.map(({ id }) => {
         const request = heatmapRequest(state.value, id)
         return {
-          queryKey: ['heatmap', run.value.id, id, request],
-          queryFn: () => getHeatmap(run.value.id, request),
+          queryKey: ['heatmap', runId.value, id, request],
+          queryFn: async () => markRaw(await getHeatmap(runId.value, request)),
           staleTime,
+          structuralSharing: false,
         }
       }),
     ),
   })
   const order = computed(() => measured(run.value).map(({ id }) => id))
-  return computed(() =>
+  return steadyList(() =>
     visible.value.map(({ id, name }, i) => {
       const query = queries.value[i]
       return {
@@ -119,17 +126,19 @@ export function useHeatmaps(run: ComputedRef<RunInfo>, state: ComputedRef<Explor
 /** The distributions of the time per query, of the first four measured algorithms. */
 export function useEcdfs(run: ComputedRef<RunInfo>): ComputedRef<{ name: string; curve: Ecdf }[]> {
   useRenewal('ecdf', run)
-  const shown = computed(() => measured(run.value).slice(0, MAX_PANES))
+  const runId = computed(() => run.value.id)
+  const shown = steadyList(() => measured(run.value).slice(0, MAX_PANES))
   const queries = useQueries({
     queries: computed(() =>
       shown.value.map(({ id }) => ({
-        queryKey: ['ecdf', run.value.id, id],
-        queryFn: () => getEcdf(run.value.id, id),
+        queryKey: ['ecdf', runId.value, id],
+        queryFn: async () => markRaw(await getEcdf(runId.value, id)),
         staleTime,
+        structuralSharing: false,
       })),
     ),
   })
-  return computed(() =>
+  return steadyList(() =>
     shown.value.flatMap(({ name }, i) => {
       const curve = queries.value[i]?.data
       return curve ? [{ name, curve }] : []

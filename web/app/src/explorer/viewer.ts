@@ -58,6 +58,7 @@ export class HeatmapViewer {
   private base: BufferGeometry | null = null
   /** Per vertex: in the selection or not; shared by all panes. */
   private lit = new BufferAttribute(new Float32Array(0), 1)
+  /** Built when the first place is read: it takes as long as drawing. */
   private bvh: MeshBVH | null = null
   private panes: { element: HTMLElement; mesh: Mesh }[] = []
   private readonly resize: ResizeObserver
@@ -102,7 +103,7 @@ export class HeatmapViewer {
     geometry.computeBoundingSphere()
     geometry.computeBoundingBox()
     this.base = geometry
-    this.bvh = buildBvh(geometry)
+    this.bvh = null
     this.lit = new BufferAttribute(new Float32Array(this.vertices), 1)
     this.rig.fit(geometry.boundingSphere ?? new Sphere(new Vector3(), 1))
     this.mark(null)
@@ -152,8 +153,10 @@ export class HeatmapViewer {
 
   /** Points over the surface; null: none. */
   setCloud(cloud: DrawnCloud | null): void {
+    const before = this.cloud.object.visible
     this.cloud.show(cloud)
-    this.theme()
+    if (before === this.cloud.object.visible) this.invalidate()
+    else this.theme()
   }
 
   setColormap(name: Colormap): void {
@@ -314,7 +317,9 @@ export class HeatmapViewer {
   private hitAt(clientX: number, clientY: number): { hit: Hit; pane: number } | null {
     const pane = this.paneAt(clientX, clientY)
     const ray = this.rayAt(clientX, clientY, pane)
-    const hit = this.bvh && ray && pick(this.bvh, ray.ray)
+    if (!ray || !this.base) return null
+    this.bvh ??= buildBvh(this.base)
+    const hit = pick(this.bvh, ray.ray)
     return hit && { hit, pane }
   }
 

@@ -1,7 +1,6 @@
 import { tableFromIPC } from '@uwdata/flechette'
 import { RADIUS, thinned, within, type Cloud } from '../cloud/density'
-import { apply, ascending, axis, counted, litVertices, places, sortedChosen, type Axis, type Columns } from './apply'
-import { algorithms, parse, type Column } from './language'
+import { ascending, axis, counted, litVertices, places, sortedChosen, type Axis } from './counting'
 
 /** An object's surface as far as selections need it. */
 export interface SurfaceData {
@@ -9,6 +8,19 @@ export interface SurfaceData {
   corners: Uint32Array | Uint16Array
   /** Longest side of its box. */
   longest: number
+  /** From where the positions count; absent: from the origin. */
+  origin?: readonly [number, number, number]
+}
+
+/** A number that every configuration has, and that a range can test. */
+export interface Column {
+  /** Its name in selections. */
+  name: string
+  /** What an axis is called that shows it. */
+  axis: string
+  unit: string
+  /** The same for every algorithm. */
+  shared: boolean
 }
 
 /** What the page wants to know. */
@@ -20,8 +32,8 @@ export interface Question {
   side: 'a' | 'b'
   /** Whether the closest points are shown. */
   points: boolean
-  /** The column across the time, or the first that can be had. */
-  y: Column | null
+  /** The name of the column across the time, or the first that can be had. */
+  y: string | null
   cells: [number, number]
   /** Algorithms of the table and of the distribution. */
   algorithms: string[]
@@ -56,16 +68,19 @@ export interface Answer {
   cloudChosen: Uint8Array | null
 }
 
-const ACROSS: readonly Column[] = ['bv', 'primitives', 'error', 'distance']
 const POINTS = 256
+/** Selections of which it is known what they hold; those that were asked for longest ago are forgotten. */
+const MOST_MASKS = 64
 
-type Numbers = Record<string, ArrayLike<number>>
+interface Table { columns: Column[]; numbers: Record<string, ArrayLike<number>> }
+const EMPTY: Table = { columns: [], numbers: {} }
 interface ChartOfAll { key: string; x: Axis; y: Axis; at: Int32Array }
 
 /** The configurations of one run, in columns; fetched when first asked for. Runs in a worker. */
 export class Selecting {
-  private readonly fetched = new Map<string, Promise<Numbers>>()
-  private readonly loaded = new Map<string, Numbers>()
+  private readonly fetched = new Map<string, Promise<Table>>()
+  private readonly loaded = new Map<string, Table>()
+  private readonly masks = new Map<string, Promise<Uint8Array>>()
   /** What stays the same from question to question: who is where in the chart, who is how fast among all. */
   private chartOfAll: ChartOfAll | null = null
   private readonly clouds = new Map<string, Cloud>()
@@ -77,47 +92,46 @@ export class Selecting {
   ) {}
 
   async answer(question: Question): Promise<Answer> {
-    const predicates = question.where.map(parse)
-    const needed = predicates.flatMap((one) => algorithms(one, question.lookedAt))
-    const rows = predicates.length > 0 ? question.algorithms : []
-    await this.have([question.lookedAt, ...needed, ...rows])
-    const columns = this.view(question.lookedAt)
-    return this.answered(question, rows, columns, predicates.map((one) => apply(one, columns)))
+    const { where, lookedAt } = question
+    const rows = where.length > 0 ? question.algorithms : []
+    const [masks] = await Promise.all([Promise.all(where.map((one) => this.mask(one, lookedAt))), this.have([lookedAt, ...rows])])
+    return this.answered(question, rows, masks)
   }
 
   /** Does what any selection needs, so that the first one is answered as soon as the others. */
   async prepare(question: Question): Promise<void> {
     await this.have([question.lookedAt, ...question.algorithms])
     const all = new Uint8Array(this.known('').distance?.length ?? 0).fill(1)
-    this.answered(question, question.algorithms, this.view(question.lookedAt), [all])
+    this.answered(question, question.algorithms, [all])
   }
 
-  private answered(question: Question, rows: string[], columns: Columns, masks: Uint8Array[]): Answer {
+  private answered(question: Question, rows: string[], masks: Uint8Array[]): Answer {
     const of = this.known('').distance?.length ?? 0
     const chosen = masks.length > 0 ? masks.reduce((x, y) => x.map((is, i) => is & (y[i] ?? 0))) : null
     const surface = this.surfaces[question.side]
     const triangles = this.known('')[`triangle_${question.side}`]
     const cloud = question.points ? this.cloud(question.side) : null
-    const across = ACROSS.filter((column) => column === 'distance' || column in this.known(question.lookedAt))
+    const columns = [question.lookedAt, ''].flatMap((key) => this.table(key).columns).filter(({ name }) => name !== 'time')
     return {
       of,
       n: chosen && sum(chosen),
       each: masks.map(sum),
       lit: chosen && triangles ? litVertices(chosen, triangles, surface.corners, surface.positions.length / 3) : null,
-      chart: this.chart(question, across, columns, chosen),
-      columns: across,
-      rows: chosen ? rows.map((algorithm) => this.times(algorithm, columns.column('time', algorithm), chosen)) : [],
+      chart: this.chart(question, columns, chosen),
+      columns,
+      rows: chosen ? rows.map((algorithm) => this.times(algorithm, this.known(algorithm).time ?? [], chosen)) : [],
       cloud,
       cloudChosen: cloud && chosen ? Uint8Array.from(cloud.records, (record) => chosen[record] ?? 0) : null,
     }
   }
 
-  private chart({ y: wanted, cells, lookedAt }: Question, across: Column[], columns: Columns, chosen: Uint8Array | null) {
-    const column = across.find((one) => one === wanted) ?? across[0]
-    if (!column || !this.known(lookedAt).time) return null
-    const key = JSON.stringify([lookedAt, column, cells])
+  private chart({ y: wanted, cells, lookedAt }: Question, columns: Column[], chosen: Uint8Array | null) {
+    const column = columns.find(({ name }) => name === wanted) ?? columns[0]
+    const xs = this.known(lookedAt).time
+    const ys = column && this.known(column.shared ? '' : lookedAt)[column.name]
+    if (!column || !xs || !ys) return null
+    const key = JSON.stringify([lookedAt, column.name, cells])
     if (this.chartOfAll?.key !== key) {
-      const [xs, ys] = [columns.column('time', null), columns.column(column, null)]
       const axes = { x: axis(xs, cells[0]), y: axis(ys, cells[1]) }
       this.chartOfAll = { key, ...axes, at: places(xs, ys, axes.x, axes.y) }
     }
@@ -136,10 +150,14 @@ export class Selecting {
     return cloud
   }
 
-  /** The witness points on an object, by axes. */
+  /** The witness points on an object, by axes; they count from where its positions do. */
   private points(side: 'a' | 'b'): [ArrayLike<number>, ArrayLike<number>, ArrayLike<number>] {
-    const along = (axisName: string) => this.known('')[`${side}_${axisName}`] ?? []
-    return [along('x'), along('y'), along('z')]
+    const [x0, y0, z0] = this.surfaces[side].origin ?? [0, 0, 0]
+    const along = (axisName: string, from: number) => {
+      const values = this.known('')[`${side}_${axisName}`] ?? []
+      return from === 0 ? values : Float64Array.from(values, (value) => value - from)
+    }
+    return [along('x', x0), along('y', y0), along('z', z0)]
   }
 
   private times(algorithm: string, values: ArrayLike<number>, chosen: Uint8Array): SelectedTimes {
@@ -148,32 +166,24 @@ export class Selecting {
     return times(algorithm, sortedChosen(values, order, chosen))
   }
 
-  private view(lookedAt: string): Columns {
-    return {
-      column: (column, of) => {
-        const values = column === 'distance' ? this.known('').distance : this.known(of ?? lookedAt)[column]
-        if (!values) throw new Error(`${of ?? lookedAt} has no column "${column}" in this run.`)
-        return values
-      },
-      fromVertex: (body, vertex) => {
-        const { positions, longest } = this.surfaces[body]
-        if (3 * vertex >= positions.length) throw new Error(`Object ${body.toUpperCase()} has no vertex ${vertex}.`)
-        const [x, y, z] = this.points(body)
-        const [cx = 0, cy = 0, cz = 0] = positions.subarray(3 * vertex, 3 * vertex + 3)
-        const distances = new Float64Array(x.length)
-        for (let i = 0; i < distances.length; i++) {
-          const dx = (x[i] ?? 0) - cx
-          const dy = (y[i] ?? 0) - cy
-          const dz = (z[i] ?? 0) - cz
-          distances[i] = Math.sqrt(dx * dx + dy * dy + dz * dz) / longest
-        }
-        return distances
-      },
-    }
+  private table(key: string): Table {
+    return this.loaded.get(key) ?? EMPTY
   }
 
-  private known(key: string): Numbers {
-    return this.loaded.get(key) ?? {}
+  private known(key: string): Table['numbers'] {
+    return this.table(key).numbers
+  }
+
+  /** Which configurations a selection holds, 1 or 0 each: the service reads it, so the page need not know its language. */
+  private mask(where: string, lookedAt: string): Promise<Uint8Array> {
+    const query = String(new URLSearchParams({ algorithm: lookedAt, where }))
+    const known = this.masks.get(query)
+    if (known) return known
+    const coming = this.fetchTable(`selection.arrow?${query}`).then(({ numbers }) => Uint8Array.from(numbers.chosen ?? [], Number))
+    coming.catch(() => this.masks.delete(query))
+    this.masks.set(query, coming)
+    for (const oldest of this.masks.keys()) if (this.masks.size > MOST_MASKS) this.masks.delete(oldest)
+    return coming
   }
 
   /** Witness points, and the columns of these algorithms. */
@@ -182,28 +192,34 @@ export class Selecting {
     await Promise.all([this.fetch('', 'witnesses.arrow'), ...columns])
   }
 
-  private fetch(key: string, what: string): Promise<Numbers> {
+  private fetch(key: string, what: string): Promise<Table> {
     const known = this.fetched.get(key)
     if (known) return known
-    const coming = fetchColumns(`/api/v1/runs/${encodeURIComponent(this.run)}/${what}`).then((numbers) => {
-      this.loaded.set(key, numbers)
-      return numbers
+    const coming = this.fetchTable(what, key === '').then((table) => {
+      this.loaded.set(key, table)
+      return table
     })
     // What could not be fetched is asked for again the next time.
     coming.catch(() => this.fetched.delete(key))
     this.fetched.set(key, coming)
     return coming
   }
-}
 
-async function fetchColumns(url: string): Promise<Numbers> {
-  const response = await fetch(url)
-  if (!response.ok) {
-    const problem = (await response.json().catch(() => null)) as { detail?: string } | null
-    throw new Error(problem?.detail ?? `The service answered ${response.status}.`)
+  private async fetchTable(what: string, shared = false): Promise<Table> {
+    const response = await fetch(`/api/v1/runs/${encodeURIComponent(this.run)}/${what}`)
+    if (!response.ok) {
+      const problem = (await response.json().catch(() => null)) as { detail?: string } | null
+      throw new Error(problem?.detail ?? `The service answered ${response.status}.`)
+    }
+    const table = tableFromIPC(await response.arrayBuffer())
+    // What has no axis, such as the triangles, is no column of selections; its metadata are null, whatever the type says.
+    const columns = table.schema.fields
+      .map(({ name, metadata }) => ({ name, of: new Map(metadata) }))
+      .map(({ name, of }) => ({ name, axis: of.get('axis') ?? '', unit: of.get('unit') ?? '', shared }))
+      .filter((column) => column.axis !== '')
+    const numbers = table.names.map((name) => [name, table.getChild(name).toArray() as ArrayLike<number>] as const)
+    return { columns, numbers: Object.fromEntries(numbers) }
   }
-  const table = tableFromIPC(await response.arrayBuffer())
-  return Object.fromEntries(table.names.map((name) => [String(name), table.getChild(name).toArray() as ArrayLike<number>]))
 }
 
 const sum = (mask: Uint8Array): number => mask.reduce((n, is) => n + is, 0)

@@ -1,23 +1,23 @@
 import { computed, onScopeDispose, ref, shallowRef, watch, type ComputedRef } from 'vue'
+import { getSelection } from '../../api/client'
 import type { RunInfo } from '../../api/types'
-import { loadSurface } from '../surface'
+import { loadSurface, originOf } from '../surface'
 import type { ExplorerState } from '../url-state'
 import { measured } from '../use-run-data'
 import type { Answer, Question, SurfaceData } from './engine'
-import type { Column } from './language'
 import type { Message, Reply } from './worker'
 
 /** Cells of the chart: two pixels each at its usual size, larger where single points would be lost. */
 const cells = (configurations: number): [number, number] => (configurations > 5000 ? [170, 110] : [85, 55])
 
 /**
- * The configurations behind the pictures: what the selections hold, for chart, surface and table. The work is a
- * worker's, so the page stays fluent; `ask` begins it, and only the newest question counts.
+ * The configurations behind the pictures: what the selections hold, for chart, surface and table. The service says which
+ * configurations each selects, and a worker counts, so the page stays fluent; only the newest question counts.
  */
 export function useSelection(run: ComputedRef<RunInfo>, state: ComputedRef<ExplorerState>, lookedAt: ComputedRef<string | null>) {
   const answer = shallowRef<Answer | null>(null)
   const error = ref<string | null>(null)
-  const across = ref<Column | null>(null)
+  const across = ref<string | null>(null)
   let worker: Worker | null = null
   let ready: Promise<void> | null = null
   let newest = 0
@@ -67,9 +67,12 @@ export function useSelection(run: ComputedRef<RunInfo>, state: ComputedRef<Explo
       error.value = thrown instanceof Error ? thrown.message : String(thrown)
     }
   }
+  /** The text of a selection as the service reads it, or an error that says what is wrong with it. */
+  const read = async (where: string): Promise<string> =>
+    (await getSelection(run.value.id, { algorithm: lookedAt.value ?? '', where })).where
   watch(key, () => void ask(), { immediate: true })
   onScopeDispose(() => worker?.terminate())
-  return { answer, error, across }
+  return { answer, error, across, read }
 }
 
 async function surfaceData(object: string): Promise<SurfaceData> {
@@ -79,5 +82,5 @@ async function surfaceData(object: string): Promise<SurfaceData> {
   geometry.computeBoundingBox()
   const box = geometry.boundingBox
   const longest = box ? Math.max(box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z) : 1
-  return { positions, corners, longest }
+  return { positions, corners, longest, origin: originOf(geometry) }
 }

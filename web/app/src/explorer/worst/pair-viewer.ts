@@ -4,6 +4,7 @@ import {
 } from 'three'
 import { CameraRig } from '../camera'
 import { cssBytes } from '../shader'
+import { originOf } from '../surface'
 import { graphics } from '../software'
 
 /** One configuration to look at: poses row-major, points in the world, pairs of triangles that meet. */
@@ -53,9 +54,16 @@ export class PairViewer {
 
   show(posed: Posed): void {
     this.clear()
-    const poses = [posed.poseA, posed.poseB].map((pose) => new Matrix4().fromArray([...pose]).transpose())
+    // Everything is drawn about a witness point: the graphics card has single precision, and objects may be far from the origin.
+    const [x0 = 0, y0 = 0, z0 = 0] = posed.points[0] ?? []
+    const about = new Vector3(x0, y0, z0)
+    const poses = [posed.poseA, posed.poseB].map((pose, side) => {
+      const origin = new Vector3(...originOf(this.surfaces[side === 0 ? 0 : 1]))
+      const placed = new Matrix4().fromArray([...pose]).transpose().multiply(new Matrix4().makeTranslation(origin))
+      return placed.premultiply(new Matrix4().makeTranslation(about.clone().negate()))
+    })
     const box = new Box3()
-    const vector = ([x = 0, y = 0, z = 0]: readonly number[]) => new Vector3(x, y, z)
+    const vector = ([x = 0, y = 0, z = 0]: readonly number[]) => new Vector3(x, y, z).sub(about)
     const spots = [...posed.points, ...posed.claimed.points].map(vector)
     this.surfaces.forEach((surface, side) => {
       const pose = poses[side] ?? new Matrix4()

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import { ascending, axis, cell, counted, litVertices, places, sortedChosen } from './apply'
+import { ascending, axis, cell, counted, litVertices, places, sortedChosen } from './counting'
 
 describe('a chart of configurations', () => {
   it('has a logarithmic axis where all values are positive and differ', () => {
