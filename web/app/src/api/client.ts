@@ -3,7 +3,7 @@ import { asApiError, fromResponse } from './errors'
 import { nextOf } from './link'
 import type { paths } from './schema'
 import type {
-  Accuracy, AdviceInfo, AdviceSpec, AlgorithmInfo, Board, Chart, ChartKind, Citation, Ecdf, Estimate, ExampleInfo, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, SuiteInfo, Visibility, WorstCase,
+  Accuracy, AdviceInfo, AdviceSpec, AlgorithmInfo, Board, Chart, ChartKind, Citation, Ecdf, Estimate, ExampleInfo, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, Selected, SuiteInfo, Visibility, WorstCase,
 } from './types'
 
 export const http = createClient<paths>({ baseUrl: '/' })
@@ -103,14 +103,18 @@ export const boardUrl = (file: string, query: BoardQuery): string => `/api/v1/${
 export const getHeatmap = (id: string, request: HeatmapRequest): Promise<Heatmap> =>
   answer(http.GET('/api/v1/runs/{id}/heatmap', { params: { path: { id }, query: request } }))
 
+/** How many configurations a selection holds, and its text as the service reads it. */
+export const getSelection = (id: string, query: { algorithm: string; where: string }): Promise<Selected> =>
+  answer(http.GET('/api/v1/runs/{id}/selection', { params: { path: { id }, query } }))
+
 /** The worst configurations of an algorithm. */
 export const getWorst = (
   id: string, query: { algorithm: string; by: 'time' | 'error'; limit: number; where?: string },
 ): Promise<WorstCase[]> => answer(http.GET('/api/v1/runs/{id}/worst', { params: { path: { id }, query } }))
 
 /** All pairs of triangles that meet in one configuration. */
-export const getMeeting = (id: string, configuration: number): Promise<Meeting> =>
-  answer(http.GET('/api/v1/runs/{id}/configurations/{configuration}/contacts', { params: { path: { id, configuration } } }))
+export const getMeeting = (id: string, configuration: number, rounded: boolean): Promise<Meeting> =>
+  answer(http.GET('/api/v1/runs/{id}/configurations/{configuration}/contacts', { params: { path: { id, configuration }, query: { rounded } } }))
 
 export const askAdvice = (spec: AdviceSpec): Promise<AdviceInfo> => answer(http.POST('/api/v1/advice', { body: spec }))
 

@@ -12,7 +12,7 @@ const run = {
 } as unknown as RunInfo
 
 describe('applyEvent', () => {
-  it('changes only the lane of its algorithm', () => {
+  it('changes only the stage of its algorithm', () => {
     const after = applyEvent(run, event({ stage: stage('measuring', 'b', 'running', 4) }))
     expect(after.stages.map((s) => s.done)).toEqual([0, 0, 4])
     expect([after.state, after.runs_ahead]).toEqual(['running', 0])

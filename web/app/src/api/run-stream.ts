@@ -72,7 +72,7 @@ export function applyEvent(run: RunInfo, event: RunEvent): RunInfo {
     state: event.state,
     runs_ahead: event.runs_ahead,
     seconds_left: event.seconds_left ?? null,
-    stages: stage ? replace(run.stages, stage, sameLane) : run.stages,
+    stages: stage ? replace(run.stages, stage, sameStage) : run.stages,
     results: result ? inOrder(run, replace(run.results, result, (a, b) => a.algorithm === b.algorithm)) : run.results,
   }
 }
@@ -83,7 +83,7 @@ function inOrder({ spec }: RunInfo, results: AlgorithmResult[]): AlgorithmResult
   return results.toSorted((a, b) => place(a) - place(b))
 }
 
-function sameLane(a: Stage, b: Stage): boolean {
+function sameStage(a: Stage, b: Stage): boolean {
   return a.kind === b.kind && (a.algorithm ?? null) === (b.algorithm ?? null)
 }
 

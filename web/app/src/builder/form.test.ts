@@ -105,6 +105,8 @@ it('filters algorithms by the question and says why', () => {
   expect(whyUnfit(collider, 'proximity', false)).toBe('answers no distance queries')
   expect(whyUnfit(collider, 'collision_all', false)).toBe('stops at the first contact')
   expect(whyUnfit(collider, 'collision_first', false)).toBeNull()
+  expect(whyUnfit({ ...collider, single_precision: true }, 'collision_first', false, true)).toContain('no triangle of the object has an area')
+  expect(whyUnfit(collider, 'collision_first', false, true)).toBeNull()
   expect(whyUnfit(collider, 'collision_first', true)).toBe('supports surfaces only, no solid bodies')
   expect(chosenAlgorithms({ ...form(), question: 'pq' }, ALL)).toEqual(['both'])
   expect(chosenAlgorithms({ ...form(), solid: true }, ALL)).toEqual(['both'])

@@ -49,8 +49,9 @@ export function queryOf({ question, contacts }: Pick<BuilderForm, 'question' | '
   return contacts === 'first' ? 'collision_first' : 'collision_all'
 }
 
-/** Why an algorithm does not fit the question; null when it does. */
-export function whyUnfit(algorithm: AlgorithmInfo, query: Query, solid: boolean): string | null {
+/** Why an algorithm does not fit the question; null when it does. An object may be `flat` in single precision. */
+export function whyUnfit(algorithm: AlgorithmInfo, query: Query, solid: boolean, flat = false): string | null {
+  if (flat && algorithm.single_precision) return 'computes in single precision, in which no triangle of the object has an area'
   if (algorithm.queries.includes(query)) return solid && !algorithm.solid ? 'supports surfaces only, no solid bodies' : null
   if (query === 'proximity') return 'answers no distance queries'
   return query === 'collision_all' ? 'stops at the first contact' : 'answers no collision queries'

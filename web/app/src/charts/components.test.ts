@@ -1,6 +1,6 @@
 import { afterEach, describe, expect, it } from 'vitest'
 import { createApp, h, nextTick, ref, type App, type Component, type SetupContext } from 'vue'
-import type { AlgorithmResult, Ecdf } from '../api/types'
+import type { AlgorithmResult, Ecdf, SetInfo } from '../api/types'
 import EcdfChart from './EcdfChart.vue'
 import BuildTable from './BuildTable.vue'
 import ResultTable from './ResultTable.vue'
@@ -45,6 +45,24 @@ describe('EcdfChart', () => {
   })
 })
 
+it('marks preliminary numbers, with n and interval', async () => {
+  const estimated = (value: number) => ({ value, lo: 0.9 * value, hi: 1.1 * value })
+  const so_far: AlgorithmResult = {
+    algorithm: 'fast', name: 'Fast', outcome: { name: 'Completed', message: '', ours: false }, n: 300, of: 5000, budget_limited: false,
+    time: { median_ns: estimated(1000), p95_ns: estimated(2000), max_ns: estimated(3000), mean_ns: estimated(1000), below_resolution: 0 }, ratio: estimated(0.5),
+    verdicts: [], wrong: 0, bv_tests_mean: null, primitive_tests_mean: null, build_ms: null, memory_bytes: null, preliminary: true,
+  }
+  const table = await mount(ResultTable, { results: [so_far] })
+  const row = table.host.querySelector('tr[data-algorithm=fast][data-preliminary=true]')
+  expect(row?.querySelector('td')?.textContent).toBe('–')
+  expect(row?.textContent).toMatch(/300.*of 5,000.*0\.45 × – 0\.55 ×1.µs0\.9–1\.1.*preliminary/)
+  app?.unmount()
+
+  const curve = { algorithm: 'fast', n: 300, time_ns: [1000, 2000], share: [0.5, 1], preliminary: true }
+  const chart = await mount(EcdfChart, { curves: [{ name: 'Fast', curve }] })
+  expect(chart.host.querySelector('[data-testid=ecdf-preliminary]')?.textContent).toBe('preliminary, n = 300, shares ± 7.8 % (95 %)')
+})
+
 it('lists what failed without a place, and with the reason', async () => {
   const failed: AlgorithmResult = {
     algorithm: 'crashy', name: 'Crashy', outcome: { name: 'Signaled', message: 'It crashed with SIGSEGV.', ours: false }, n: 0, of: 9,
@@ -84,4 +102,10 @@ it('shows each unit of length, the file’s first, and names what depends on it'
   const row = host.querySelector('[data-testid=result-table] tr[data-algorithm=ruler]')
   expect(row?.textContent).toContain('none in the file’s unit')
   expect(row?.textContent).toContain('It gave wrong answers in another unit of length')
+  expect(host.querySelector('[data-testid=rounding-note]')).toBeNull()
+
+  const set = { configurations: 9, rounding: { other_answers: 2, largest_change: 0.03 } } as SetInfo
+  const { host: rounded } = await mount(ResultTable, { results: [{ ...result, rounded: true }], set })
+  expect(rounded.querySelector('[data-testid=rounding-note]')?.textContent).toContain('Ruler computes in single precision, got rounded coordinates')
+  expect(rounded.querySelector('tr[data-algorithm=ruler] [data-testid=rounded]')?.textContent).toContain('got rounded coordinates')
 })

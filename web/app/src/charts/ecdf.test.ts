@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import { ecdfAxes, ecdfPath, timeAtShare, timeTicks } from './ecdf'
+import { ecdfAxes, ecdfPath, preliminaryWords, timeAtShare, timeTicks } from './ecdf'
 
 const box = { left: 40, right: 240, top: 0, bottom: 100 }
 const curve = { algorithm: 'a', n: 3, time_ns: [10, 100, 1000], share: [0.25, 0.5, 1], preliminary: false }
@@ -38,4 +38,10 @@ it('reads quantiles', () => {
 
 it('labels the axis at round times', () => {
   expect(timeTicks(ecdfAxes([curve], box))).toEqual([10, 20, 50, 100, 200, 500, 1000])
+})
+
+it('tells of preliminary curves the numbers of answers, and the band of the smallest', () => {
+  const so_far = (n: number) => ({ ...curve, n, preliminary: true })
+  expect(preliminaryWords([curve])).toBeNull()
+  expect(preliminaryWords([curve, so_far(300), so_far(5000)])).toBe('preliminary, n = 300 to 5,000, shares ± 7.8 % (95 %)')
 })

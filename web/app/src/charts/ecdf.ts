@@ -1,6 +1,7 @@
 import { scaleLinear, scaleLog, type ScaleLinear, type ScaleLogarithmic } from 'd3-scale'
 import { curveStepAfter, line } from 'd3-shape'
 import type { Ecdf } from '../api/types'
+import { count } from '../ui/format'
 import { logTicks } from '../explorer/ticks'
 
 export interface Axes {
@@ -37,6 +38,19 @@ export function ecdfPath(curve: Ecdf, { x, y }: Axes): string {
 export function timeAtShare(curve: Ecdf, share: number): number | null {
   const at = curve.share.findIndex((value) => value >= share)
   return curve.time_ns[at] ?? null
+}
+
+/**
+ * How far the shares of preliminary curves may lie from those of all configurations: with 95 % certainty a whole curve lies
+ * within this band (P. Massart, The tight constant in the Dvoretzky-Kiefer-Wolfowitz inequality, 1990). Null when none is preliminary.
+ */
+export function preliminaryWords(curves: readonly Ecdf[]): string | null {
+  const all = curves.filter(({ preliminary, n }) => preliminary && n > 0).map(({ n }) => n)
+  if (all.length === 0) return null
+  const [least, most] = [Math.min(...all), Math.max(...all)]
+  const n = least === most ? count(least) : `${count(least)} to ${count(most)}`
+  const band = (100 * Math.sqrt(Math.log(2 / 0.05) / (2 * least))).toPrecision(2)
+  return `preliminary, n = ${n}, shares ± ${band} % (95 %)`
 }
 
 /** Round times on the axis. */

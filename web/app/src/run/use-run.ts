@@ -3,6 +3,7 @@ import { getRun } from '../api/client'
 import { asApiError } from '../api/errors'
 import { applyEvent, hasEnded, RunStream, type Connection } from '../api/run-stream'
 import type { RunInfo } from '../api/types'
+import { takeStarted } from './just-started'
 
 /** A run that keeps itself up to date until it has ended. */
 export function useRun(id: Ref<string | null>) {
@@ -51,9 +52,10 @@ export function useRun(id: Ref<string | null>) {
     id,
     (wanted) => {
       stop()
-      run.value = null
+      run.value = wanted ? takeStarted(wanted) : null
       error.value = null
-      if (wanted) void fetchRun(wanted)
+      if (wanted && run.value) follow(wanted)
+      else if (wanted) void fetchRun(wanted)
     },
     { immediate: true },
   )

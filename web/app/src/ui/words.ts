@@ -85,15 +85,15 @@ export const STATE: Record<State, string> = {
   cancelled: 'cancelled',
 }
 
-export const LANE: Record<StageKind, string> = {
+export const STAGE: Record<StageKind, string> = {
   object: 'Object',
   configurations: 'Configurations',
   measuring: 'Measuring',
   heatmap: 'Heatmap',
 }
 
-/** What a lane counts. */
-export const LANE_UNIT: Record<StageKind, string> = {
+/** What a stage counts. */
+export const STAGE_UNIT: Record<StageKind, string> = {
   object: 'objects',
   configurations: 'configurations',
   measuring: 'queries',
