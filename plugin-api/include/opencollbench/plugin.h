@@ -174,7 +174,9 @@ typedef struct ocb_collide_result {
 enum {
     /*
      * The algorithm computes in 32-bit floating point somewhere between pose and answer. Its answers are judged with a
-     * tolerance of 32 * 2^-24 instead of 32 * 2^-53 times the size of the scene.
+     * tolerance of 32 * 2^-24 instead of 32 * 2^-53 times the size of the scene. The coordinates that load_mesh receives
+     * are then numbers of single precision: where the file needs more, they are rounded, and the answers are compared
+     * with the truth about the rounded mesh. Poses are not rounded.
      */
     OCB_CAPABILITY_SINGLE_PRECISION = 1,
     /* Answering is sped up by earlier queries (temporal coherence, front tracking): the order of queries matters. */

@@ -4,7 +4,7 @@
 mod support;
 
 use ocb_dop_tree::DopTree;
-use support::contestant::with;
+use support::algorithm::with;
 
 fn main() {
     support::timing::bench(

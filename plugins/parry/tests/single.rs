@@ -1,4 +1,4 @@
-//! parry in single precision answers as a contestant must, up to what single precision can.
+//! parry in single precision answers as an algorithm must, up to what single precision can.
 
 #[path = "../../lib/triangles/tests/support/mod.rs"]
 mod support;

@@ -4,7 +4,7 @@
 mod support;
 
 use ocb_simdop::SimDop;
-use support::contestant::with;
+use support::algorithm::with;
 
 fn main() {
     support::timing::bench(

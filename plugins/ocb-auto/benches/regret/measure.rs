@@ -11,7 +11,7 @@ use opencollbench_plugin::{ContactList, Pose, raw};
 
 use super::scenes::Setting;
 use super::support::Loaded;
-use super::support::contestant::with;
+use super::support::algorithm::with;
 
 /// By the value of the parameter `method`.
 pub const METHODS: [&str; 4] = ["ocb-auto", "ocb-fast", "simdop", "collision first"];

@@ -4,7 +4,7 @@
 use ocb_triangles::Triangle;
 use opencollbench_plugin::{Collision, Contacts, Distance, Pose};
 
-use super::contestant::{Terms, agree};
+use super::algorithm::{Terms, agree};
 use super::{Dice, Loaded, Scene, Soup, TRANSLATION, apply, shared_file};
 
 /// Distances of a corner from the middle of a triangle, in the smaller object's size.

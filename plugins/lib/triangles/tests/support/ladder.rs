@@ -2,13 +2,13 @@
 
 use opencollbench_plugin::{Contacts, Distance, Pose};
 
-use super::contestant::{Terms, agree};
+use super::algorithm::{Terms, agree};
 use super::{Dice, Loaded, Scene, Soup, TRANSLATION};
 
 /// Shares of the size; the last one stands for twice the tolerance of double precision.
 const GAPS: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 0.0];
 
-/// Poses of B in front of A at every gap of the ladder that the contestant can see, and the same way behind the first
+/// Poses of B in front of A at every gap of the ladder that the algorithm can see, and the same way behind the first
 /// touch.
 fn ladder<'s, A: Distance>(terms: &Terms<A>, soup: &'s Soup, dice: &mut Dice) -> Vec<(f64, Scene<'s>)> {
     let mut loaded = Loaded::with((terms.variants)().swap_remove(0), soup);

@@ -2,7 +2,7 @@
 #![allow(dead_code, unused_imports, unused_macros, reason = "each test binary uses a part")]
 
 #[macro_use]
-pub mod contestant;
+pub mod algorithm;
 pub mod extremes;
 pub mod known;
 pub mod ladder;

@@ -1,4 +1,4 @@
-//! brute-force answers as every contestant must: its boxes leave nothing out.
+//! brute-force answers as every algorithm must: its boxes leave nothing out.
 
 #[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
@@ -6,10 +6,10 @@ mod support;
 
 use ocb_brute_force::BruteForce;
 use opencollbench_plugin::{Counts, Pose};
-use support::contestant::Terms;
+use support::algorithm::Terms;
 use support::{Loaded, Soup};
 
-contestant!(Terms { stride: 500, ..Terms::exact(|| vec![BruteForce]) });
+algorithm!(Terms { stride: 500, ..Terms::exact(|| vec![BruteForce]) });
 
 #[test]
 fn counts_a_query_by_hand() {

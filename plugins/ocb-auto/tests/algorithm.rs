@@ -1,4 +1,4 @@
-//! ocb-auto answers as every contestant must, by its rules and by each method, and its README says why it chooses what.
+//! ocb-auto answers as every algorithm must, by its rules and by each method, and its README says why it chooses what.
 
 #[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
@@ -9,10 +9,10 @@ use ocb_auto::features::{Ball, Feature, Features};
 use ocb_auto::rules::{Choice, Query, RULES, choose};
 use ocb_triangles::Frame;
 use opencollbench_plugin::{Algorithm, Collision, Counts, Pose};
-use support::contestant::{Terms, with};
+use support::algorithm::{Terms, with};
 use support::{Loaded, Soup};
 
-contestant!(Terms::exact(|| [0.0, 2.0].map(|method| with::<Auto>(&[("method", method)])).into()));
+algorithm!(Terms::exact(|| [0.0, 2.0].map(|method| with::<Auto>(&[("method", method)])).into()));
 
 /// Two poses of a torus, 1.5 across from the middle: what is chosen for each query.
 fn chosen(pose_b: &Pose, size: f64, count: usize) -> [Choice; 3] {

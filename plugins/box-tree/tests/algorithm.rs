@@ -1,4 +1,4 @@
-//! box-tree answers as every contestant must, and counts.
+//! box-tree answers as every algorithm must, and counts.
 
 #[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
@@ -6,10 +6,10 @@ mod support;
 
 use ocb_box_tree::BoxTree;
 use opencollbench_plugin::{Collision, Counts, Pose};
-use support::contestant::{Terms, with};
+use support::algorithm::{Terms, with};
 use support::{Loaded, Soup};
 
-contestant!(Terms::exact(|| [2.0, 1.0, 32.0].map(|size| with::<BoxTree>(&[("leaf_size", size)])).into()));
+algorithm!(Terms::exact(|| [2.0, 1.0, 32.0].map(|size| with::<BoxTree>(&[("leaf_size", size)])).into()));
 
 #[test]
 fn counts_a_query_by_hand() {

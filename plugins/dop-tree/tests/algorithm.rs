@@ -1,4 +1,4 @@
-//! dop-tree answers as every contestant must, with every k.
+//! dop-tree answers as every algorithm must, with every k.
 
 #[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
@@ -6,9 +6,9 @@ mod support;
 
 use ocb_dop_tree::DopTree;
 use opencollbench_plugin::Parameters;
-use support::contestant::{Terms, with};
+use support::algorithm::{Terms, with};
 
-contestant!(Terms::exact(|| [18.0, 6.0, 14.0, 26.0].map(|k| with::<DopTree>(&[("k", k)])).into()));
+algorithm!(Terms::exact(|| [18.0, 6.0, 14.0, 26.0].map(|k| with::<DopTree>(&[("k", k)])).into()));
 
 #[test]
 fn a_k_that_is_none_is_refused() {

@@ -1,10 +1,10 @@
-//! What every contestant is put through: `contestant!(terms)` in a test file makes a test of each check.
+//! What every algorithm is put through: `algorithm!(terms)` in a test file makes a test of each check.
 
 use opencollbench_plugin::{Algorithm, Collision, Contacts, Counts, Distance, Parameters, Pose};
 
 use super::{Dice, Loaded, Scene, Soup, TRANSLATION, Truth, known_set};
 
-/// What is asked of a contestant.
+/// What is asked of an algorithm.
 pub struct Terms<A> {
     /// It in all settings worth a test, the default first.
     pub variants: fn() -> Vec<A>,
@@ -38,10 +38,10 @@ pub fn with<A: Parameters>(settings: &[(&str, f64)]) -> A {
 }
 
 /// Makes a test of each check, or of those named.
-macro_rules! contestant {
+macro_rules! algorithm {
     ($terms:expr) => {
-        contestant!($terms;
-            contestant: on_a_torus, on_scraps, on_itself, far_from_the_origin, with_rotations_not_quite, on_known_sets;
+        algorithm!($terms;
+            algorithm: on_a_torus, on_scraps, on_itself, far_from_the_origin, with_rotations_not_quite, on_known_sets;
             ladder: at_every_gap, in_every_unit, in_odd_units_and_places, whatever_the_winding_and_the_order;
             extremes: tells_nothing_apart_that_meets, on_pairs_that_broke_others);
     };

@@ -1,14 +1,14 @@
-//! rss-tree answers as every contestant must, with every queue, and keeps to the errors that it is allowed.
+//! rss-tree answers as every algorithm must, with every queue, and keeps to the errors that it is allowed.
 
 #[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
 mod support;
 
 use ocb_rss_tree::RssTree;
-use support::contestant::{Terms, with};
+use support::algorithm::{Terms, with};
 use support::{Dice, Loaded, Scene, Soup};
 
-contestant!(Terms::exact(|| [2.0, 16.0, 1e6].map(|size| with::<RssTree>(&[("queue_size", size)])).into()));
+algorithm!(Terms::exact(|| [2.0, 16.0, 1e6].map(|size| with::<RssTree>(&[("queue_size", size)])).into()));
 
 /// What a distance may be, with both errors set and with one of them.
 #[test]

@@ -1,4 +1,4 @@
-//! parry answers as a contestant must that is not exact, timed and counted; on a mesh made here and on a few known
+//! parry answers as an algorithm must that is not exact, timed and counted; on a mesh made here and on a few known
 //! configurations, since it needs a second per distance.
 
 #[path = "../../lib/triangles/tests/support/mod.rs"]
@@ -7,13 +7,13 @@ mod support;
 
 use ocb_parry::Double as Parry;
 use opencollbench_plugin::{Collision, Pose};
-use support::contestant::Terms;
+use support::algorithm::Terms;
 use support::{Loaded, Scene, known_set};
 
 /// parry compares triangles by iteration and stops near its own epsilon.
 const BLUR: f64 = 1e-7;
 
-contestant!(Terms { variants: || vec![Parry], blur: BLUR, common_points: false, stride: 25 }; contestant: on_a_torus);
+algorithm!(Terms { variants: || vec![Parry], blur: BLUR, common_points: false, stride: 25 }; algorithm: on_a_torus);
 
 #[test]
 fn on_known_sets() {

@@ -1,4 +1,4 @@
-//! SIMDop answers as every contestant must, with each set of directions and of instructions, and counts.
+//! SIMDop answers as every algorithm must, with each set of directions and of instructions, and counts.
 
 #[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
@@ -6,10 +6,10 @@ mod support;
 
 use ocb_simdop::SimDop;
 use opencollbench_plugin::{Collision, Counts, Pose};
-use support::contestant::{Terms, with};
+use support::algorithm::{Terms, with};
 use support::{Loaded, Soup};
 
-contestant!(Terms::exact(|| {
+algorithm!(Terms::exact(|| {
     [(18.0, 16.0), (6.0, 16.0), (14.0, 8.0), (26.0, 1.0)]
         .map(|(k, width)| with::<SimDop>(&[("k", k), ("width", width)]))
         .into()

@@ -1,4 +1,4 @@
-//! ocb-fast answers as every contestant must, on each set of instructions, and counts.
+//! ocb-fast answers as every algorithm must, on each set of instructions, and counts.
 
 #[path = "../../lib/triangles/tests/support/mod.rs"]
 #[macro_use]
@@ -6,10 +6,10 @@ mod support;
 
 use ocb_fast::Fast;
 use opencollbench_plugin::{Collision, Counts, Pose};
-use support::contestant::{Terms, with};
+use support::algorithm::{Terms, with};
 use support::{Loaded, Soup};
 
-contestant!(Terms::exact(|| [16.0, 8.0, 1.0].map(|width| with::<Fast>(&[("width", width)])).into()));
+algorithm!(Terms::exact(|| [16.0, 8.0, 1.0].map(|width| with::<Fast>(&[("width", width)])).into()));
 
 #[test]
 fn counts_a_query_by_hand() {
