@@ -46,9 +46,9 @@ async function ready(url, alive) {
   throw new Error(`the service did not answer on ${url}`)
 }
 
-/** Serves this data folder, or a new one with a curator that goes away with the service; nothing is measured unasked, unless `idle`. */
-export async function startService({ data: given, options: more = [], idle = false } = {}) {
-  const url = `http://127.0.0.1:${await freePort()}`
+/** Serves this data folder, or a new one with a curator that goes away with the service, at a new address unless one is given; nothing is measured unasked, unless `idle`. */
+export async function startService({ data: given, url: known, options: more = [], idle = false } = {}) {
+  const url = known ?? `http://127.0.0.1:${await freePort()}`
   const data = given ?? mkdtempSync(join(tmpdir(), 'ocb-e2e-'))
   const password = given ? undefined : addCurator(data)
   const options = ['serve', '--data', data, '--listen', url.slice('http://'.length), '--stock-dir', join(root, 'target/stock'), '--idle', idle ? 'on' : 'off', ...more]
@@ -69,5 +69,10 @@ export async function startService({ data: given, options: more = [], idle = fal
     await stop().catch(() => {})
     throw error
   }
-  return { url, password, stop }
+  /** Ends it at once, as a power cut does. */
+  const kill = () => {
+    service.kill('SIGKILL')
+    return ended
+  }
+  return { url, password, stop, kill }
 }

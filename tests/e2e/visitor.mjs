@@ -1,7 +1,8 @@
-// A visitor: one browser with a fresh profile, whose page must never log an error or lose a request.
+// A visitor: a fresh profile of the browser, whose page must never log an error or lose a request.
 import assert from 'node:assert/strict'
 import { mkdirSync } from 'node:fs'
 import { join } from 'node:path'
+import { after } from 'node:test'
 import { AxeBuilder } from '@axe-core/playwright'
 import { chromium } from 'playwright-core'
 
@@ -11,10 +12,14 @@ const pictures = process.env.OCB_E2E_PICTURES ?? 'pictures'
 // Software WebGL: the machine that runs the tests has no graphics card. Chromium's own sandbox needs a user that is not root.
 const FLAGS = ['--no-sandbox', '--disable-dev-shm-usage', '--use-angle=swiftshader', '--enable-unsafe-swiftshader']
 
-/** Opens a browser for test `t`, on the service of the journeys or the one at `base`; it is closed, and its problems are asserted to be none, when the test ends. */
+// One browser for all visitors of a file, started by the first: to start one takes longer than most of them stay.
+let browser
+const opened = () => (browser ??= chromium.launch({ executablePath: process.env.OCB_CHROMIUM ?? '/usr/bin/chromium', headless: true, args: FLAGS }))
+after(async () => (await browser)?.close())
+
+/** Opens a profile for test `t`, on the service of the journeys or the one at `base`; it is closed, and its problems are asserted to be none, when the test ends. */
 export async function visitor(t, { scheme = 'light', width = 1280, height = 900, base = url } = {}) {
-  const browser = await chromium.launch({ executablePath: process.env.OCB_CHROMIUM ?? '/usr/bin/chromium', headless: true, args: FLAGS })
-  const context = await browser.newContext({ colorScheme: scheme, viewport: { width, height }, acceptDownloads: true })
+  const context = await (await opened()).newContext({ colorScheme: scheme, viewport: { width, height }, acceptDownloads: true })
   context.setDefaultTimeout(30_000)
   const page = await context.newPage()
   const problems = []
@@ -27,7 +32,7 @@ export async function visitor(t, { scheme = 'light', width = 1280, height = 900,
   })
   page.on('response', (r) => r.status() >= 400 && problems.push(`response: ${r.status()} ${r.url()}`))
   t.after(async () => {
-    await browser.close()
+    await context.close()
     assert.deepEqual(problems.filter((p) => ![...expected].some((part) => p.includes(part))), [], 'the page must be free of errors')
   })
   return {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""rust.py [WORD...]: runs the test programs of the workspace, or those that a word names, two side by side.
+"""rust.py [WORD...]: runs the test programs of the workspace, or those that a word names, side by side: two, or more that mostly wait.
 
 Prints what `cargo test --workspace --no-fail-fast` prints: each program's output as a whole, once it has ended, and for each
 that fails the command that repeats it. programs.toml says which may run beside which. Ends with 1 if one failed.
@@ -19,7 +19,8 @@ from typing import IO
 
 root = Path(__file__).resolve().parents[2]
 cargo = ["cargo", "test", "--release", "--workspace"]
-LANES = 2
+# Two programs side by side; one that mostly waits leaves half of its place to another.
+PLACES = 2
 
 
 @dataclass
@@ -97,6 +98,11 @@ def beside(one: str, other: str) -> bool:
     return "alone" not in (one, other) and {one, other} != {"measures", "computes"}
 
 
+def place(program: Program) -> float:
+    """How much of the places it takes."""
+    return 0.5 if program.kind == "waits" else 1
+
+
 def run(waiting: list[Program]) -> list[Program]:
     """Those that failed. The longest starts first that may run beside what runs."""
     running: dict[int, Program] = {}
@@ -104,8 +110,9 @@ def run(waiting: list[Program]) -> list[Program]:
     failed = []
     try:
         while waiting or running:
-            fitting = (p for p in waiting if all(beside(p.kind, other.kind) for other in running.values()))
-            if len(running) < LANES and (program := next(fitting, None)):
+            free = PLACES - sum(map(place, running.values()))
+            fitting = (p for p in waiting if place(p) <= free and all(beside(p.kind, other.kind) for other in running.values()))
+            if program := next(fitting, None):
                 waiting.remove(program)
                 program.start()
                 running[program.process.pid] = program

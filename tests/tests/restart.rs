@@ -15,13 +15,16 @@ static DATA: LazyLock<Mutex<PathBuf>> = LazyLock::new(|| {
     if data.exists() {
         std::fs::remove_dir_all(&data).expect("the folder of the last time goes");
     }
-    Guest::default().wait_for_quiet(&Service::start(&data));
+    Guest::default().wait_for_quiet(&Service::start_with(&data, &PLUGINS));
     Mutex::new(data)
 });
 
+/// Those that are measured.
+const PLUGINS: [&str; 3] = ["libocb_brute_force.so", "libocb_box_tree.so", "libocb_parry.so"];
+
 fn spec(count: u32) -> Value {
     json!({
-        "object_a": "stock:torus-knot@8000", "query": "proximity", "passes": 2, "budget_seconds": 1,
+        "object_a": "stock:torus-knot@2000", "query": "proximity", "passes": 2, "budget_seconds": 0.5,
         "method": { "kind": "sphere", "sampling": { "kind": "count", "count": count } },
         "algorithms": ["brute-force", "box-tree", "parry"],
     })
@@ -54,13 +57,13 @@ fn finishes_after_a_kill(what: &str, count: u32, there: impl Fn(&Value) -> bool)
     let data = DATA.lock().unwrap_or_else(PoisonError::into_inner);
     let guest = Guest::default();
     for _ in 0..20 {
-        let service = Service::start(&data);
+        let service = Service::start_with(&data, &PLUGINS);
         let id = guest.submit(&service, &spec(count));
         let seen = guest.wait(&service, &id, what, |run| there(run) || run["state"] == "done");
         let runners = descendants(service.pid());
         service.kill();
         assert_gone(&runners);
-        let service = Service::start(&data);
+        let service = Service::start_with(&data, &PLUGINS);
         let run =
             guest.wait(&service, &id, "the run to end", |r| !["queued", "running"].iter().any(|s| r["state"] == *s));
         assert_complete(&run);
@@ -122,7 +125,7 @@ fn killed_while_aggregating() {
 #[test]
 fn a_killed_runner_is_marked_and_the_next_algorithm_goes_on() {
     let data = DATA.lock().unwrap_or_else(PoisonError::into_inner);
-    let (guest, service) = (Guest::default(), Service::start(&data));
+    let (guest, service) = (Guest::default(), Service::start_with(&data, &PLUGINS));
     let id = guest.submit(&service, &spec(300));
     guest.wait(&service, &id, "brute-force is measured", |r| {
         stage_state(r, "measuring", Some("brute-force")) == "running"

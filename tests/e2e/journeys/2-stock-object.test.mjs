@@ -1,6 +1,5 @@
 // From a stock object to a picked value: builder, live page, explorer.
 import assert from 'node:assert/strict'
-import { existsSync } from 'node:fs'
 import { test } from 'node:test'
 import { runId, until, visitor } from '../visitor.mjs'
 
@@ -81,15 +80,15 @@ test('a stock object becomes a heatmap whose picked value is the API\'s', async 
   await build(v, 600)
   await v.at('query-cd').click()
   await v.at('contacts-first').click()
-  // Without those that approximate: what is wrong with them is known, and not every object is for them.
-  const approximates = (id) => existsSync(new URL(`../../../plugins/${id}/known-failures.txt`, import.meta.url))
-  for (const { id } of await v.api('/algorithms')) if (approximates(id)) await v.at(`algorithm-${id}`).uncheck()
+  // A few exact ones: each more is seven processes. That every plugin answers as it should is shown by `ocb plugin check`.
+  const measured = ['box-tree', 'brute-force', 'bullet', 'ocb-fast', 'parry']
+  for (const { id } of await v.api('/algorithms')) await v.at(`algorithm-${id}`).setChecked(measured.includes(id))
   await v.at('start').click()
   const id = await runId(v.page)
 
   const run = await v.api(`/runs/${id}`)
-  for (const lane of ['lane-object', 'lane-configurations', ...run.spec.algorithms.map((a) => `lane-measuring-${a}`), 'lane-heatmap']) {
-    await v.at(lane).waitFor({ state: 'attached' })
+  for (const stage of ['stage-object', 'stage-configurations', ...run.spec.algorithms.map((a) => `stage-measuring-${a}`), 'stage-heatmap']) {
+    await v.at(stage).waitFor({ state: 'attached' })
   }
   await v.picture('live')
   await v.at('viewer-0').waitFor({ timeout: 120_000 })

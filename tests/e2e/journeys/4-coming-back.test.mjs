@@ -21,7 +21,7 @@ test('closing the tab loses nothing, a second guest sees the queue, and cancel e
   const id = await startLong(first)
   await first.at('cancel').waitFor()
   await first.page.reload()
-  await first.at('lane-configurations').waitFor()
+  await first.at('stage-configurations').waitFor()
   await first.go('/')
   await first.page.locator(`a[href*="${id}"]`).first().waitFor()
 
@@ -32,7 +32,7 @@ test('closing the tab loses nothing, a second guest sees the queue, and cancel e
   await second.picture('waiting')
   // Somebody else's link shows the run but offers no Cancel.
   await second.go(`/r/${id}`)
-  await second.at('lane-object').waitFor()
+  await second.at('stage-object').waitFor()
   assert.equal(await second.at('cancel').count(), 0, 'a stranger cannot cancel')
 
   await second.go(`/r/${waiting}`)

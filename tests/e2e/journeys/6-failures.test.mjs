@@ -110,6 +110,7 @@ test('failures stand on the object, zero as zero, and are subtracted, brushed, l
   await v.at('selection-remove-0').click()
 
   // What is written by hand: wrong answers, and a sentence for what cannot be read.
+  v.expectRefusal('where=wrong%20of%20parry-f32%20%26')
   await v.at('selection-where').fill('wrong of parry-f32 &')
   await v.at('selection-add').click()
   assert.match(await v.at('selection-refusal').textContent(), /character 21/)

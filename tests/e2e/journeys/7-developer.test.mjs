@@ -28,7 +28,7 @@ async function submit(v, file, version) {
   const fields = { name: 'All pairs', version, authors: 'Ada', license: 'MIT OR Apache-2.0', source: 'https://example.org/all-pairs' }
   for (const [field, text] of Object.entries(fields)) await v.at(`manifest-${field}`).fill(text)
   if (version === '0.9') {
-    await v.accessible('the form of a submission')
+    await v.accessible('the form of a submitted plugin')
     await v.picture('submit')
   }
   await v.at('submit-plugin').click()

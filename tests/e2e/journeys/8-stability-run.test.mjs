@@ -1,6 +1,10 @@
 // A visitor has an algorithm tested: starts a stability run, sees its place and progress, cancels one, and opens the result of another.
 import assert from 'node:assert/strict'
+import { mkdtempSync, rmSync } from 'node:fs'
+import { tmpdir } from 'node:os'
+import { join } from 'node:path'
 import { test } from 'node:test'
+import { built, startService } from '../service.mjs'
 import { enter, until, visitor } from '../visitor.mjs'
 
 const FAMILY = 'vertex-face'
@@ -85,4 +89,33 @@ test('two runs wait for each other and are cancelled by their owner and by a cur
   await v.at('stability-runs').locator(`[data-run="${first}"]`).getByText('cancelled').waitFor()
   const { done, total } = await v.api(`/stability-runs/${first}`)
   assert.ok(done < total)
+})
+
+test('a run whose service was killed continues behind the tests that were done', async (t) => {
+  const data = mkdtempSync(join(tmpdir(), 'ocb-stability-'))
+  t.after(() => rmSync(data, { recursive: true, force: true }))
+  const options = ['--plugins', built('libocb_box_tree.so')]
+  const first = await startService({ data, options })
+  t.after(first.kill)
+  const v = await visitor(t, { base: first.url })
+  v.expectRefusal(`${first.url}/api/v1/stability-runs/`)
+  const id = await start(v, 'box-tree', 'families')
+  const before = await until('some tests to be done', async () => {
+    const run = await v.api(`/stability-runs/${id}`)
+    return run.done > 1 && run
+  })
+  await first.kill()
+  await v.page.getByRole('alert').first().waitFor()
+
+  // The open page follows the run as soon as there is a service again.
+  const second = await startService({ data, options, url: first.url })
+  t.after(second.stop)
+  const after = await v.api(`/stability-runs/${id}`)
+  assert.ok(after.done >= before.done && after.done < after.total, `${before.done}, then ${after.done} of ${after.total}`)
+  await until('the run to end', async () => (await state(v)) === 'done')
+  assert.equal(await v.page.getByRole('alert').count(), 0)
+  const { done, total, result } = await v.api(`/stability-runs/${id}`)
+  assert.deepEqual([done, result.families.length], [total, total])
+  // The results from before the kill are unchanged.
+  assert.deepEqual(result.families.slice(0, before.done), before.result.families.slice(0, before.done))
 })

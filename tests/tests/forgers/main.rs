@@ -3,7 +3,8 @@
 //! of the same work do not reach. The honest ones keep their rank.
 //!
 //! `OCB_FORGERS` says how many runs to make; without it a slice of the grossest forgers is measured. A campaign goes on where it
-//! ended when `OCB_FORGERS_KEPT` names a file for its results. `OCB_FORGERS_ONLY=NAME,NAME` leaves out the other forgers.
+//! ended when `OCB_FORGERS_KEPT` names a file for its results. `OCB_FORGERS_ONLY=NAME,NAME` leaves out the other
+//! forgers, and `OCB_FORGERS_AT=300ns:one-busy-cpu` all runs but those of one class and condition.
 
 mod bench;
 mod judge;
@@ -28,8 +29,9 @@ fn forgers_gain_nothing_and_honest_twins_keep_their_rank() {
     let kit = Kit::new(folder.path());
     objects::write(folder.path());
     let (mut ledger, mut kept) = (Ledger::default(), Kept::open());
-    let only = std::env::var("OCB_FORGERS_ONLY").ok();
-    let runs = rounds.map_or_else(plan::slice, |rounds| plan::campaign(rounds, only.as_deref()));
+    let [only, at] = ["OCB_FORGERS_ONLY", "OCB_FORGERS_AT"].map(|name| std::env::var(name).ok());
+    let runs =
+        rounds.map_or_else(plan::slice, |rounds| plan::campaign(rounds, only.as_deref(), at.as_deref().map(plan::At)));
     for (i, run) in (1..).zip(runs) {
         let begun = Instant::now();
         let results = kept.next(|| bench::measure(folder.path(), &kit, &run));

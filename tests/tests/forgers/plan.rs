@@ -73,10 +73,26 @@ pub fn slice() -> Vec<Run> {
 /// After so many runs every algorithm was measured under all conditions.
 pub const CYCLE: usize = 64;
 
+/// `CLASS:CONDITION` of those runs of a campaign that are made, as `300ns:one-busy-cpu`.
+#[derive(Clone, Copy, Debug)]
+pub struct At<'a>(pub &'a str);
+
+impl At<'_> {
+    fn takes(self, run: &Run) -> bool {
+        let condition = match (run.condition.one_cpu, run.condition.busy) {
+            (false, false) => "quiet",
+            (false, true) => "busy",
+            (true, false) => "one-cpu",
+            (true, true) => "one-busy-cpu",
+        };
+        run.classes.iter().any(|class| self.0 == format!("{}:{condition}", class.name()))
+    }
+}
+
 /// So many runs, every algorithm in turn under all conditions. The honest ones and those that disturb others are in every run, of
 /// the rest half: a campaign is there to see the honest ones often, and takes half of the time so. Of `only` these forgers all are
-/// in every run, so that their medians are known sooner.
-pub fn campaign(runs: usize, only: Option<&str>) -> Vec<Run> {
+/// in every run, so that their medians are known sooner; `at` leaves out all other runs, for the same reason.
+pub fn campaign(runs: usize, only: Option<&str>, at: Option<At>) -> Vec<Run> {
     let parts = [
         (Class::Us20, Question::Collision),
         (Class::Ns300, Question::Collision),
@@ -106,7 +122,8 @@ pub fn campaign(runs: usize, only: Option<&str>) -> Vec<Run> {
             twin_of_the_reference: i % 7 == 6,
         }
     };
-    (0..runs).map(one).collect()
+    assert!(at.is_none_or(|at| (0..CYCLE).map(one).any(|run| at.takes(&run))), "OCB_FORGERS_AT names no runs: {at:?}");
+    (0..).map(one).filter(|run| at.is_none_or(|at| at.takes(run))).take(runs).collect()
 }
 
 /// One half of the kit or the other, in the order of the library, with those that belong into every run.
@@ -135,7 +152,7 @@ fn slow_ones() -> Vec<&'static str> {
 
 #[test]
 fn a_soak_reaches_every_algorithm_under_all_conditions() {
-    let runs = campaign(CYCLE, None);
+    let runs = campaign(CYCLE, None, None);
     for name in kit::all() {
         for (one_cpu, busy) in [(false, false), (false, true), (true, false), (true, true)] {
             let condition = Condition { one_cpu, busy };

@@ -4,7 +4,7 @@ use ocb_core::configuration::Configuration;
 use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
 
-use super::support::{Contestant, configurations, hit, mesh};
+use super::support::{Algorithm, configurations, hit, mesh};
 
 /// Gaps, and as negative numbers depths; the objects' bounding boxes have diagonal 1.
 const GAPS: [f64; 8] = [1e-6, -1e-6, 1e-8, -1e-8, 1e-10, -1e-10, 1e-12, -1e-12];
@@ -32,8 +32,8 @@ fn at_gap(pair: &Pair<'_>, name: &str, gap: f64) -> Vec<Configuration> {
     found
 }
 
-fn wrong(contestant: &Contestant, mesh: &Mesh, gaps: &[(f64, Vec<Configuration>)]) -> Vec<usize> {
-    let mut session = contestant.start(mesh, None);
+fn wrong(algorithm: &Algorithm, mesh: &Mesh, gaps: &[(f64, Vec<Configuration>)]) -> Vec<usize> {
+    let mut session = algorithm.start(mesh, None);
     let mut of = |gap: f64, all: &[Configuration]| all.iter().filter(|c| hit(&mut session, c) != (gap < 0.0)).count();
     gaps.iter().map(|(gap, all)| of(*gap, all)).collect()
 }
@@ -44,11 +44,11 @@ pub fn rows(name: &str) -> Vec<(String, Vec<usize>)> {
     let shape = Shape::new(mesh.clone());
     let pair = Pair::new(&shape, &shape);
     let gaps: Vec<_> = GAPS.iter().map(|gap| (*gap, at_gap(&pair, name, *gap))).collect();
-    let plain = ["box-tree", "bullet", "cgal", "coal"].map(Contestant::plain);
-    let others = ["embree", "fcl", "ode", "parry"].map(Contestant::plain);
-    let tolerances = [1e-6, 1e-12].map(|tolerance| Contestant::with("coal", "gjk_tolerance", tolerance));
+    let plain = ["box-tree", "bullet", "cgal", "coal"].map(Algorithm::plain);
+    let others = ["embree", "fcl", "ode", "parry"].map(Algorithm::plain);
+    let tolerances = [1e-6, 1e-12].map(|tolerance| Algorithm::with("coal", "gjk_tolerance", tolerance));
     let all = plain.into_iter().chain(tolerances).chain(others);
-    all.map(|contestant| (contestant.name(), wrong(&contestant, &mesh, &gaps))).collect()
+    all.map(|algorithm| (algorithm.name(), wrong(&algorithm, &mesh, &gaps))).collect()
 }
 
 /// False collisions of Bullet among the configurations of W1, as the file winds its triangles and the other way round.
@@ -57,7 +57,7 @@ pub fn winding(name: &str) -> [usize; 2] {
     let turned = as_read.triangles().iter().map(|[a, b, c]| [*a, *c, *b]).collect();
     let turned = Mesh::new(as_read.positions().to_vec(), turned).expect("as valid as before");
     [&*as_read, &turned].map(|mesh| {
-        let mut session = Contestant::plain("bullet").start(mesh, None);
+        let mut session = Algorithm::plain("bullet").start(mesh, None);
         configurations(&format!("{name}.W1"), 1000 / COUNT).iter().filter(|(_, c)| hit(&mut session, c)).count()
     })
 }

@@ -6,7 +6,7 @@ use ocb_core::mesh::Mesh;
 use ocb_core::pose::Pose;
 use ocb_tests::place::shared;
 
-use super::support::{Contestant, distance, hit};
+use super::support::{Algorithm, distance, hit};
 
 /// Those that answer both questions.
 const ALGORITHMS: [&str; 4] = ["box-tree", "coal", "fcl", "parry"];
@@ -58,7 +58,7 @@ fn asked(algorithm: &'static str, single: &Single, scale: f64) -> (bool, f64) {
     let soup =
         |t: &[Point3<f64>; 3]| Mesh::new(t.iter().map(|p| p * scale).collect(), vec![[0, 1, 2]]).expect("a triangle");
     let [a, b] = [soup(&single.triangles[0]), soup(&single.triangles[1])];
-    let mut session = Contestant::plain(algorithm).start(&a, Some(&b));
+    let mut session = Algorithm::plain(algorithm).start(&a, Some(&b));
     let still = Configuration { pose_a: Pose::identity(), pose_b: Pose::identity() };
     (hit(&mut session, &still), distance(&mut session, &still))
 }

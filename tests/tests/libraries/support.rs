@@ -22,12 +22,12 @@ pub fn library(name: &str) -> PathBuf {
 
 /// An algorithm with settings, e.g. `coal` with `gjk_tolerance` 1e-6.
 #[derive(Clone, Debug)]
-pub struct Contestant {
+pub struct Algorithm {
     pub id: &'static str,
     pub settings: Vec<(String, f64)>,
 }
 
-impl Contestant {
+impl Algorithm {
     pub fn plain(id: &'static str) -> Self {
         Self { id, settings: Vec::new() }
     }

@@ -4,7 +4,7 @@ use ocb_core::configuration::Configuration;
 use ocb_core::mesh::Mesh;
 use ocb_core::pose::Pose;
 
-use super::support::{Contestant, configurations, hit, mesh};
+use super::support::{Algorithm, configurations, hit, mesh};
 
 const OBJECT: &str = "bunny65k";
 /// The powers of two by which the scene is multiplied, which rounds nothing.
@@ -22,9 +22,9 @@ fn moved(pose: &Pose, by: f64) -> Pose {
 }
 
 /// False collisions among configurations that are 1e-4 apart, and missed ones among such that meet.
-fn wrong(contestant: &Contestant, mesh: &Mesh, power: i32) -> [usize; 2] {
+fn wrong(algorithm: &Algorithm, mesh: &Mesh, power: i32) -> [usize; 2] {
     let by = 2f64.powi(power);
-    let mut session = contestant.start(&scaled(mesh, by), None);
+    let mut session = algorithm.start(&scaled(mesh, by), None);
     [("W1", false), ("W3", true)].map(|(set, meets)| {
         let all = configurations(&format!("{OBJECT}.{set}"), 1000 / COUNT);
         let wrong = |(_, c): &&(usize, Configuration)| {
@@ -46,10 +46,10 @@ pub fn table() -> String {
     SCALES.iter().for_each(|power| text += &format!(" 2^{power} |"));
     text += &format!("\n| --- |{}\n", " ---: |".repeat(SCALES.len()));
     let mesh = mesh(OBJECT);
-    for contestant in ["box-tree", "bullet", "cgal", "coal", "embree", "fcl", "ode", "parry"].map(Contestant::plain) {
-        text += &format!("| `{}` |", contestant.name());
+    for algorithm in ["box-tree", "bullet", "cgal", "coal", "embree", "fcl", "ode", "parry"].map(Algorithm::plain) {
+        text += &format!("| `{}` |", algorithm.name());
         for power in SCALES {
-            let [alarms, missed] = wrong(&contestant, &mesh, power);
+            let [alarms, missed] = wrong(&algorithm, &mesh, power);
             text += &format!(" {alarms} / {missed} |");
         }
         text += "\n";

@@ -11,6 +11,7 @@ const EXPLAINED: [(&str, &str); 0] = [];
 async fn ocb_fast_fails_nowhere_within_the_promise() {
     let (engine, _folder) = engine(vec![built("libocb_fast.so")]).await;
     let all = tried(&engine, "ocb-fast", &[]).await;
+    assert_eq!((all.families.len(), all.relations.len()), (28, 17));
     let table = engine.stability().await.expect("a table");
     assert_eq!(table.methods.len(), 1, "the whole run is kept");
     let beyond = |id: &str| table.families.iter().any(|family| family.id == id && family.beyond);

@@ -93,6 +93,8 @@ const HIERARCHY: &str = "ocb-hierarchy";
 const FIELDS: &str = "ocb-fields";
 /// The methods that the advisor compares with, and their plugins export.
 const METHODS: &str = "ocb-methods";
+/// The program that calls these methods and meshopt, in the jail.
+const ADVISOR: &str = "ocb-advisor";
 /// Sixteen numbers at once. It knows nothing of ours either.
 const LANES: &str = "ocb-lanes";
 /// The methods of ocb-fast and simdop, which ocb-auto chooses from.
@@ -141,17 +143,18 @@ fn a_crate_depends_only_on_what_is_listed_for_it() {
         ("ocb-core", &[]),
         ("ocb-chart", &[]),
         ("ocb-citation", &[]),
-        ("ocb-advisor", &["ocb-core", METHODS, PLUGIN_API]),
+        ("ocb-advice", &["ocb-core"]),
+        (ADVISOR, &["ocb-advice", "ocb-core", "ocb-sandbox", METHODS, PLUGIN_API]),
         ("ocb-sandbox", &["ocb-core", PLUGIN_API]),
         ("ocb-stability", &["ocb-core"]),
-        ("ocb-model", &["ocb-advisor", "ocb-chart", "ocb-core", "ocb-stability"]),
+        ("ocb-model", &["ocb-advice", "ocb-chart", "ocb-core", "ocb-stability"]),
         ("ocb-lab", &["ocb-core", "ocb-model", "ocb-sandbox", "ocb-stability"]),
         (
             "ocb-service",
-            &["ocb-advisor", "ocb-chart", "ocb-citation", "ocb-core", "ocb-lab", "ocb-model", "ocb-sandbox"],
+            &["ocb-advice", "ocb-chart", "ocb-citation", "ocb-core", "ocb-lab", "ocb-model", "ocb-sandbox"],
         ),
         ("ocb-server", &["ocb-core", "ocb-service"]),
-        ("ocb-cli", &["ocb-core", "ocb-advisor", "ocb-service", "ocb-server"]),
+        ("ocb-cli", &["ocb-core", "ocb-advice", "ocb-service", "ocb-server"]),
         ("ocb-tests", &["ocb-chart", "ocb-core", "ocb-sandbox", "ocb-service", "ocb-server", "ocb-cli", PLUGIN_API]),
     ]);
     may.extend(PLUGINS.map(|p| (p, &[PLUGIN_API, TRIANGLES, HIERARCHY, WIDE, FIELDS, METHODS] as &[&str])));
@@ -176,6 +179,19 @@ fn the_lab_knows_no_store_no_account_and_nothing_of_http() {
     assert!(known.is_empty(), "{known:?}");
 }
 
+/// They are called in a jailed program of their own.
+#[test]
+fn server_and_command_hold_no_library_of_the_advisor() {
+    let metadata = metadata();
+    let foreign =
+        |name: &String| name == "meshopt" || name.starts_with("parry3d") || name == METHODS || name == ADVISOR;
+    let of = |name: &str| closure(&metadata, name).into_iter().filter(foreign).collect::<BTreeSet<String>>();
+    assert!(of(ADVISOR).len() > 3, "the test sees no dependencies at all");
+    for name in ["ocb-cli", "ocb-server", "ocb-lab"] {
+        assert_eq!(of(name), BTreeSet::new(), "{name} is built with what runs in the jail alone");
+    }
+}
+
 #[test]
 fn only_the_sandbox_can_load_a_library() {
     for (name, needs) in dependencies(&metadata()) {
@@ -187,7 +203,7 @@ fn only_the_sandbox_can_load_a_library() {
 }
 
 #[test]
-fn the_oracle_shares_no_code_with_a_contestant() {
+fn the_oracle_shares_no_code_with_an_algorithm() {
     let metadata = metadata();
     let core = closure(&metadata, "ocb-core");
     assert!(core.contains("nalgebra"), "the test sees no dependencies at all");

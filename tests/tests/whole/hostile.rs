@@ -22,8 +22,8 @@ const PLUGINS: [&str; 2] = ["libocb_box_tree.so", "libocb_brute_force.so"];
 /// Runs that wait when the hostile visitors come: of so many owners, and of each as many as a guest may have.
 const OWNERS: [u64; 2] = [2, 500];
 const RUNS_OF_EACH: u64 = 20;
-/// Networks of the hostile visitors.
-const ADDRESSES: u64 = 8;
+/// Networks of the hostile visitors, in a slice and in the campaign.
+const ADDRESSES: [u64; 2] = [4, 8];
 const SLOW_SENDERS: usize = 50;
 /// What the honest visitor looks at, below the address of the service.
 const LOOKED_AT: [&str; 6] =
@@ -40,13 +40,13 @@ type Answers = Mutex<BTreeMap<u16, u64>>;
 fn one_honest_visitor_goes_on_beside_hostile_ones() {
     let _alone = alone();
     let minutes = asked("OCB_HOSTILE_MINUTES", 0);
-    let owners = OWNERS[usize::from(minutes > 0)];
+    let [owners, addresses] = [OWNERS, ADDRESSES].map(|of| of[usize::from(minutes > 0)]);
     let data = empty("hostile");
     let service = Service::start_with(&data, &PLUGINS);
     let honest = Guest::from_address("198.51.100.7");
     honest.wait_for_quiet(&service);
     // Something is measured then, too.
-    let long = honest.submit(&service, &run(200_000, 60.0));
+    let long = honest.submit(&service, &run(20_000, 60.0));
     honest.wait(&service, &long, "it is measured", |run| run["state"] == "running");
     let quiet: Vec<f64> = (0..20).map(|_| journey(&honest, &service)).collect();
     honest.post(&service, &format!("/runs/{long}/cancel"), &json!({}));
@@ -56,14 +56,14 @@ fn one_honest_visitor_goes_on_beside_hostile_ones() {
     let service = Service::start_with(&data, &PLUGINS);
     let (stop, answers) = (AtomicBool::new(false), Answers::default());
     let (beside, turns) = std::thread::scope(|scope| {
-        for number in 0..ADDRESSES {
+        for number in 0..addresses {
             let (service, stop, answers) = (&service, &stop, &answers);
             scope.spawn(move || flood(service, number, stop, answers));
         }
         scope.spawn(|| send_slowly(&service, &stop));
         // Also when something fails below.
         let _ended = Ended(&stop);
-        let turns = scope.spawn(|| turns(&service, owners, minutes, &stop, &answers));
+        let turns = scope.spawn(|| turns(&service, owners + addresses, minutes, &stop, &answers));
         let mut beside = Vec::new();
         while !turns.is_finished() {
             beside.push(journey(&honest, &service));
@@ -77,7 +77,7 @@ fn one_honest_visitor_goes_on_beside_hostile_ones() {
     println!(
         "{} hostile visitors, {} runs waiting: a journey of the honest one took {before:.1} ms before (n = {}), {during:.1} ms \
          beside them (n = {}); {turns} runs of theirs had their turn; the others were answered {answers:?}; at most {} MiB",
-        ADDRESSES + SLOW_SENDERS as u64,
+        addresses + SLOW_SENDERS as u64,
         owners * RUNS_OF_EACH,
         quiet.len(),
         beside.len(),
@@ -140,10 +140,10 @@ fn journey(honest: &Guest, service: &Service) -> f64 {
 }
 
 /// Runs of a second honest visitor, one after the other, each of which has to start in its turn; how many there were.
-fn turns(service: &Service, owners: u64, minutes: u64, stop: &AtomicBool, answers: &Answers) -> usize {
+fn turns(service: &Service, others: u64, minutes: u64, stop: &AtomicBool, answers: &Answers) -> usize {
     let honest = Guest::from_address("198.51.100.8");
     // Every other visitor has one turn before it, and one run is under way; one more may come between two looks.
-    let most = owners + ADDRESSES + 2;
+    let most = others + 2;
     let (begun, mut done) = (Instant::now(), 0);
     let refused = || answers.lock().unwrap_or_else(PoisonError::into_inner).contains_key(&429);
     let lasting = || begun.elapsed() < Duration::from_secs(60 * minutes) || !refused() && begun.elapsed() < TO_A_LIMIT;

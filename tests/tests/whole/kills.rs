@@ -6,15 +6,16 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use ocb_tests::place::built;
+use ocb_tests::place::{built, root};
 use ocb_tests::process::{command, output};
 use ocb_tests::service::{Guest, Service, add_account};
 use serde_json::{Value, json};
 
 use crate::{alone, asked, empty};
 
-/// Ours, but not installed on this service: somebody's plugin, as far as it knows.
-const PLUGIN: &str = "libocb_sphere_tree.so";
+/// The template in C, somebody's plugin: it answers one kind of question, and its check takes a third of the time of one that
+/// answers all.
+const ALGORITHM: &str = "my-algorithm-c";
 const INSTALLED: [&str; 2] = ["libocb_box_tree.so", "libocb_brute_force.so"];
 
 /// Times that the service is killed during one version's life, and of these during its check: one that was begun three times is given
@@ -54,8 +55,8 @@ struct Steps {
 
 fn manifest(version: u64) -> Value {
     json!({
-        "name": "Sphere tree", "version": version.to_string(), "authors": "Somebody", "license": "MIT OR Apache-2.0",
-        "source": "https://example.org/tree", "queries": ["collision_first", "collision_all", "proximity"],
+        "name": "All pairs", "version": version.to_string(), "authors": "Somebody", "license": "MIT OR Apache-2.0",
+        "source": "https://example.org/all-pairs", "queries": ["collision_first"],
     })
 }
 
@@ -180,7 +181,7 @@ fn assert_told(plugin: &Value) {
 
 fn offered(people: &People, service: &Service) -> bool {
     let all = people.guest.get(service, "/algorithms");
-    all.as_array().expect("algorithms").iter().any(|a| a["id"] == "sphere-tree")
+    all.as_array().expect("algorithms").iter().any(|a| a["id"] == ALGORITHM)
 }
 
 /// Starts again after a kill; the audit log must be whole.
@@ -226,9 +227,18 @@ fn sent(people: &People, service: &Service, manifest: &Value, bytes: &[u8]) -> V
     }
 }
 
+/// The plugin.
+fn compiled(folder: &Path) -> Vec<u8> {
+    let (source, library) = (root().join("plugin-api/templates/c/my_plugin.c"), folder.join("all-pairs.so"));
+    let mut cc = command("cc");
+    cc.args(["-std=c11", "-O2", "-fPIC", "-shared", "-fvisibility=hidden", "-ffp-contract=off", "-I"]);
+    output(cc.arg(root().join("plugin-api/include")).arg(source).arg("-o").arg(&library));
+    std::fs::read(library).expect("it is compiled")
+}
+
 /// Sends a version of the plugin and publishes it; its check is cut short `cuts` times, the first time perhaps before it began.
 fn publish(data: &Path, mut service: Service, people: &People, cuts: u64) -> (Service, String) {
-    let mut bytes = std::fs::read(built(PLUGIN)).expect("the plugin is built");
+    let mut bytes = compiled(data);
     let version = number();
     bytes.extend(version.to_le_bytes());
     let sent = sent(people, &service, &manifest(version), &bytes);

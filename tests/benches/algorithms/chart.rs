@@ -1,4 +1,4 @@
-//! The rows as a picture: one panel per object and workload, a line per contestant, time on a logarithmic axis.
+//! The rows as a picture: one panel per object and workload, a line per algorithm, time on a logarithmic axis.
 
 use ocb_chart::{Axis, Chart, Form, Point, Scale, Series, svg};
 
@@ -33,7 +33,7 @@ fn panel(title: String, mut members: Vec<&Row>, machine: &str) -> Chart {
         Some(Series { name, style: Some(0), form: Form::Line, points: vec![point] })
     };
     Chart {
-        kind: "contestants".into(),
+        kind: "algorithms".into(),
         title,
         finding: String::new(),
         x: Axis::new("median time per query with its 95 % interval (logarithmic)", "ns", Scale::Log),

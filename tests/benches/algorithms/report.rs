@@ -9,7 +9,7 @@ use ocb_core::query::Query;
 use ocb_service::model::{AlgorithmResult, RunInfo};
 use parquet::arrow::ArrowWriter;
 
-/// One contestant on one workload.
+/// One algorithm on one workload.
 pub struct Row {
     /// The object and its number of triangles.
     pub object: String,

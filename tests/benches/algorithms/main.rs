@@ -1,9 +1,9 @@
-//! All contestants, interleaved in one run per object and workload: the tables that show who is how fast at what.
+//! All algorithms, interleaved in one run per object and workload: the tables that show who is how fast at what.
 //!
-//! `cargo bench --bench contestants -- [--seconds S] [--count N] [--algorithm ID]... OBJECT...`; an object is a file or a stock
+//! `cargo bench --bench algorithms -- [--seconds S] [--count N] [--algorithm ID]... OBJECT...`; an object is a file or a stock
 //! object. Workloads: W1 almost touching (1e-4 of the longest side apart), W2 a tenth apart, W3 crossing by 5e-4 of
 //! the scene's size; poses beside an OBJ file, `NAME.W1.f64`, are taken in their place. Each is a run of the service like
-//! any other: in the jail, judged against certified truth. `target/contestants/` then holds the tables as Markdown and
+//! any other: in the jail, judged against certified truth. `target/algorithms/` then holds the tables as Markdown and
 //! Parquet and a chart as SVG.
 
 mod chart;
@@ -40,7 +40,7 @@ const WORKLOADS: [(&str, Separation, Query); 5] = [
 #[tokio::main]
 async fn main() -> Result<(), Box<dyn Error>> {
     let options = options()?;
-    let folder = built()?.join("../contestants");
+    let folder = built()?.join("../algorithms");
     fs::create_dir_all(&folder)?;
     let data = tempfile::tempdir()?;
     let config = EngineConfig {
@@ -50,7 +50,7 @@ async fn main() -> Result<(), Box<dyn Error>> {
     };
     let engine = Engine::open(config).await?;
     for problem in engine.status().await?.problems {
-        println!("contestants: {problem}");
+        println!("algorithms: {problem}");
     }
     let mut rows: Vec<Row> = Vec::new();
     let mut machine = String::new();
@@ -65,13 +65,13 @@ async fn main() -> Result<(), Box<dyn Error>> {
             }
             rows.extend(run.results.iter().map(|result| Row::of(&run, workload.0, result)));
             // After each run, so that nothing is lost when the next one is ended.
-            fs::write(folder.join("contestants.md"), report::markdown(&rows, &machine))?;
-            fs::write(folder.join("contestants.parquet"), report::parquet(&rows)?)?;
-            fs::write(folder.join("contestants.svg"), chart::svg(&rows, &machine))?;
+            fs::write(folder.join("algorithms.md"), report::markdown(&rows, &machine))?;
+            fs::write(folder.join("algorithms.parquet"), report::parquet(&rows)?)?;
+            fs::write(folder.join("algorithms.svg"), chart::svg(&rows, &machine))?;
         }
     }
     println!("{}", report::markdown(&rows, &machine));
-    println!("contestants: written to {}", folder.canonicalize()?.display());
+    println!("algorithms: written to {}", folder.canonicalize()?.display());
     engine.shutdown().await;
     Ok(())
 }
