@@ -75,12 +75,12 @@ check-oracle: ## the oracle against CGAL, integers and planted faults (some 20 m
 	cargo test $(CARGO_FLAGS) --test oracle -- --nocapture
 	tests/oracle-check/faults.py all
 
-bench: build ## every contestant side by side (OBJECTS=files), the clock, finding positions against peers, selections on a page
-	cargo bench --workspace --bench contestants -- $(abspath $(OBJECTS))
+bench: build ## every algorithm side by side (OBJECTS=files), the clock, finding positions against peers, first pictures and selections on pages
+	cargo bench --workspace --bench algorithms -- $(abspath $(OBJECTS))
 	cargo bench --workspace --bench timing
 	cargo bench --workspace --bench positions -- $(firstword $(abspath $(OBJECTS)) $(abspath target/stock/dragon.obj))
 	cargo bench --workspace --bench overhead -- $(firstword $(abspath $(OBJECTS)) $(abspath target/stock/dragon.obj))
-	npm --prefix tests/e2e ci --no-audit --no-fund && node tests/e2e/fluent.mjs
+	npm --prefix tests/e2e ci --no-audit --no-fund && node tests/e2e/first-picture.mjs && node tests/e2e/fluent.mjs
 
 soak: build ## fuzz the jail's readers and those of objects, try ten million pairs, then kill and restart the service for MINUTES (10)
 	tests/setup/soak.sh $(or $(MINUTES),10)
