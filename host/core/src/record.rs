@@ -97,6 +97,11 @@ impl Verdict {
     pub fn name(self) -> &'static str {
         Self::NAMES[self as usize].1
     }
+
+    /// The verdict of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::NAMES.into_iter().find(|(_, known)| *known == name).map(|(verdict, _)| verdict)
+    }
 }
 
 /// In how many primitive tests each triangle took part.

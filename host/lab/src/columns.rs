@@ -62,7 +62,7 @@ pub fn select(parquet: &[u8], chosen: &[bool]) -> Result<Vec<u8>> {
 }
 
 /// All rows of a Parquet file in batches, or why it is none.
-fn from_parquet(bytes: &[u8]) -> std::result::Result<(Arc<Schema>, Vec<RecordBatch>), String> {
+pub(crate) fn from_parquet(bytes: &[u8]) -> std::result::Result<(Arc<Schema>, Vec<RecordBatch>), String> {
     let bytes = parquet_bytes(bytes);
     let builder = ParquetRecordBatchReaderBuilder::try_new(bytes).map_err(|e| e.to_string())?;
     let schema = builder.schema().clone();
@@ -85,7 +85,7 @@ pub fn batch(metadata: HashMap<String, String>, columns: Vec<(&str, ArrayRef)>) 
 }
 
 /// A stored column of a known type.
-fn column<'a, T: 'static>(batch: &'a RecordBatch, name: &str) -> std::result::Result<&'a T, String> {
+pub(crate) fn column<'a, T: 'static>(batch: &'a RecordBatch, name: &str) -> std::result::Result<&'a T, String> {
     batch
         .column_by_name(name)
         .ok_or_else(|| format!("the column {name:?} is missing"))?

@@ -64,9 +64,13 @@ impl Recording {
     /// # Errors
     /// `Invalid`, with one sentence, for a file that is no recording, also for a scene without queries.
     pub fn read(path: &Path) -> Result<Self> {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Self::read_as(path, &path.file_name().unwrap_or_default().to_string_lossy())
+    }
+
+    /// The same for a file that its owner knows by another name.
+    pub fn read_as(path: &Path, name: &str) -> Result<Self> {
         let bad = |why: String| LabError::Invalid(format!("{name:?} is not a recording: {why}."));
-        let mut file = Reader::open(path)?;
+        let mut file = Reader::open_as(path, name)?;
         let scene = file.scene()?;
         let queries = file.other(QUERIES, MOST_QUERIES)?.ok_or_else(|| bad("it is a scene without queries".into()))?;
         let about = file.other(ABOUT, MOST_ABOUT)?.ok_or_else(|| bad(format!("{ABOUT} is missing")))?;

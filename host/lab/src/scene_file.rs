@@ -102,7 +102,12 @@ pub struct Reader {
 impl Reader {
     /// Opens it.
     pub fn open(path: &Path) -> Result<Self> {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Self::open_as(path, &path.file_name().unwrap_or_default().to_string_lossy())
+    }
+
+    /// The same for a file that its owner knows by another name.
+    pub fn open_as(path: &Path, name: &str) -> Result<Self> {
+        let name = name.to_owned();
         let file = given::open(path).map_err(|e| LabError::Invalid(format!("{name:?} cannot be opened: {e}.")))?;
         let bad = |why: String| LabError::Invalid(format!("{name:?} is not a scene: {why}."));
         let zip = ZipArchive::new(file).map_err(|e| bad(format!("it is not a zip archive ({e})")))?;

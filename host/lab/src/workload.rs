@@ -5,10 +5,13 @@
 //! primitive is given to them as a polyhedron around it.
 
 mod parts;
+mod posed;
 mod recorded;
 mod shapes;
+mod stretch;
 mod table;
 mod tally;
+mod timeline;
 
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -29,10 +32,13 @@ use crate::pairing::Pairing;
 use crate::recording::Recording;
 use crate::truth::on_all_cpus;
 use crate::{LabError, Result};
+pub use posed::{mesh_of, posed_group};
 use recorded::Truths;
 use shapes::{Solid, solids};
+pub use stretch::stretch;
 pub use table::{WorkloadRow, workload_parquet};
 use tally::Tally;
+use timeline::Parts;
 
 /// A part gets this time at least, however few queries it has.
 const LEAST: Duration = Duration::from_secs(1);
@@ -116,10 +122,13 @@ pub fn replay(
             .map(|(reason, count)| LeftOut { reason: reason.to_owned(), count }),
     );
     let names = recording.scene.scene.objects.iter().map(|object| &object.name);
+    let measured: Vec<(Track, &[Tally])> =
+        wanted.tracks.iter().zip(&tallies).map(|(track, tallies)| (*track, &tallies[..])).collect();
+    let timeline = Parts::of(&recording.queries).timeline(&judged.hits, &measured);
     let mut rows = Vec::new();
     let mut tracks = Vec::new();
     for (&track, tallies) in wanted.tracks.iter().zip(tallies) {
-        rows.extend(tallies.iter().flat_map(|tally| tally.rows(track)));
+        rows.extend(tallies.iter().flat_map(|tally| tally.rows(track, &judged.hits)));
         let algorithms = tallies.into_iter().map(|tally| tally.result(&recording.queries)).collect();
         tracks.push(TrackResult { track, algorithms });
     }
@@ -131,9 +140,10 @@ pub fn replay(
         queries,
         left_out,
         groups: recording.queries.iter().map(|query| query.group).collect::<HashSet<u64>>().len() as u64,
-        hits: judged.hits,
+        hits: judged.hits.iter().filter(|hit| **hit == Some(true)).count() as u64,
         recorded: judged.answers(),
         tracks,
+        timeline,
         passes: wanted.passes,
         seed: wanted.seed,
     };

@@ -6,8 +6,8 @@ use utoipa::ToSchema;
 /// What becomes of an account's things when it is deleted.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[schema(example = json!({
-    "goes": { "runs": 12, "objects": 3, "configurations": 2, "advice": 1, "stability": 1, "plugins": 1 },
-    "stays": { "runs": 2, "objects": 1, "configurations": 0, "advice": 0, "stability": 0, "plugins": 1 },
+    "goes": { "runs": 12, "objects": 3, "configurations": 2, "advice": 1, "stability": 1, "workloads": 1, "plugins": 1 },
+    "stays": { "runs": 2, "objects": 1, "configurations": 0, "advice": 0, "stability": 0, "workloads": 0, "plugins": 1 },
     "bytes": 7_340_032,
     "blocked_by": null
 }))]
@@ -35,6 +35,8 @@ pub struct OwnedCounts {
     pub advice: u32,
     /// Stability runs.
     pub stability: u32,
+    /// Workloads with their recordings.
+    pub workloads: u32,
     /// Plugins, each version by itself.
     pub plugins: u32,
 }

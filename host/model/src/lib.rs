@@ -42,6 +42,7 @@ mod truth;
 mod unranked;
 mod visibility;
 mod workload;
+mod workload_job;
 
 use ocb_core::configuration::{Class, Method, Sampling, Separation};
 use ocb_core::query::{Query, Semantics};
@@ -96,6 +97,10 @@ pub use visibility::{NewVisibility, Visibility};
 pub use workload::{
     AlgorithmOnWorkload, ClaimCount, EndedPair, FalseAnswer, GroupTimes, LeftOut, PairTime, RecordedAnswers, TotalTime,
     Track, TrackResult, WorkloadObject, WorkloadResult,
+};
+pub use workload_job::{
+    AlgorithmOnStretch, AtQuery, PosedGroup, PosedObject, RecordingInfo, Stretch, StretchResult, Timeline,
+    TimelineSeries, WorkloadInfo, WorkloadSpec,
 };
 
 /// What to measure.

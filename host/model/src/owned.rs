@@ -12,7 +12,7 @@ pub struct OwnedItem {
     pub name: String,
 }
 
-/// Runs, objects, saved configurations, advice and stability runs of one owner: all of them, or those that go with one of them.
+/// Runs, objects, saved configurations, advice, stability runs and workloads of one owner: all of them, or those that go with one of them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct OwnedItems {
     /// Runs with their results, newest first.
@@ -25,6 +25,8 @@ pub struct OwnedItems {
     pub advice: u32,
     /// How many stability runs.
     pub stability: u32,
+    /// How many workloads.
+    pub workloads: u32,
     /// Bytes of the stored files that go with them: those that nobody else uses.
     pub bytes: u64,
     /// When a guest's things go by themselves; absent for accounts, whose things stay.

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use crate::outcome::OutcomeInfo;
+use crate::workload_job::Timeline;
 
 /// In which order the queries of a pair are put.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
@@ -39,6 +40,8 @@ pub struct WorkloadResult {
     pub recorded: RecordedAnswers,
     /// What each algorithm does, in each order.
     pub tracks: Vec<TrackResult>,
+    /// The same along the recording.
+    pub timeline: Timeline,
     /// Processes per algorithm, order and pair of objects.
     pub passes: u32,
     /// Seed of the orders and of the equivalent instances.

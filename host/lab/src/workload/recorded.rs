@@ -15,8 +15,8 @@ const LISTED: usize = 100;
 /// The recorded answers that were judged so far.
 pub struct Truths<'a> {
     recording: &'a Recording,
-    /// Queries whose objects certainly collide, as surfaces.
-    pub hits: u64,
+    /// Of each query: do the objects certainly collide, as surfaces? Nothing for those that are not replayed.
+    pub hits: Vec<Option<bool>>,
     counts: [u64; Claim::NAMES.len()],
     largest_error: f64,
     false_answers: Vec<FalseAnswer>,
@@ -25,7 +25,13 @@ pub struct Truths<'a> {
 impl<'a> Truths<'a> {
     /// Nothing judged yet.
     pub fn new(recording: &'a Recording) -> Self {
-        Self { recording, hits: 0, counts: Default::default(), largest_error: 0.0, false_answers: Vec::new() }
+        Self {
+            recording,
+            hits: vec![None; recording.queries.len()],
+            counts: Default::default(),
+            largest_error: 0.0,
+            false_answers: Vec::new(),
+        }
     }
 
     /// Judges the answers to the queries of a part.
@@ -33,7 +39,7 @@ impl<'a> Truths<'a> {
         let solid = objects.map(|place| solids[place as usize].inner.is_some());
         let pair = certified.pairing.exact.pair();
         for (i, (&row, placed)) in certified.rows.iter().zip(&certified.set.placed).enumerate() {
-            self.hits += u64::from(placed.truth.hit);
+            self.hits[row as usize] = Some(placed.truth.hit);
             let recorded = &self.recording.queries[row as usize];
             let (outer, tau) = (placed.truth, pair.tau(&placed.configuration, U64));
             let inner = certified.inner.as_ref().map_or(outer, |inner| inner[i]);

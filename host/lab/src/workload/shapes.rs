@@ -36,7 +36,8 @@ pub fn solids(file: &SceneFile) -> Result<Vec<Solid>> {
     file.scene.objects.iter().map(|object| solid(file, &object.geometry)).collect()
 }
 
-fn solid(file: &SceneFile, geometry: &Geometry) -> Result<Solid> {
+/// One object.
+pub fn solid(file: &SceneFile, geometry: &Geometry) -> Result<Solid> {
     if let Geometry::Mesh { sha256 } = geometry {
         let mesh = file.meshes.get(sha256);
         let mesh = mesh.ok_or_else(|| LabError::Invalid(format!("The scene has no mesh {sha256}.")))?;

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use arrow_array::{ArrayRef, Float64Array, StringArray, UInt64Array};
+use arrow_array::{ArrayRef, BooleanArray, Float64Array, StringArray, UInt64Array};
 use ocb_core::record::Verdict;
 use ocb_core::workload::Recorded;
 
@@ -24,6 +24,17 @@ pub struct WorkloadRow {
     pub time_ns: f64,
     /// The gravest verdict of all processes.
     pub verdict: Verdict,
+    /// The objects certainly collide, as surfaces.
+    pub hit: bool,
+}
+
+/// Names of the orders in tables.
+const ORDERS: [(Track, &str); 2] = [(Track::Shuffled, "shuffled"), (Track::Recorded, "recorded")];
+
+/// The order of this name.
+pub fn track(name: &str) -> std::result::Result<Track, String> {
+    let known = ORDERS.iter().find(|(_, known)| *known == name);
+    known.map(|(track, _)| *track).ok_or_else(|| format!("{name:?} is no order"))
 }
 
 /// All of them as Parquet, with sequence, group and objects of each query.
@@ -34,9 +45,8 @@ pub fn workload_parquet(rows: &[WorkloadRow], queries: &[Recorded]) -> Result<Ve
     };
     let words =
         |of: &dyn Fn(&WorkloadRow) -> String| Arc::new(StringArray::from_iter_values(rows.iter().map(of))) as ArrayRef;
-    let track = |row: &WorkloadRow| match row.track {
-        Track::Shuffled => "shuffled".to_owned(),
-        Track::Recorded => "recorded".to_owned(),
+    let order = |row: &WorkloadRow| {
+        ORDERS.iter().filter(|(track, _)| *track == row.track).map(|(_, name)| *name).collect::<String>()
     };
     let metadata = HashMap::from([("opencollbench.schema".to_owned(), SCHEMA_VERSION.to_owned())]);
     let columns = vec![
@@ -46,9 +56,10 @@ pub fn workload_parquet(rows: &[WorkloadRow], queries: &[Recorded]) -> Result<Ve
         ("object_b", numbers(&|query| query.objects[1].into())),
         ("kind", words(&|row| asked(row).kind.name().to_owned())),
         ("algorithm", words(&|row| row.algorithm.to_string())),
-        ("order", words(&track)),
+        ("order", words(&order)),
         ("time_ns", Arc::new(rows.iter().map(|row| row.time_ns).collect::<Float64Array>()) as ArrayRef),
         ("verdict", words(&|row| row.verdict.name().to_owned())),
+        ("hit", Arc::new(rows.iter().map(|row| Some(row.hit)).collect::<BooleanArray>()) as ArrayRef),
     ];
     to_parquet(&batch(metadata, columns)?)
 }

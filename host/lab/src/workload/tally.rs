@@ -74,8 +74,18 @@ impl Tally {
         }
     }
 
-    /// Each answered query, in the order of the recording.
-    pub fn rows(&self, track: Track) -> impl Iterator<Item = WorkloadRow> {
+    /// Id of the algorithm.
+    pub fn algorithm(&self) -> &str {
+        &self.algorithm.info.id
+    }
+
+    /// Place in the recording, time and verdict of each answered query.
+    pub fn answered(&self) -> &[(u32, f64, Verdict)] {
+        &self.answered
+    }
+
+    /// Each answered query, in the order of the recording, of which it is known whether the objects collide.
+    pub fn rows(&self, track: Track, hits: &[Option<bool>]) -> impl Iterator<Item = WorkloadRow> {
         let mut answered = self.answered.clone();
         answered.sort_unstable_by_key(|(row, ..)| *row);
         let algorithm: Arc<str> = self.algorithm.info.id.as_str().into();
@@ -85,6 +95,7 @@ impl Tally {
             row,
             time_ns,
             verdict,
+            hit: hits[row as usize].unwrap_or(false),
         })
     }
 
