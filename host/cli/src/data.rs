@@ -156,6 +156,7 @@ fn count(things: &OwnedItems) -> String {
         several(things.configurations.len(), "saved set of configurations", "saved sets of configurations"),
         several(things.advice as usize, "piece of advice", "pieces of advice"),
         several(things.stability as usize, "stability run", "stability runs"),
+        several(things.workloads as usize, "workload", "workloads"),
         units::bytes(things.bytes)
     )
 }

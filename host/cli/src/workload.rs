@@ -7,9 +7,9 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use ocb_service::model::{Track, WorkloadResult};
+use ocb_service::model::{Track, WorkloadResult, WorkloadSpec};
 use ocb_service::workload::{Progress, Replayed, workload_parquet};
-use ocb_service::{Engine, Recording, Stop, WorkloadSpec};
+use ocb_service::{Engine, Recording, Stop};
 
 use crate::args::{BenchArgs, OrderArg, Store};
 use crate::failure::{Failure, INTERRUPTED, NOT_ALL_WELL, Result};
@@ -42,24 +42,20 @@ pub async fn bench(store: &Store, args: &BenchArgs, file: &Path, json: bool) -> 
 }
 
 fn spec(args: &BenchArgs) -> Result<WorkloadSpec> {
-    if !(1..=64).contains(&args.passes) {
-        return Err(Failure::Input(format!("The number of processes must be 1 to 64, not {}.", args.passes)));
-    }
-    if !(args.budget > 0.0 && args.budget <= 86_400.0) {
-        return Err(Failure::Input(format!("The budget must be above 0 and at most 86400 s, not {}.", args.budget)));
-    }
     let tracks = match args.order {
         Some(OrderArg::Shuffled) => vec![Track::Shuffled],
         Some(OrderArg::Recorded) => vec![Track::Recorded],
         None => vec![Track::Shuffled, Track::Recorded],
     };
-    Ok(WorkloadSpec {
+    let spec = WorkloadSpec {
         algorithms: args.algorithm.clone(),
         tracks,
         passes: args.passes,
         budget_seconds: args.budget,
         seed: args.run_seed,
-    })
+    };
+    spec.check().map_err(Failure::Input)?;
+    Ok(spec)
 }
 
 /// Nothing when interrupted.

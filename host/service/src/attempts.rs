@@ -1,6 +1,6 @@
 //! Attempts: which worker has a job, and for how long.
 //!
-//! A job is a run, the next part of a stability run, the check of a plugin, or advice. It has at most one current attempt. The worker
+//! A job is a run, the next part of a stability run, the replay of a recording, the check of a plugin, or advice. It has at most one current attempt. The worker
 //! renews the lease of its attempt while it lives. The lease is counted by the database's clock, so the clocks of machines may differ
 //! or jump. An attempt ends once: its result is accepted; it is put back because its service stops or other work comes first; it is
 //! lost with its worker; or it is withdrawn because the job was ended at another service. Only the current attempt can write, so a
@@ -27,6 +27,8 @@ pub enum Kind {
     Check,
     /// The next part of a stability run.
     Stability,
+    /// The replay of a recording.
+    Replay,
     /// Advice about levels of detail.
     Advise,
 }
@@ -50,14 +52,14 @@ pub struct Attempt {
     /// UUIDv7.
     pub id: String,
     pub kind: Kind,
-    /// Id of the run, plugin or advice.
+    /// Id of the run, stability run, workload, plugin or advice.
     pub job: String,
     /// Counts the attempts at this job from one.
     pub number: i64,
 }
 
 impl Kind {
-    const ALL: [Self; 4] = [Self::Measure, Self::Check, Self::Stability, Self::Advise];
+    const ALL: [Self; 5] = [Self::Measure, Self::Check, Self::Stability, Self::Replay, Self::Advise];
 
     /// As it is stored.
     pub fn name(self) -> &'static str {
@@ -65,6 +67,7 @@ impl Kind {
             Self::Measure => "measure",
             Self::Check => "check",
             Self::Stability => "stability",
+            Self::Replay => "replay",
             Self::Advise => "advise",
         }
     }

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use ocb_core::configuration::ConfigurationSet;
 use ocb_core::heatmap::VertexMap;
 use ocb_core::oracle::Shape;
+use ocb_lab::recording::Recording;
 use tokio::sync::Notify;
 use tokio::task::{AbortHandle, JoinHandle};
 
@@ -73,6 +74,7 @@ pub struct Inner {
     pub records: Cache<RecordColumns>,
     pub maps: Cache<VertexMap>,
     pub shapes: Cache<Shape>,
+    pub recordings: Cache<Recording>,
     pub charts: Cache<ocb_chart::Chart>,
     pub advices: Advices,
     pub closing: AtomicBool,

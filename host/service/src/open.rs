@@ -22,7 +22,7 @@ use crate::runs::log::RunEvents;
 use crate::runs::priority::BACKGROUND;
 use crate::store::Store;
 use crate::suite::Suite;
-use crate::{EngineConfig, EngineError, Result};
+use crate::{EngineConfig, EngineError, Result, workloads};
 
 impl Engine {
     /// Opens the data folder, migrates the database, puts the work of its dead predecessor back into the queue and begins to work on it.
@@ -57,6 +57,7 @@ impl Engine {
             records: Cache::new(16),
             maps: Cache::new(8),
             shapes: Cache::new(4),
+            recordings: Cache::weighing(workloads::MOST_QUERIES, |recording| recording.queries.len()),
             charts: Cache::weighing(crate::charts::KEPT_POINTS, crate::charts::points),
             advices: Advices::default(),
             closing: AtomicBool::new(false),

@@ -85,6 +85,9 @@ impl Engine {
         for run in &what.stability {
             self.inner.end_stability(run, None).await?;
         }
+        for workload in &what.workloads {
+            self.inner.end_workload(workload, None).await?;
+        }
         for advice in &what.advice {
             self.cancel_advice(advice, Some(owner)).await?;
         }
@@ -155,6 +158,7 @@ impl Inner {
             configurations: what.configurations,
             advice: what.advice.len() as u32,
             stability: what.stability.len() as u32,
+            workloads: what.workloads.len() as u32,
             bytes,
             kept_until_us,
         })

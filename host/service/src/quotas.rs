@@ -6,7 +6,7 @@
 use std::time::Duration;
 
 use crate::engine::{Engine, Inner};
-use crate::model::{Owner, RunSpec};
+use crate::model::{Owner, RunSpec, WorkloadSpec};
 use crate::runs::queue::Granted;
 use crate::runs::sql::RunRow;
 use crate::{EngineError, Result};
@@ -37,7 +37,7 @@ enum Kind {
     Address,
 }
 
-/// Bytes of objects and saved configurations.
+/// Bytes of objects, saved configurations and recordings.
 const GUEST_OBJECTS: u64 = 512 << 20;
 const ACCOUNT_OBJECTS: u64 = 4 << 30;
 
@@ -83,7 +83,7 @@ impl Inner {
         self.longest_of(row.owner.as_deref()).filter(|_| row.campaign.is_none())
     }
 
-    /// The time limit of a run or stability run of this owner, if there is one.
+    /// The time limit of a run, stability run or replay of this owner, if there is one.
     pub fn longest_of(&self, owner: Option<&str>) -> Option<Duration> {
         (owner.and_then(kind) == Some(Kind::Guest)).then_some(self.config.ceilings.guest_run)
     }
@@ -104,6 +104,29 @@ impl Inner {
              fewer algorithms.",
             time(asks),
             time(ceiling)
+        )))
+    }
+}
+
+impl Inner {
+    /// # Errors
+    /// `Invalid` when a replay may measure longer than a guest's run may take, or its owner may in all.
+    pub fn replay_may_take(&self, owner: &str, spec: &WorkloadSpec, algorithms: usize) -> Result<()> {
+        let Some(kind) = kind(owner) else { return Ok(()) };
+        let turns = (algorithms * spec.tracks.len()) as f64;
+        let limit = match kind {
+            Kind::Guest => self.config.ceilings.guest_run.as_secs_f64(),
+            Kind::Account | Kind::Address => self.ceiling(kind),
+        };
+        if spec.budget_seconds * turns <= limit {
+            return Ok(());
+        }
+        Err(EngineError::Invalid(format!(
+            "This replay may measure for {}, but your limit is {}. Set the budget to {:.0} s per algorithm and order or less, or \
+             choose fewer algorithms.",
+            time(spec.budget_seconds * turns),
+            time(limit),
+            (limit / turns).floor()
         )))
     }
 }
@@ -131,7 +154,7 @@ impl Engine {
     }
 
     /// # Errors
-    /// `Busy` when the objects and saved configurations of this owner would have too many bytes with these.
+    /// `Busy` when the objects, saved configurations and recordings of this owner would have too many bytes with these.
     pub(crate) async fn has_room_for_a_file(&self, owner: Option<&str>, bytes: usize) -> Result<()> {
         let Some((owner, kind)) = owner.and_then(|owner| Some((owner, kind(owner)?))) else { return Ok(()) };
         let most = if kind == Kind::Guest { GUEST_OBJECTS } else { ACCOUNT_OBJECTS };
@@ -139,7 +162,7 @@ impl Engine {
             return Ok(());
         }
         Err(EngineError::Busy(format!(
-            "With this file, your objects and saved configurations would exceed {} MiB; delete some on the objects page.",
+            "With this file, your objects, saved configurations and recordings would exceed {} MiB; delete some of them.",
             most >> 20
         )))
     }

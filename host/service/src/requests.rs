@@ -35,6 +35,8 @@ pub enum Made {
     Campaign,
     /// A stability run.
     StabilityRun,
+    /// A recording with its replay.
+    Workload,
 }
 
 impl Engine {
@@ -78,6 +80,7 @@ impl Made {
             Self::Invitation => "invitation",
             Self::Campaign => "campaign",
             Self::StabilityRun => "stability run",
+            Self::Workload => "workload",
         }
     }
 }

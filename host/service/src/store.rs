@@ -150,6 +150,7 @@ fn migrations(sqlite: bool) -> Vec<Migration> {
         one(33, "notify", if sqlite { "" } else { include_str!("../migrations/0033_notify.sql") }),
         one(37, "house", if sqlite { "" } else { include_str!("../migrations/0037_house.sql") }),
         one(38, "advice turn", include_str!("../migrations/0038_advice_turn.sql")),
+        one(39, "workloads", include_str!("../migrations/0039_workloads.sql")),
     ]
 }
 

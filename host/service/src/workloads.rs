@@ -1,83 +1,315 @@
-//! Replaying recordings on this machine.
+//! Recordings that visitors bring: asking for a replay, looking at it, ending it.
+
+mod replay;
+pub mod sql;
+pub mod work;
 
 use std::sync::Arc;
 
-use ocb_lab::algorithm::Algorithm;
-use ocb_lab::recording::Recording;
-use ocb_lab::workload::{self, Progress, Replayed, Wanted};
+use ocb_core::mesh::Mesh;
 
+use crate::attempts::Kind;
+use crate::blocking::blocking;
 use crate::boxed;
-use crate::engine::Engine;
-use crate::measure::Stop;
-use crate::model::Track;
-use crate::stability::work::right_to_measure;
-use crate::{EngineError, Result};
+use crate::engine::{Engine, Inner};
+use crate::locks::Lock;
+use crate::model::{
+    AccountInfo, Cursor, Page, Part, PosedGroup, RecordingInfo, Role, State, Stretch, StretchResult, WorkloadInfo,
+    WorkloadSpec,
+};
+use crate::quotas::{Visitor, turn};
+use crate::requests::Made;
+use crate::store::now_us;
+use crate::{EngineError, Recording, Result, sha256_hex};
+use sql::WorkloadRow;
 
-/// How a recording is replayed.
-#[derive(Clone, Debug)]
-pub struct WorkloadSpec {
-    /// Names of algorithms, with settings; empty: the usual ones. `all` stands for every algorithm.
-    pub algorithms: Vec<String>,
-    /// The orders.
-    pub tracks: Vec<Track>,
-    /// Processes per algorithm, order and pair of objects.
-    pub passes: u32,
-    /// Measuring time per algorithm and order, in seconds.
-    pub budget_seconds: f64,
-    /// Seed of the orders and of the equivalent instances; drawn when absent.
-    pub seed: Option<u64>,
-}
+/// So many of one account, or of the guests of one address, may be queued or running, and so many in all.
+const MOST_OPEN: i64 = 3;
+const MOST_IN_ALL: i64 = 200;
+/// When to ask again: a replay takes minutes.
+const RETRY_SECONDS: u32 = 120;
+/// Queries of an uploaded recording at most, and of all that are kept in memory, some 300 bytes each.
+pub(crate) const MOST_QUERIES: usize = 2_000_000;
 
 impl Engine {
-    /// Replays a recording with algorithms that answer at least one of its kinds of query.
+    /// Keeps an uploaded recording and queues its replay. True when it is new: the same request under the same key returns the
+    /// existing one.
+    ///
+    /// # Errors
+    /// `Invalid` for a file that is no recording or a replay that cannot be carried out, `TooMuch` when too many wait.
     #[boxed]
-    pub async fn replay_workload(
+    pub async fn add_workload(
         &self,
-        recording: Arc<Recording>,
+        name: &str,
+        bytes: Vec<u8>,
         spec: WorkloadSpec,
-        stop: Stop,
-        tell: impl Fn(Progress) + Send + 'static,
-        waits: impl FnOnce() + Send + 'static,
-    ) -> Result<Replayed> {
-        let algorithms = self.algorithms_for(&recording, &spec.algorithms)?;
-        let inner = Arc::clone(&self.inner);
-        let (sender, replayed) = tokio::sync::oneshot::channel();
-        let work = move || {
-            let _right = right_to_measure(&stop, waits)?;
-            let wanted = Wanted {
-                algorithms: &algorithms,
-                tracks: &spec.tracks,
-                passes: spec.passes,
-                budget: std::time::Duration::from_secs_f64(spec.budget_seconds),
-                seed: spec.seed.unwrap_or_else(|| uuid::Uuid::new_v4().as_u64_pair().0 >> 11),
-            };
-            workload::replay(&recording, &wanted, inner.registry.runner(), &inner.machine, &stop, &tell)
-        };
-        let thread = std::thread::Builder::new().name("workload".into()).spawn(move || drop(sender.send(work())));
-        thread.map_err(|e| EngineError::fault("Starting the replay's thread failed", e))?;
-        Ok(replayed.await.map_err(|_| EngineError::Fault("The replay failed; see the log.".into()))??)
+        visitor: &Visitor,
+        key: Option<&str>,
+    ) -> Result<(WorkloadInfo, bool)> {
+        let owner = visitor.owner.as_str();
+        self.has_room_for_a_file(Some(owner), bytes.len()).await?;
+        let (name, folder) = (name.to_owned(), self.inner.config.data.clone());
+        let (bytes, recording, told) = blocking(move || {
+            let recording = parsed(&name, &bytes, &folder)?;
+            let told = describe(&name, &bytes, &recording);
+            Ok((bytes, recording, told))
+        })
+        .await?;
+        self.queue_workload(told, Some(bytes), &recording, spec, visitor, key).await
     }
 
-    fn algorithms_for(&self, recording: &Recording, named: &[String]) -> Result<Vec<Arc<Algorithm>>> {
-        let registry = &self.inner.registry;
-        let every = named.iter().any(|name| name == "all");
-        let names: Vec<String> = if every || named.is_empty() {
-            registry.algorithms(None).into_iter().filter(|info| every || info.usual).map(|info| info.id).collect()
-        } else {
-            named.to_vec()
-        };
-        let asked = |algorithm: &Arc<Algorithm>| {
-            recording.queries.iter().any(|query| algorithm.info.queries.contains(&query.kind.query()))
-        };
-        let mut algorithms = Vec::new();
-        for name in names {
-            let algorithm = self.inner.stability_algorithm(&name, None)?;
-            if asked(&algorithm) {
-                algorithms.push(algorithm);
-            } else if !named.is_empty() && !every {
-                return Err(EngineError::Invalid(format!("{name} answers no kind of query of this recording.")));
-            }
-        }
-        Ok(algorithms)
+    /// Queues another replay of a recording that the visitor has brought.
+    #[boxed]
+    pub async fn replay_again(
+        &self,
+        id: &str,
+        spec: WorkloadSpec,
+        visitor: &Visitor,
+        key: Option<&str>,
+    ) -> Result<(WorkloadInfo, bool)> {
+        self.inner.own_workload(id, Some(&visitor.owner), "repeat").await?;
+        let (told, recording) = self.inner.recording(id).await?;
+        self.queue_workload(told, None, &recording, spec, visitor, key).await
     }
+
+    async fn queue_workload(
+        &self,
+        recording: RecordingInfo,
+        bytes: Option<Vec<u8>>,
+        read: &Recording,
+        spec: WorkloadSpec,
+        visitor: &Visitor,
+        key: Option<&str>,
+    ) -> Result<(WorkloadInfo, bool)> {
+        let (inner, owner) = (&self.inner, visitor.owner.as_str());
+        spec.check().map_err(EngineError::Invalid)?;
+        let algorithms = inner.algorithms_for(read, &spec.algorithms, Some(owner))?;
+        inner.replay_may_take(owner, &spec, algorithms.len())?;
+        let id = self.id_of_request(owner, Made::Workload, key, &(&recording, &spec)).await?;
+        // Two concurrent requests must not share the last of a quota.
+        let _alone = inner.store.locks.alone(Lock::Admission).await?;
+        if inner.store.workload(&id).await?.is_some() {
+            return Ok((self.workload(&id).await?, false));
+        }
+        let turn = turn(owner, visitor.address.as_deref());
+        let [all, own] = inner.store.open_workloads_of(&turn).await?;
+        if own >= MOST_OPEN || all >= MOST_IN_ALL {
+            let whose = if own >= MOST_OPEN { format!("{own} of your") } else { format!("{all}") };
+            let message = format!("{whose} recordings are queued or replayed; try again when one of them has ended.");
+            return Err(EngineError::TooMuch { message, retry_seconds: RETRY_SECONDS });
+        }
+        let _keeping = inner.store.locks.keeping().await?;
+        if let Some(bytes) = bytes {
+            let length = bytes.len();
+            let blob = inner.blobs.put(bytes).await?;
+            inner.store.add_blob(&blob, length, "application/zip").await?;
+        }
+        let row = WorkloadRow {
+            id,
+            owner: Some(owner.to_owned()),
+            turn,
+            state: State::Queued,
+            attempts: 0,
+            message: None,
+            spec,
+            recording,
+            done: 0,
+            created_us: now_us(),
+            finished_us: None,
+        };
+        let new = inner.store.add_workload(&row).await?;
+        inner.call();
+        Ok((self.workload(&row.id).await?, new))
+    }
+
+    /// Those of this owner, newest first, without results.
+    #[boxed]
+    pub async fn workloads(&self, owner: &str, page: &Page) -> Result<Part<WorkloadInfo>> {
+        let (from, limit) = page.start()?;
+        let rows = self.inner.store.workloads_of(owner, &from, limit + 1).await?;
+        let part = Part::of(rows, limit, |row: &WorkloadRow| Cursor::behind(row.created_us, &row.id));
+        let mut entries = Vec::new();
+        for row in part.entries {
+            entries.push(self.inner.workload_info(row).await?);
+        }
+        Ok(Part { entries, next: part.next })
+    }
+
+    /// How far it is, with what was found when it is done.
+    #[boxed]
+    pub async fn workload(&self, id: &str) -> Result<WorkloadInfo> {
+        let row = self.inner.workload_row(id).await?;
+        let result = self.inner.store.workload_result(id).await?;
+        Ok(WorkloadInfo { result, ..self.inner.workload_info(row).await? })
+    }
+
+    /// What each algorithm does within a stretch of the recording.
+    ///
+    /// # Errors
+    /// `NotFound` before the end.
+    #[boxed]
+    pub async fn workload_stretch(&self, id: &str, stretch: Stretch) -> Result<StretchResult> {
+        let table = self.workload_queries(id).await?;
+        blocking(move || Ok(ocb_lab::workload::stretch(&table, stretch)?)).await
+    }
+
+    /// The table of all replayed queries, as Parquet.
+    ///
+    /// # Errors
+    /// `NotFound` before the end.
+    #[boxed]
+    pub async fn workload_queries(&self, id: &str) -> Result<Vec<u8>> {
+        self.inner.workload_row(id).await?;
+        let blob = self.inner.store.workload_table(id).await?;
+        let none = || EngineError::NotFound("This recording has not been replayed to its end.".to_owned());
+        self.inner.blobs.get(&blob.ok_or_else(none)?).await
+    }
+
+    /// The recording and the name of its file.
+    #[boxed]
+    pub async fn workload_recording(&self, id: &str) -> Result<(Vec<u8>, String)> {
+        let told = self.inner.workload_row(id).await?.recording;
+        Ok((self.inner.blobs.get(&told.sha256).await?, told.file))
+    }
+
+    /// The group of a query as it stands in space.
+    #[boxed]
+    pub async fn workload_group(&self, id: &str, sequence: u64) -> Result<PosedGroup> {
+        let (_, recording) = self.inner.recording(id).await?;
+        Ok(ocb_lab::workload::posed_group(&recording, sequence)?)
+    }
+
+    /// The triangles of an object of the scene, as algorithms get them.
+    #[boxed]
+    pub async fn workload_mesh(&self, id: &str, object: usize) -> Result<Arc<Mesh>> {
+        let (_, recording) = self.inner.recording(id).await?;
+        blocking(move || Ok(ocb_lab::workload::mesh_of(&recording, object)?)).await
+    }
+
+    /// Ends it; only its owner may.
+    #[boxed]
+    pub async fn cancel_workload(&self, id: &str, caller: Option<&str>) -> Result<WorkloadInfo> {
+        self.inner.own_workload(id, caller, "cancel").await?;
+        self.inner.end_workload(id, None).await?;
+        self.workload(id).await
+    }
+
+    /// Ends anybody's, for curators and administrators, who do not see what it is about; its owner sees who did.
+    ///
+    /// # Errors
+    /// `Forbidden` for all others.
+    #[boxed]
+    pub async fn cancel_workload_of_others(&self, id: &str, curator: &AccountInfo) -> Result<()> {
+        if curator.role < Role::Curator {
+            let told = "Only the owner of this replay or a curator may cancel it.";
+            return Err(EngineError::Forbidden(told.into()));
+        }
+        self.inner.workload_row(id).await?;
+        self.inner.end_workload(id, Some("Cancelled by a curator.")).await
+    }
+
+    /// Takes it away with its recording; only its owner may.
+    #[boxed]
+    pub async fn remove_workload(&self, id: &str, caller: Option<&str>) -> Result<()> {
+        let row = self.inner.own_workload(id, caller, "delete").await?;
+        let what = crate::owned::sql::OwnedIds { workloads: vec![row.id], ..Default::default() };
+        self.remove(caller.unwrap_or_default(), what).await.map(|_| ())
+    }
+
+    /// # Errors
+    /// `NotFound` when the workload is there and somebody else's.
+    #[boxed]
+    pub async fn workload_is_for(&self, id: &str, viewer: Option<&str>) -> Result<()> {
+        match self.inner.store.workload(id).await? {
+            Some(row) if row.owner.as_deref() != viewer => Err(no_workload(id)),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Inner {
+    async fn workload_row(&self, id: &str) -> Result<WorkloadRow> {
+        self.store.workload(id).await?.ok_or_else(|| no_workload(id))
+    }
+
+    /// The recording of a workload, read.
+    async fn recording(&self, id: &str) -> Result<(RecordingInfo, Arc<Recording>)> {
+        let told = self.workload_row(id).await?.recording;
+        if let Some(recording) = self.recordings.get(&told.sha256) {
+            return Ok((told, recording));
+        }
+        let bytes = self.blobs.get(&told.sha256).await?;
+        let (name, folder) = (told.file.clone(), self.config.data.clone());
+        let recording = blocking(move || parsed(&name, &bytes, &folder)).await?;
+        let recording = self.recordings.put(&told.sha256, recording);
+        Ok((told, recording))
+    }
+
+    async fn workload_info(&self, row: WorkloadRow) -> Result<WorkloadInfo> {
+        let waits = row.state == State::Queued;
+        let runs_ahead = if waits { self.store.workloads_before(&row).await? } else { 0 };
+        let WorkloadRow { id, spec, recording, state, done, message, created_us, finished_us, .. } = row;
+        let total = recording.queries;
+        Ok(WorkloadInfo {
+            id,
+            spec,
+            recording,
+            state,
+            done,
+            total,
+            runs_ahead,
+            message,
+            created_us,
+            finished_us,
+            result: None,
+        })
+    }
+
+    async fn own_workload(&self, id: &str, caller: Option<&str>, may: &str) -> Result<WorkloadRow> {
+        let row = self.workload_row(id).await?;
+        if caller.is_some() && row.owner.as_deref() == caller {
+            return Ok(row);
+        }
+        Err(EngineError::Forbidden(format!("Only the owner of this recording may {may} it.")))
+    }
+
+    /// The row first: a replay that ends at this moment finds it ended.
+    pub(crate) async fn end_workload(&self, id: &str, reason: Option<&str>) -> Result<()> {
+        self.store.end_workload(id, State::Cancelled, reason).await?;
+        self.stop_current(Some(id), None);
+        self.store.withdraw(Kind::Replay, id, &self.worker).await.map(|_| ())
+    }
+}
+
+/// Reads an uploaded recording; archives are read from a file.
+fn parsed(name: &str, bytes: &[u8], folder: &std::path::Path) -> Result<Recording> {
+    let fault = |e: std::io::Error| EngineError::fault("Keeping the recording while it is read failed", e);
+    let file = tempfile::NamedTempFile::new_in(folder).map_err(fault)?;
+    std::fs::write(file.path(), bytes).map_err(fault)?;
+    let recording = Recording::read_as(file.path(), name)?;
+    if recording.queries.len() > MOST_QUERIES {
+        return Err(EngineError::Invalid(format!(
+            "{name:?} has {} queries; at most {MOST_QUERIES} can be replayed here. Record fewer groups, or use `ocb bench --workload`.",
+            recording.queries.len()
+        )));
+    }
+    Ok(recording)
+}
+
+fn describe(name: &str, bytes: &[u8], recording: &Recording) -> RecordingInfo {
+    RecordingInfo {
+        file: name.to_owned(),
+        sha256: sha256_hex(bytes),
+        bytes: bytes.len() as u64,
+        program: recording.about.program.clone(),
+        libraries: recording.about.libraries.clone(),
+        objects: recording.scene.scene.objects.len() as u64,
+        queries: recording.queries.len() as u64,
+        seen: recording.about.seen,
+    }
+}
+
+/// There is no such workload, or not for who asks: both sound alike.
+fn no_workload(id: &str) -> EngineError {
+    EngineError::NotFound(format!("There is no workload {id:?}; check the link."))
 }

@@ -9,10 +9,10 @@ use std::sync::Arc;
 use ocb_core::mesh::Mesh;
 use ocb_core::stock;
 use ocb_core::workload::Claim;
-use ocb_service::model::Track;
+use ocb_service::model::{Track, WorkloadSpec};
 use ocb_service::recording::pack;
 use ocb_service::workload::workload_parquet;
-use ocb_service::{Engine, EngineError, Recording, Stop, WorkloadSpec, sha256_hex};
+use ocb_service::{Engine, EngineError, Recording, Stop, sha256_hex};
 use serde_json::json;
 
 /// A spool, as a recorder writes it.

@@ -82,6 +82,7 @@ impl Inner {
                 advice: all.advice,
                 configurations: all.configurations,
                 stability: all.stability,
+                workloads: all.workloads,
                 ..OwnedIds::default()
             },
             OwnedIds::default(),
@@ -136,6 +137,7 @@ fn counted(what: &OwnedIds) -> OwnedCounts {
         configurations: what.configurations.len() as u32,
         advice: what.advice.len() as u32,
         stability: what.stability.len() as u32,
+        workloads: what.workloads.len() as u32,
         plugins: what.plugins.len() as u32,
     }
 }

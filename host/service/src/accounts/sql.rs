@@ -194,7 +194,7 @@ impl Store {
         Ok(())
     }
 
-    /// Moves runs, objects and advice from one owner to another. A key of a request that both have used stays that of the other's run.
+    /// Moves runs, objects, advice, stability runs and workloads from one owner to another. A key of a request that both have used stays that of the other's run.
     pub async fn move_things(&self, from: &str, to: &str) -> Result<()> {
         let mut transaction = self.pool.begin().await?;
         for text in [
@@ -204,6 +204,7 @@ impl Store {
             "UPDATE objects SET owner = $1 WHERE owner = $2",
             "UPDATE advice SET owner = $1 WHERE owner = $2",
             "UPDATE stability_runs SET owner = $1 WHERE owner = $2",
+            "UPDATE workloads SET owner = $1 WHERE owner = $2",
             "UPDATE requests SET owner = $1 WHERE owner = $2 AND (resource, request_key) NOT IN \
              (SELECT resource, request_key FROM requests WHERE owner = $1)",
         ] {

@@ -29,7 +29,7 @@ pub async fn take_back(inner: &Arc<Inner>, just_started: Option<&Worker>) -> Res
                 None => false,
             },
             Kind::Check => inner.store.lose_check(&attempt, just_started).await?,
-            Kind::Stability | Kind::Advise => inner.store.lose(&attempt, just_started).await?,
+            Kind::Stability | Kind::Replay | Kind::Advise => inner.store.lose(&attempt, just_started).await?,
         };
         if lost {
             tracing::warn!("the worker of attempt {number} at {job} ({}) is gone", kind.name());

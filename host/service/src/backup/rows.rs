@@ -8,7 +8,7 @@ use sqlx::{Any, AssertSqlSafe, Column, Row, Transaction, ValueRef};
 use crate::{EngineError, Result};
 
 /// All tables; one that refers to another stands behind it.
-pub(crate) const TABLES: [&str; 30] = [
+pub(crate) const TABLES: [&str; 31] = [
     "blobs",
     "objects",
     "plugins",
@@ -37,6 +37,7 @@ pub(crate) const TABLES: [&str; 30] = [
     "devices",
     "saved_configurations",
     "stability_runs",
+    "workloads",
     "idle_tried",
     "attempts",
 ];

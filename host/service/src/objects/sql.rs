@@ -74,13 +74,13 @@ impl Store {
         row.map(read).transpose()
     }
 
-    /// Bytes of all meshes and saved configurations of this owner.
+    /// Bytes of all meshes, saved configurations and recordings of this owner.
     pub async fn uploaded_bytes(&self, owner: &str) -> Result<u64> {
         let bytes: i64 = sqlx::query_scalar(
             "SELECT CAST(COALESCE(SUM(b.bytes), 0) AS BIGINT) FROM (SELECT blob FROM objects WHERE owner = $1 \
-             UNION ALL SELECT blob FROM saved_configurations WHERE owner = $2) o JOIN blobs b ON b.sha256 = o.blob",
+             UNION ALL SELECT blob FROM saved_configurations WHERE owner = $1 \
+             UNION SELECT blob FROM workloads WHERE owner = $1) o JOIN blobs b ON b.sha256 = o.blob",
         )
-        .bind(owner)
         .bind(owner)
         .fetch_one(&self.pool)
         .await?;

@@ -64,6 +64,9 @@ impl Engine {
         for id in &all.stability {
             packer.json(&format!("stability/{id}.json"), &self.stability_run(id).await?)?;
         }
+        for id in &all.workloads {
+            self.pack_workload(&mut packer, id).await?;
+        }
         if let Some(account) = self.account_of(owner).await? {
             if contents.account {
                 self.pack_account(&mut packer, &account).await?;
@@ -103,6 +106,17 @@ impl Engine {
             let (mesh, certificate) = (self.inner.blobs.get(mesh).await?, self.inner.blobs.get(certificate).await?);
             packer.add(&format!("{folder}/{}", plain(file)), &mesh)?;
             packer.add(&format!("{folder}/{}", plain(&file.replace(".obj", ".certificate.json"))), &certificate)?;
+        }
+        Ok(())
+    }
+
+    async fn pack_workload(&self, packer: &mut Packer, id: &str) -> Result<()> {
+        let folder = format!("workloads/{id}");
+        let workload = self.workload(id).await?;
+        packer.json(&format!("{folder}/workload.json"), &workload)?;
+        packer.add(&format!("{folder}/recording.ocbrec"), &self.workload_recording(id).await?.0)?;
+        if workload.result.is_some() {
+            packer.add(&format!("{folder}/queries.parquet"), &self.workload_queries(id).await?)?;
         }
         Ok(())
     }

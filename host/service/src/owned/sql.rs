@@ -9,7 +9,7 @@ use crate::attempts::sql::forget as forget_attempts;
 use crate::model::{OwnedItem, RunSpec};
 use crate::store::{Store, from_json, now_us};
 
-/// Runs, objects, saved configurations, advice and plugins of one owner.
+/// Runs, objects, saved configurations, advice, stability runs, workloads and plugins of one owner.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct OwnedIds {
     /// Newest first.
@@ -22,6 +22,8 @@ pub struct OwnedIds {
     pub configurations: Vec<OwnedItem>,
     /// Ids of stability runs.
     pub stability: Vec<String>,
+    /// Ids of workloads.
+    pub workloads: Vec<String>,
     /// Theirs, too; only an account that is deleted takes plugins along.
     pub plugins: Vec<String>,
 }
@@ -61,14 +63,16 @@ impl Store {
             .fetch_all(&self.pool)
             .await?;
         // They name no object.
-        let (configurations, stability): (Vec<(String, String)>, Vec<String>) = match object {
-            Some(_) => (Vec::new(), Vec::new()),
+        let (configurations, [stability, workloads]): (Vec<(String, String)>, [Vec<String>; 2]) = match object {
+            Some(_) => Default::default(),
             None => {
                 let saved =
                     "SELECT id, name FROM saved_configurations WHERE owner = $1 ORDER BY created_us DESC, id DESC";
                 let tried = "SELECT id FROM stability_runs WHERE owner = $1 ORDER BY created_us DESC, id DESC";
+                let replayed = "SELECT id FROM workloads WHERE owner = $1 ORDER BY created_us DESC, id DESC";
                 let saved = sqlx::query_as(saved).bind(owner).fetch_all(&self.pool).await?;
-                (saved, sqlx::query_scalar(tried).bind(owner).fetch_all(&self.pool).await?)
+                let tried = sqlx::query_scalar(tried).bind(owner).fetch_all(&self.pool).await?;
+                (saved, [tried, sqlx::query_scalar(replayed).bind(owner).fetch_all(&self.pool).await?])
             }
         };
         let run = |(id, a, b): (String, String, String)| OwnedItem { id, name: format!("{a} x {b}") };
@@ -81,6 +85,7 @@ impl Store {
             advice,
             configurations: configurations.into_iter().map(|(id, name)| OwnedItem { id, name }).collect(),
             stability,
+            workloads,
             plugins: Vec::new(),
         })
     }
@@ -99,8 +104,9 @@ impl Store {
                     UNION ALL SELECT MAX(created_us) FROM objects WHERE owner = $2 \
                     UNION ALL SELECT MAX(created_us) FROM advice WHERE owner = $3 \
                     UNION ALL SELECT MAX(created_us) FROM saved_configurations WHERE owner = $4 \
-                    UNION ALL SELECT MAX(created_us) FROM stability_runs WHERE owner = $5) AS made";
-        let made = sqlx::query_scalar(text).bind(owner).bind(owner).bind(owner).bind(owner).bind(owner);
+                    UNION ALL SELECT MAX(created_us) FROM stability_runs WHERE owner = $5 \
+                    UNION ALL SELECT MAX(created_us) FROM workloads WHERE owner = $6) AS made";
+        let made = sqlx::query_scalar(text).bind(owner).bind(owner).bind(owner).bind(owner).bind(owner).bind(owner);
         let made: Option<i64> = made.fetch_one(&self.pool).await?;
         let asked: Option<i64> = sqlx::query_scalar("SELECT asked_us FROM kept WHERE owner = $1")
             .bind(owner)
@@ -122,7 +128,8 @@ impl Store {
         let text = "SELECT owner FROM runs WHERE owner IS NOT NULL UNION SELECT owner FROM objects WHERE owner IS NOT NULL \
                     UNION SELECT owner FROM advice WHERE owner IS NOT NULL \
                     UNION SELECT owner FROM saved_configurations \
-                    UNION SELECT owner FROM stability_runs WHERE owner IS NOT NULL";
+                    UNION SELECT owner FROM stability_runs WHERE owner IS NOT NULL \
+                    UNION SELECT owner FROM workloads WHERE owner IS NOT NULL";
         Ok(sqlx::query_scalar(text).fetch_all(&self.pool).await?)
     }
 }
@@ -166,6 +173,12 @@ pub(crate) async fn take(connection: &mut AnyConnection, what: &OwnedIds) -> Res
     for id in &what.stability {
         forget_attempts(&mut *connection, id).await?;
         sqlx::query("DELETE FROM stability_runs WHERE id = $1").bind(id).execute(&mut *connection).await?;
+    }
+    for id in &what.workloads {
+        forget_attempts(&mut *connection, id).await?;
+        let text = "DELETE FROM workloads WHERE id = $1 RETURNING blob, queries";
+        let gone: Vec<(String, Option<String>)> = sqlx::query_as(text).bind(id).fetch_all(&mut *connection).await?;
+        files.extend(gone.into_iter().flat_map(|(blob, queries)| queries.into_iter().chain([blob])));
     }
     for id in &what.plugins {
         // One that was made public meanwhile stays.
@@ -229,6 +242,7 @@ async fn forget(connection: &mut AnyConnection, sha256: &str) -> Result<Option<u
          AND NOT EXISTS (SELECT 1 FROM results WHERE records = $6 OR triangle_tests = $7) \
          AND NOT EXISTS (SELECT 1 FROM submissions WHERE blob = $8) \
          AND NOT EXISTS (SELECT 1 FROM saved_configurations WHERE blob = $9) \
+         AND NOT EXISTS (SELECT 1 FROM workloads WHERE blob = $11 OR queries = $12) \
          AND NOT EXISTS (SELECT 1 FROM advice WHERE papers LIKE $10) RETURNING bytes",
     )
     .bind(sha256)
@@ -241,6 +255,8 @@ async fn forget(connection: &mut AnyConnection, sha256: &str) -> Result<Option<u
     .bind(sha256)
     .bind(sha256)
     .bind(&named)
+    .bind(sha256)
+    .bind(sha256)
     .fetch_optional(&mut *connection)
     .await?;
     Ok(bytes.map(|bytes| bytes as u64))

@@ -44,6 +44,11 @@ impl Store {
             }
             files.extend(blobs);
         }
+        for id in &what.workloads {
+            going.insert(id);
+            files.extend(self.texts("SELECT blob FROM workloads WHERE id = $1", id).await?);
+            files.extend(self.texts("SELECT queries FROM workloads WHERE id = $1", id).await?);
+        }
         let mut unused = Vec::new();
         for sha256 in files {
             if self.users_of(&sha256).await?.iter().all(|id| going.contains(id.as_str())) {
@@ -57,7 +62,7 @@ impl Store {
         Ok(unused)
     }
 
-    /// Ids of the runs, objects, saved configurations, advice and plugins that use this file.
+    /// Ids of the runs, objects, saved configurations, advice, workloads and plugins that use this file.
     async fn users_of(&self, sha256: &str) -> Result<Vec<String>> {
         let named = format!("%\"{sha256}\"%");
         let users = "SELECT id FROM objects WHERE blob = $1 \
@@ -65,10 +70,11 @@ impl Store {
                      UNION SELECT run_id FROM results WHERE records = $4 OR triangle_tests = $5 \
                      UNION SELECT id FROM submissions WHERE blob = $6 \
                      UNION SELECT id FROM saved_configurations WHERE blob = $7 \
-                     UNION SELECT id FROM advice WHERE papers LIKE $8";
+                     UNION SELECT id FROM advice WHERE papers LIKE $8 \
+                     UNION SELECT id FROM workloads WHERE blob = $9 OR queries = $10";
         let query = sqlx::query_scalar(users).bind(sha256).bind(sha256).bind(&named);
         let query = query.bind(sha256).bind(sha256).bind(sha256).bind(sha256);
-        Ok(query.bind(&named).fetch_all(&self.pool).await?)
+        Ok(query.bind(&named).bind(sha256).bind(sha256).fetch_all(&self.pool).await?)
     }
 
     async fn texts(&self, text: &'static str, id: &str) -> Result<Vec<String>> {

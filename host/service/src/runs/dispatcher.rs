@@ -12,6 +12,7 @@ use crate::plugins::checks;
 use crate::runs::carry_out::{BACK_OFF, carry_out};
 use crate::runs::priority::INTERACTIVE;
 use crate::stability::work::next_part;
+use crate::workloads::work::next_replay;
 
 /// The queue is looked at this often even if nobody rings.
 const IDLE: Duration = Duration::from_secs(30);
@@ -47,6 +48,15 @@ pub async fn work(inner: Arc<Inner>) {
                 true
             }
         };
+        let replayed = next_replay(&inner).await;
+        let replayed = match replayed {
+            Ok(replayed) => replayed,
+            Err(e) => {
+                tracing::error!("a replay: {e}");
+                tokio::time::sleep(BACK_OFF).await;
+                true
+            }
+        };
         match inner.store.begin_run(&inner.worker).await {
             Ok(Some(attempt)) => {
                 if let Err(e) = carry_out(&inner, &attempt, None).await {
@@ -54,7 +64,7 @@ pub async fn work(inner: Arc<Inner>) {
                     tokio::time::sleep(BACK_OFF).await;
                 }
             }
-            Ok(None) if checked || tried => {}
+            Ok(None) if checked || tried || replayed => {}
             Ok(None) if filling.work(&inner, asked).await => {}
             Ok(None) => {
                 let idle = if faults > 0 { next_check.saturating_duration_since(Instant::now()) } else { IDLE };

@@ -4,7 +4,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::Result;
+use crate::model::State;
 use crate::runs::share::{QueueShare, Since};
+use crate::runs::sql::named_state;
 use crate::store::Store;
 
 /// Shares of which there are so many are not counted anew for everybody who looks.
@@ -86,6 +88,28 @@ impl Store {
 pub(crate) fn of_others(of: &str, since: &Since, before: i64, shares: &[QueueShare]) -> i64 {
     let others = shares.iter().filter(|other| other.of != of);
     others.map(|other| other.waiting.min(before + i64::from(other.since < *since))).sum()
+}
+
+/// State, turn, when that was served last, when it was asked for, and id: of a stability run or workload that has not ended.
+pub(crate) type Waiting = (String, String, i64, i64, String);
+
+/// How many of these, the oldest first, are under way or carried out before the one with this id, which waits.
+pub(crate) fn before(waiting: Vec<Waiting>, of: &str, asked_us: i64, this: &str) -> Result<u32> {
+    let (mut running, mut own, mut shares) = (0, 0, Vec::<QueueShare>::new());
+    for (state, turn, served_us, created_us, id) in waiting {
+        if named_state(&state)? == State::Running {
+            // It may have begun since it was read.
+            running += u32::from(id != this);
+            continue;
+        }
+        own += i64::from(turn == of && (created_us, id.as_str()) < (asked_us, this));
+        match shares.iter_mut().find(|known| known.of == turn) {
+            Some(known) => known.waiting += 1,
+            None => shares.push(QueueShare { of: turn, waiting: 1, since: (served_us, created_us, id) }),
+        }
+    }
+    let Some(share) = shares.iter().find(|known| known.of == of) else { return Ok(running) };
+    Ok(running + (own + of_others(of, &share.since, own, &shares)) as u32)
 }
 
 #[cfg(test)]

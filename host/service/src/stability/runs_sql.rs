@@ -7,10 +7,9 @@ use crate::attempts::sql::{at_rest, begin, end, forget};
 use crate::attempts::worker::Worker;
 use crate::attempts::{Attempt, Kind, Outcome};
 use crate::model::{Cursor, Stability, StabilitySpec, State};
-use crate::runs::places::of_others;
+use crate::runs::places::{Waiting, before};
 use crate::runs::priority::INTERACTIVE;
 use crate::runs::queue::served;
-use crate::runs::share::QueueShare;
 use crate::runs::sql::{named_state, state_name};
 use crate::store::{Store, from_json, now_us, to_json};
 
@@ -200,7 +199,7 @@ impl Store {
 
     /// How many are under way, or are carried out before this one, which waits. Few wait, so all are looked at.
     pub async fn stability_before(&self, row: &StabilityRow) -> Result<u32> {
-        let waiting: Vec<(String, String, i64, i64, String)> = sqlx::query_as(
+        let waiting: Vec<Waiting> = sqlx::query_as(
             "SELECT r.state, r.turn, COALESCE(s.served_us, 0), r.created_us, r.id \
              FROM stability_runs r LEFT JOIN served s ON s.owner = r.turn \
              WHERE r.state IN ('queued', 'running') AND r.priority = $1 ORDER BY r.created_us, r.id",
@@ -208,21 +207,7 @@ impl Store {
         .bind(INTERACTIVE)
         .fetch_all(&self.pool)
         .await?;
-        let (mut running, mut own, mut shares) = (0, 0, Vec::<QueueShare>::new());
-        for (state, turn, served_us, created_us, id) in waiting {
-            if named_state(&state)? == State::Running {
-                // It may have begun since it was read.
-                running += u32::from(id != row.id);
-                continue;
-            }
-            own += i64::from(turn == row.turn && (created_us, &id) < (row.created_us, &row.id));
-            match shares.iter_mut().find(|known| known.of == turn) {
-                Some(known) => known.waiting += 1,
-                None => shares.push(QueueShare { of: turn, waiting: 1, since: (served_us, created_us, id) }),
-            }
-        }
-        let Some(share) = shares.iter().find(|known| known.of == row.turn) else { return Ok(running) };
-        Ok(running + (own + of_others(&row.turn, &share.since, own, &shares)) as u32)
+        before(waiting, &row.turn, row.created_us, &row.id)
     }
 
     /// Takes one away.

@@ -29,7 +29,7 @@ pub(crate) mod plugins;
 mod suites;
 mod visibility;
 
-use fixtures::{add, advice_info, begin, end, handed, object, set_info, spec, worker};
+use fixtures::{add, advice_info, begin, end, handed, object, set_info, spec, worker, workload, workload_result};
 pub(crate) use fixtures::{result, run};
 
 use super::*;

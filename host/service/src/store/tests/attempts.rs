@@ -6,7 +6,10 @@ use super::super::*;
 use super::people::{NOTE, account};
 use super::plugins::{ended_check, plugin};
 use super::rows::*;
-use super::{add, advice_info, begin, end, fresh_stages, handed, plain_event, run, set_info, spec, worker};
+use super::{
+    add, advice_info, begin, end, fresh_stages, handed, plain_event, run, set_info, spec, worker, workload,
+    workload_result,
+};
 use crate::attempts::{Attempt, LEASE_US, MOST_LOST};
 use crate::model::{AdviceInfo, CheckLine, CheckVerdict, PluginState, Preview, RunSpec, StabilitySpec, State};
 use crate::runs::accept::Handed;
@@ -154,6 +157,7 @@ pub async fn two_workers_never_begin_the_same(store: Store) {
         store.add_blob(&id, 1, "x").await.unwrap();
         assert!(store.add_plugin(&plugin(&id, "1", &id), NOTE).await.unwrap());
         assert!(store.add_stability_run(&tried(&format!("s{i}"))).await.unwrap());
+        assert!(store.add_workload(&workload(&format!("w{i}"), "me", "f")).await.unwrap());
     }
     let both = ["m", "n"].map(|machine| {
         let (store, worker) = (store.clone(), worker(machine));
@@ -168,13 +172,16 @@ pub async fn two_workers_never_begin_the_same(store: Store) {
             while let Some((attempt, _)) = store.begin_part(1, &worker).await.unwrap() {
                 begun.push(attempt.job);
             }
+            while let Some((attempt, _)) = store.begin_replay(&worker).await.unwrap() {
+                begun.push(attempt.job);
+            }
             begun
         })
     });
     let [one, two] = both;
     let all = [one.await.unwrap(), two.await.unwrap()].concat();
-    assert_eq!(all.len(), 28, "everything is begun, although both choose the same one now and then");
-    assert_eq!(all.iter().collect::<HashSet<_>>().len(), 28, "nothing is begun twice");
+    assert_eq!(all.len(), 32, "everything is begun, although both choose the same one now and then");
+    assert_eq!(all.iter().collect::<HashSet<_>>().len(), 32, "nothing is begun twice");
 }
 
 fn tried(id: &str) -> StabilityRow {
@@ -217,7 +224,7 @@ pub async fn a_job_is_withdrawn_from_another_worker_alone(store: Store) {
     assert!(store.open_advice().await.unwrap().is_empty());
 }
 
-/// The first attempt at a check, a stability part and advice is lost; what its worker says then changes nothing.
+/// The first attempt at a check, a stability part, a replay and advice is lost; what its worker says then changes nothing.
 pub async fn lost_checks_parts_and_advice_change_nothing(store: Store) {
     store.add_account(&account("1", "ada"), "hash").await.unwrap();
     store.add_blob("f", 1, "x").await.unwrap();
@@ -226,12 +233,15 @@ pub async fn lost_checks_parts_and_advice_change_nothing(store: Store) {
     let (me, other) = (worker("m"), worker("n"));
     let (check, _) = store.begin_check(&me).await.unwrap().unwrap();
     let (part, _) = store.begin_part(1, &me).await.unwrap().unwrap();
+    assert!(store.add_workload(&workload("w", "me", "f")).await.unwrap());
+    let (replay, _) = store.begin_replay(&me).await.unwrap().unwrap();
+    store.replay_is_at("w", 5).await.unwrap();
     let advice = store.add_advice(&advice_info("v"), "me", "turn", &me).await.unwrap().unwrap();
     assert!(store.note_vetted(&check).await.unwrap());
     assert!(store.open_advice().await.unwrap().is_empty(), "a second service takes up nothing of the first");
     assert_eq!(store.take_up("v", &other).await.unwrap(), None);
     assert!(store.lose_check(&check, Some(&me)).await.unwrap());
-    for attempt in [&part, &advice] {
+    for attempt in [&part, &replay, &advice] {
         assert!(store.lose(attempt, Some(&me)).await.unwrap());
     }
     assert_eq!(store.plugin("p").await.unwrap().unwrap().state, PluginState::Uploaded);
@@ -255,6 +265,17 @@ pub async fn lost_checks_parts_and_advice_change_nothing(store: Store) {
     assert!(!store.give_up_part(&part, State::Failed, None).await.unwrap());
     assert!(store.stability_run("s").await.unwrap().unwrap().done.is_empty());
     assert!(store.accept_part(&second, &["x".into()], &found, 1.0).await.unwrap(), "it was the last one");
+
+    let (second, row) = store.begin_replay(&other).await.unwrap().unwrap();
+    assert_eq!((row.attempts, row.done), (2, 0), "it begins anew");
+    let found = workload_result();
+    assert!(!store.accept_replay(&replay, &found, "table").await.unwrap());
+    assert!(!store.give_up_replay(&replay, State::Failed, None).await.unwrap());
+    assert_eq!(store.workload_table("w").await.unwrap(), None);
+    assert!(store.accept_replay(&second, &found, "table").await.unwrap());
+    assert!(!store.accept_replay(&second, &found, "other").await.unwrap());
+    assert_eq!(store.workload_table("w").await.unwrap().as_deref(), Some("table"));
+    assert_eq!(store.workload_result("w").await.unwrap(), Some(found));
 
     let second = store.take_up("v", &other).await.unwrap().unwrap();
     assert!(!store.begin_advice(&advice).await.unwrap());

@@ -4,7 +4,7 @@ use super::super::*;
 use super::people::account;
 use super::plugins::plugin;
 use super::rows::*;
-use super::{add, begin, object, run};
+use super::{add, begin, object, run, workload};
 use crate::model::{
     AccountInfo, CheckLine, CheckVerdict, Cursor, InvitationInfo, InvitationState, NewChoices, NoticeInfo, OwnedItem,
     PluginState, Role, SavedConfigurations, Scope, StabilitySpec, State, TokenInfo,
@@ -29,6 +29,7 @@ async fn rows_of(store: &Store, id: &str) -> i64 {
                 + (SELECT COUNT(*) FROM requests WHERE owner = $2) + (SELECT COUNT(*) FROM kept WHERE owner = $2) \
                 + (SELECT COUNT(*) FROM served WHERE owner = $2) \
                 + (SELECT COUNT(*) FROM stability_runs WHERE owner = $2) \
+                + (SELECT COUNT(*) FROM workloads WHERE owner = $2) \
                 + (SELECT COUNT(*) FROM saved_configurations WHERE owner = $2)";
     let owner = format!("account:{id}");
     sqlx::query_scalar(text).bind(id).bind(owner).fetch_one(&store.pool).await.unwrap()
@@ -101,6 +102,9 @@ pub(crate) async fn somebody(store: &Store, id: &str, name: &str) -> AccountInfo
         finished_us: None,
     };
     assert!(store.add_stability_run(&tried).await.unwrap());
+    let recorded = workload(&format!("workload {id}"), &info.owner(), &format!("recording {id}"));
+    store.add_blob(&recorded.recording.sha256, 40, "application/zip").await.unwrap();
+    assert!(store.add_workload(&recorded).await.unwrap());
     info
 }
 
@@ -111,6 +115,7 @@ fn parted(id: &str) -> (OwnedIds, OwnedIds) {
         advice: Vec::new(),
         configurations: Vec::from_iter((kind == "own").then(|| thing(&format!("configurations {id}")))),
         stability: Vec::from_iter((kind == "own").then(|| format!("stability {id}"))),
+        workloads: Vec::from_iter((kind == "own").then(|| format!("workload {id}"))),
         plugins: vec![format!("{kind} plugin {id}")],
     };
     (of("own"), of("public"))
@@ -136,12 +141,15 @@ pub async fn an_account_goes_at_once_and_what_is_public_is_nobodys(store: Store)
     let campaign = super::campaigns::campaign("c", 1, &suite);
     assert!(store.add_campaign(&CampaignRow { created_by: "Ada".into(), ..campaign }, NOTE).await.unwrap());
     let before = rows_of(&store, "2").await;
-    assert!(before >= 13 && rows_of(&store, "1").await >= 13, "{before}");
+    assert!(before >= 14 && rows_of(&store, "1").await >= 14, "{before}");
 
     let (goes, stays) = parted("1");
     let unused = store.delete_account(&ada, &goes, &stays, NOTE).await.unwrap();
     let file = |sha256: &str, bytes| Unused { sha256: sha256.into(), bytes };
-    assert_eq!(unused, Some(vec![file("own file 1", 20), file("own mesh 1", 10), file("saved 1", 30)]));
+    assert_eq!(
+        unused,
+        Some(vec![file("own file 1", 20), file("own mesh 1", 10), file("recording 1", 40), file("saved 1", 30)])
+    );
     assert_eq!(rows_of(&store, "1").await, 0);
     assert_eq!(rows_of(&store, "2").await, before, "nobody else lost anything");
 

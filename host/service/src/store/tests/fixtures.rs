@@ -9,11 +9,12 @@ use super::rows::*;
 use crate::attempts::Attempt;
 use crate::attempts::worker::Worker;
 use crate::model::{
-    AdviceInfo, Agreement, AlgorithmResult, ClassCount, Estimated, ObjectInfo, OutcomeInfo, OutcomeName, Rounding,
-    RoundingEffect, RunSpec, SetInfo, State, Visibility,
+    AdviceInfo, Agreement, AlgorithmResult, ClassCount, Estimated, ObjectInfo, OutcomeInfo, OutcomeName, RecordingInfo,
+    Rounding, RoundingEffect, RunSpec, SetInfo, State, Timeline, Visibility, WorkloadResult, WorkloadSpec,
 };
 use crate::runs::accept::{Handed, RunEnd};
 use crate::runs::log::fresh_stages;
+use crate::workloads::sql::WorkloadRow;
 
 pub(crate) fn object(id: &str) -> ObjectInfo {
     ObjectInfo {
@@ -40,6 +41,42 @@ pub(crate) fn spec() -> RunSpec {
     serde_json::from_value(serde_json::json!({
         "object_a": "stock:box@500", "query": "proximity", "algorithms": ["a", "b"], "separation": { "kind": "relative", "distance": 0.1 },
         "method": {"kind": "sphere", "sampling": {"kind": "count", "count": 5}},
+    }))
+    .unwrap()
+}
+
+pub(crate) fn workload(id: &str, owner: &str, sha256: &str) -> WorkloadRow {
+    let recording = RecordingInfo {
+        file: "r.ocbrec".into(),
+        sha256: sha256.into(),
+        bytes: 40,
+        program: "p".into(),
+        libraries: vec!["fcl 0.7.0".into()],
+        objects: 2,
+        queries: 9,
+        seen: 10,
+    };
+    WorkloadRow {
+        id: id.into(),
+        owner: Some(owner.into()),
+        turn: owner.into(),
+        state: State::Queued,
+        attempts: 0,
+        message: None,
+        spec: WorkloadSpec::default(),
+        recording,
+        done: 0,
+        created_us: 1,
+        finished_us: None,
+    }
+}
+
+pub(crate) fn workload_result() -> WorkloadResult {
+    serde_json::from_value(serde_json::json!({
+        "program": "p", "libraries": [], "objects": [{ "name": "a", "triangles": 12, "bound": 0.1 }], "seen": 10, "queries": 9,
+        "left_out": [{ "reason": "sampled", "count": 1 }], "groups": 3, "hits": 4,
+        "recorded": { "claims": [{ "claim": "right", "count": 9 }], "largest_error": 0.0, "false_answers": [], "seconds": 0.1 },
+        "tracks": [{ "track": "recorded", "algorithms": [] }], "timeline": Timeline::default(), "passes": 1, "seed": 5,
     }))
     .unwrap()
 }

@@ -1,0 +1,95 @@
+//! Workloads at work: one replay at a time, begun anew after a restart.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
+
+use ocb_lab::workload::workload_parquet;
+use tokio::time::{Instant, sleep, sleep_until};
+
+use super::replay::replay;
+use super::sql::WorkloadRow;
+use crate::attempts::sql::end;
+use crate::attempts::{Attempt, MOST_LOST, Outcome};
+use crate::engine::Inner;
+use crate::measure::Stop;
+use crate::model::State;
+use crate::quotas::time;
+use crate::{EngineError, Result};
+
+/// How often it is noted how far a replay is.
+const NOTE: Duration = Duration::from_secs(1);
+
+/// Replays the recording whose turn it is; false when none waits.
+pub async fn next_replay(inner: &Arc<Inner>) -> Result<bool> {
+    let Some((attempt, row)) = inner.store.begin_replay(&inner.worker).await? else { return Ok(false) };
+    if row.attempts > MOST_LOST {
+        let message = format!(
+            "The service ended {MOST_LOST} times in the middle of this replay, so it is not tried again; its log says why."
+        );
+        inner.store.give_up_replay(&attempt, State::Failed, Some(&message)).await?;
+        return Ok(true);
+    }
+    let stop = Stop::default();
+    let _held = inner.hold(&attempt, &stop);
+    inner.set_current(&row.id, &stop);
+    // Who ended it between the beginning and the line above found nothing to stop.
+    let open = inner.store.workload(&row.id).await?.is_some_and(|now| now.state == State::Running);
+    if inner.closing() || !open {
+        stop.stop();
+    }
+    let ended = carry_out(inner, &attempt, &row, &stop).await;
+    inner.unset_current();
+    match ended {
+        Ok(()) => {}
+        // Its time is over.
+        Err(_) if stop.asked() && stop.reason().is_some() => {
+            inner.store.give_up_replay(&attempt, State::Cancelled, stop.reason().as_deref()).await?;
+        }
+        Err(_) if stop.asked() => inner.store.put_back_replay(&attempt).await?,
+        // Ours: it is tried again, after the dispatcher has waited a little.
+        Err(e @ EngineError::Fault(_)) => {
+            let mut connection = inner.store.pool.acquire().await?;
+            end(&mut connection, &attempt, Outcome::Lost).await?;
+            return Err(e);
+        }
+        Err(e) => {
+            tracing::warn!("workload {}: {e}", row.id);
+            inner.store.give_up_replay(&attempt, State::Failed, Some(&e.for_visitors().to_string())).await?;
+        }
+    }
+    Ok(true)
+}
+
+async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, row: &WorkloadRow, stop: &Stop) -> Result<()> {
+    let (_, recording) = inner.recording(&row.id).await?;
+    let algorithms = inner.algorithms_for(&recording, &row.spec.algorithms, row.owner.as_deref())?;
+    let done = Arc::new(AtomicU64::new(0));
+    let so_far = done.clone();
+    let tell = move |progress: ocb_lab::workload::Progress| so_far.store(progress.done, Ordering::Relaxed);
+    let replaying = replay(inner, recording.clone(), row.spec.clone(), algorithms, stop.clone(), tell, || {});
+    tokio::pin!(replaying);
+    let longest = inner.longest_of(row.owner.as_deref());
+    let over = longest.map(|longest| Instant::now() + longest);
+    let replayed = loop {
+        tokio::select! {
+            replayed = &mut replaying => break replayed?,
+            () = sleep(NOTE) => inner.store.replay_is_at(&row.id, done.load(Ordering::Relaxed)).await?,
+            () = sleep_until(over.unwrap_or_else(Instant::now)), if over.is_some() && !stop.asked() => {
+                stop.stop_because(longest.map(|longest| format!(
+                    "Stopped after {}, the time limit for guests. Choose fewer algorithms or a smaller budget, or log in.",
+                    time(longest.as_secs_f64())
+                )));
+            }
+        }
+    };
+    let table = workload_parquet(&replayed.rows, &recording.queries)?;
+    let length = table.len();
+    let _keeping = inner.store.locks.keeping().await?;
+    let queries = inner.blobs.put(table).await?;
+    inner.store.add_blob(&queries, length, "application/vnd.apache.parquet").await?;
+    if !inner.store.accept_replay(attempt, &replayed.result, &queries).await? {
+        tracing::warn!("workload {}: the result of attempt {} is not kept", row.id, attempt.number);
+    }
+    Ok(())
+}
