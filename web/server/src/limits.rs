@@ -55,6 +55,7 @@ pub(crate) const SUBMIT: Limit = limit("submit a plugin", "account", 30, 3600);
 /// Runs, requests for advice, objects and uploaded MiB, per address.
 pub(crate) const ASK_RUN: Limit = limit("request a run", "address", 120, 600);
 pub(crate) const START_STABILITY: Limit = limit("start stability runs", "address", 60, 3600);
+pub(crate) const ADD_WORKLOAD: Limit = limit("replay recordings", "address", 60, 3600);
 pub(crate) const ASK_ADVICE: Limit = limit("request advice", "address", 60, 3600);
 pub(crate) const ADD_OBJECT: Limit = limit("add an object", "address", 120, 3600);
 pub(crate) const SAVE_CONFIGURATIONS: Limit = limit("save configurations", "address", 120, 3600);

@@ -20,6 +20,7 @@ enum Named {
     Advice(String),
     Configurations(String),
     StabilityRun(String),
+    Workload(String),
 }
 
 /// Answers as if there were no such thing when it is somebody else's private one, in the path or as what another is compared
@@ -29,7 +30,8 @@ pub(crate) async fn hide_private_things(State(app): State<App>, request: Request
     let guest = request.extensions().get::<Guest>().map(|guest| guest.0.clone());
     for thing in &named {
         // Curators end what keeps others waiting, and do not see what it found.
-        let ends = matches!(thing, Named::StabilityRun(_)) && request.uri().path().ends_with("/cancel");
+        let ends =
+            matches!(thing, Named::StabilityRun(_) | Named::Workload(_)) && request.uri().path().ends_with("/cancel");
         if ends && request.extensions().get::<Person>().is_some_and(|Person(account)| account.role >= Role::Curator) {
             continue;
         }
@@ -39,6 +41,7 @@ pub(crate) async fn hide_private_things(State(app): State<App>, request: Request
             Named::Advice(id) => app.engine.advice_is_for(id, guest.as_deref()).await,
             Named::Configurations(id) => app.engine.saved_are_for(id, guest.as_deref()).await,
             Named::StabilityRun(id) => app.engine.stability_run_is_for(id, guest.as_deref()).await,
+            Named::Workload(id) => app.engine.workload_is_for(id, guest.as_deref()).await,
         };
         if let Err(e) = there {
             return Problem::from(e).into_response();
@@ -59,6 +62,7 @@ fn named(uri: &Uri) -> Vec<Named> {
         "advice" => Some(Named::Advice(id)),
         "configurations" => Some(Named::Configurations(id)),
         "stability-runs" => Some(Named::StabilityRun(id)),
+        "workloads" => Some(Named::Workload(id)),
         _ => None,
     };
     let Query(pairs) = Query::<Vec<(String, String)>>::try_from_uri(uri).unwrap_or_default();

@@ -23,6 +23,7 @@ mod service;
 mod stability;
 mod stability_runs;
 mod suite;
+mod workloads;
 
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
@@ -81,6 +82,19 @@ fn api() -> OpenApiRouter<App> {
                 .layer(DefaultBodyLimit::max(upload::MAX_BODY_BYTES as usize))
                 .layer(middleware::from_fn(upload::refuse_gently)),
         )
+        .routes(
+            routes!(workloads::list_workloads, workloads::add_workload)
+                .layer(DefaultBodyLimit::max(upload::MAX_BODY_BYTES as usize))
+                .layer(middleware::from_fn(upload::refuse_gently)),
+        )
+        .routes(routes!(workloads::show_workload, workloads::remove_workload))
+        .routes(routes!(workloads::replay_again))
+        .routes(routes!(workloads::cancel_workload))
+        .routes(routes!(workloads::show_stretch))
+        .routes(routes!(workloads::show_group))
+        .routes(routes!(workloads::workload_mesh))
+        .routes(routes!(workloads::workload_queries))
+        .routes(routes!(workloads::workload_recording))
         .routes(routes!(configurations::remove_configurations))
         .routes(routes!(configurations::deletion_preview_of_configurations))
         .routes(routes!(configurations::configurations_file))

@@ -118,6 +118,8 @@ pub(crate) struct Upload {
     pub name: String,
     /// Its content.
     pub file: Spooled,
+    /// The part `spec` before it: what is asked about the file.
+    pub spec: Option<Vec<u8>>,
 }
 
 /// Answers a body that is too large, or refused half-way, so that the client sees the answer.
@@ -173,12 +175,16 @@ impl Upload {
         let mut form = Multipart::from_request(request, app)
             .await
             .map_err(|_| Problem::bad_request("Send the file as multipart/form-data in a field named \"file\"."))?;
+        let mut spec = None;
         while let Some(field) = form.next_field().await.map_err(broken)? {
-            if field.name() == Some("file") {
-                let name = clean_name(field.file_name().unwrap_or_default());
-                return Ok(Self { name, file: spool(field, most, app, from).await? });
+            match field.name() {
+                Some("file") => {
+                    let name = clean_name(field.file_name().unwrap_or_default());
+                    return Ok(Self { name, file: spool(field, most, app, from).await?, spec });
+                }
+                Some("spec") => spec = Some(read(field, OTHER_BYTES).await?),
+                _ => drop(read(field, OTHER_BYTES).await?),
             }
-            read(field, OTHER_BYTES).await?;
         }
         Err(Problem::bad_request("The form has no field named \"file\"."))
     }

@@ -61,7 +61,7 @@ pub(crate) async fn add_configurations(
     request: Request,
 ) -> Result<(StatusCode, Json<SavedConfigurations>)> {
     app.limits.count(SAVE_CONFIGURATIONS, &address)?;
-    let Upload { name, file } = {
+    let Upload { name, file, .. } = {
         let _coming = app.uploads.begin(&address)?;
         Upload::read(request, MAX_CONFIGURATION_BYTES, &app, &address).await?
     };

@@ -63,7 +63,7 @@ pub(crate) async fn add_object(
     request: Request,
 ) -> Result<(StatusCode, Json<ObjectInfo>)> {
     app.limits.count(ADD_OBJECT, &address)?;
-    let Upload { name, file } = {
+    let Upload { name, file, .. } = {
         let _coming = app.uploads.begin(&address)?;
         Upload::read(request, MAX_BYTES, &app, &address).await?
     };

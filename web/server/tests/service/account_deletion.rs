@@ -82,6 +82,7 @@ async fn what_is_public_outlives_its_account_and_the_rest_is_gone() {
         format!("/api/v1/objects/{object}"),
         format!("/api/v1/advice/{advice}"),
         format!("/api/v1/stability-runs/{}", made.id("stability-runs")),
+        format!("/api/v1/workloads/{}", made.id("workloads")),
         format!("/api/v1/plugins/{garbage}"),
     ] {
         for asking in [owner, &curator] {

@@ -31,3 +31,4 @@ mod suite;
 mod support;
 mod uploads;
 mod visitors;
+mod workloads;

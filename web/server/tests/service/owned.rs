@@ -148,6 +148,10 @@ async fn everything_is_taken_along_in_one_archive() {
         ocb_service::sha256_hex(file(&format!("configurations/{saved}.file")))
     );
     assert_eq!(json(&format!("stability/{}.json", made.id("stability-runs")))["result"]["complete"], true);
+    let workload = format!("workloads/{}", made.id("workloads"));
+    assert_eq!(json(&format!("{workload}/workload.json"))["state"], "done");
+    assert!(file(&format!("{workload}/queries.parquet")).starts_with(b"PAR1"));
+    assert!(file(&format!("{workload}/recording.ocbrec")).starts_with(b"PK"));
     assert_eq!(json(&format!("plugins/{plugin}/plugin.json"))["id"], plugin);
     assert!(file(&format!("plugins/{plugin}/tree.so")).starts_with(b"\x7fELF"));
     assert_eq!(json("account.json")["name"], "owner");

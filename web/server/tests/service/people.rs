@@ -213,6 +213,17 @@ const DOORS: &[(&str, &[&str])] = &[
             "get /stability-runs/{id}",
             "delete /stability-runs/{id}",
             "post /stability-runs/{id}/cancel",
+            "post /workloads",
+            "get /workloads",
+            "get /workloads/{id}",
+            "delete /workloads/{id}",
+            "post /workloads/{id}/again",
+            "post /workloads/{id}/cancel",
+            "get /workloads/{id}/stretch",
+            "get /workloads/{id}/group",
+            "get /workloads/{id}/objects/{object}/mesh.glb",
+            "get /workloads/{id}/queries.parquet",
+            "get /workloads/{id}/recording.ocbrec",
             "get /status",
             "get /suite",
             "get /data",
@@ -295,6 +306,7 @@ async fn every_route_has_its_door() {
             let path = path
                 .replace("{id}", "0193f1a0-0000-7000-8000-000000000000")
                 .replace("{vertex}", "0")
+                .replace("{object}", "0")
                 .replace("{configuration}", "0");
             for (rank, (role, guest)) in roles.iter().enumerate() {
                 let method = Method::from_bytes(method.to_uppercase().as_bytes()).expect("a method");

@@ -16,8 +16,15 @@ use crate::support::{Guest, Service, header, problem, small_spec};
 /// An id that nothing has.
 const NOTHING: &str = "0193f1a0-0000-7000-8000-000000000000";
 /// Values of parameters that the document does not list.
-const VALUES: &[(&str, &str)] =
-    &[("algorithm", "box-tree"), ("kind", "ecdf"), ("where", "wrong"), ("vertex", "0"), ("configuration", "0")];
+const VALUES: &[(&str, &str)] = &[
+    ("algorithm", "box-tree"),
+    ("kind", "ecdf"),
+    ("where", "wrong"),
+    ("vertex", "0"),
+    ("configuration", "0"),
+    ("object", "0"),
+    ("sequence", "10"),
+];
 /// Routes below an id that belong to the account that asks, or to curators: `people.rs` asks those.
 const OF_ACCOUNTS: &[&str] = &["account", "accounts", "invitations"];
 /// Everybody's; what they hold of private runs is asked for where they are tested, in `campaigns.rs`.
@@ -32,8 +39,8 @@ pub struct Made {
 }
 
 impl Made {
-    /// An object of their own, a run and advice with it, a stability run, a plugin that did not get far, and the notice that says
-    /// so.
+    /// An object of their own, a run and advice with it, a stability run, a replayed recording, a plugin that did not get far, and
+    /// the notice that says so.
     pub async fn by(owner: Guest) -> Self {
         let object = uploaded(&owner).await;
         let run = owner.start(&spec(&object)).await;
@@ -51,6 +58,7 @@ impl Made {
             tokio::time::sleep(Duration::from_millis(100)).await;
         }
         let tried = tried.rsplit('/').next().expect("an id").to_owned();
+        let replayed = crate::workloads::replayed(&owner).await;
         let saved = owner.post(&format!("/api/v1/runs/{run}/save-configurations")).send().await.expect("an answer");
         let saved = saved.json::<Value>().await.expect("JSON")["id"].as_str().expect("an id").to_owned();
         let plugin: Value = crate::publishing::garbage(&owner, 0).await.json().await.expect("JSON");
@@ -65,6 +73,7 @@ impl Made {
             ("objects", object.clone()),
             ("advice", advice),
             ("stability-runs", tried),
+            ("workloads", replayed),
             ("configurations", saved),
             ("plugins", plugin),
             ("notices", notice),
@@ -150,6 +159,7 @@ async fn ask(by: &Guest, route: &Route, id: &str) -> Response {
     let changes = matches!(route.method, Method::POST | Method::PUT);
     let body = match route.resource.as_str() {
         "plugins" => json!({ "action": "withdraw", "reason": "" }),
+        "workloads" => json!({}),
         _ => json!({ "visibility": "unlisted" }),
     };
     let request = if changes { request.json(&body) } else { request };
@@ -211,8 +221,9 @@ async fn what_is_private_is_not_there_for_others() {
 
     // The run alone: nothing of it is there, nor beside another run.
     assert_eq!(made.let_see("runs", "private").await.status(), StatusCode::OK);
-    let mut asked = hidden(&made, &guest, &["runs", "stability-runs", "configurations"]).await
-        + hidden(&made, &account, &["runs", "stability-runs", "configurations", "plugins", "notices"]).await;
+    let mut asked = hidden(&made, &guest, &["runs", "stability-runs", "workloads", "configurations"]).await
+        + hidden(&made, &account, &["runs", "stability-runs", "workloads", "configurations", "plugins", "notices"])
+            .await;
     problem(guest.get(&beside).send().await.expect("an answer"), 404).await;
     seen(&made, &guest, &["objects", "advice"]).await;
 
