@@ -1,0 +1,155 @@
+"""Tables of results, for pandas, polars, Arrow, or as plain rows."""
+
+from __future__ import annotations
+
+import io
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, Mapping, Sequence, Tuple, cast
+
+from .errors import Error
+from .extras import either, need
+
+if TYPE_CHECKING:
+    import numpy as np
+    import pandas
+    import polars
+    import pyarrow
+    from numpy.typing import NDArray
+
+#: A row: values by the names of their columns.
+Row = Dict[str, Any]
+
+
+class Table(ABC):
+    """A table of results."""
+
+    @abstractmethod
+    def to_arrow(self) -> "pyarrow.Table":
+        """As a `pyarrow.Table` (extra `arrow`)."""
+
+    @abstractmethod
+    def to_polars(self) -> "polars.DataFrame":
+        """As a `polars.DataFrame` (extra `polars`)."""
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """As a `pandas.DataFrame` (extra `pandas`)."""
+        need("pandas", "A data frame of pandas", "pandas")
+        frame: "pandas.DataFrame" = self.to_arrow().to_pandas()
+        return frame
+
+
+class Rows(Table, Sequence[Row]):
+    """A table whose rows are here, so that it can be read without any other package."""
+
+    def __init__(self, rows: Sequence[Row]) -> None:
+        self._rows = list(rows)
+
+    def __getitem__(self, index: Any) -> Any:
+        return self._rows[index]
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def __iter__(self) -> Iterator[Row]:
+        return iter(self._rows)
+
+    def to_arrow(self) -> "pyarrow.Table":
+        return need("pyarrow", "An Arrow table", "arrow").Table.from_pylist(self._rows)
+
+    def to_polars(self) -> "polars.DataFrame":
+        frame: "polars.DataFrame" = need("polars", "A data frame of polars", "polars").DataFrame(
+            self._rows, infer_schema_length=None
+        )
+        return frame
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        frame: "pandas.DataFrame" = need("pandas", "A data frame of pandas", "pandas").DataFrame(self._rows)
+        return frame
+
+    def __str__(self) -> str:
+        """As text, one line per row."""
+        if not self._rows:
+            return "(no rows)"
+        names = list(self._rows[0])
+        lines = [names] + [[worded(row.get(name)) for name in names] for row in self._rows]
+        widths = [max(len(line[i]) for line in lines) for i in range(len(names))]
+        return "\n".join("  ".join(word.ljust(width) for word, width in zip(line, widths)).rstrip() for line in lines)
+
+
+class Parquet(Table):
+    """A table in one or more Parquet files, read when it is asked for.
+
+    Args:
+        parts: of each file, columns with one value to put in front of its own, and what gives its bytes.
+    """
+
+    def __init__(self, parts: Sequence[Tuple[Mapping[str, Any], Callable[[], bytes]]]) -> None:
+        self._parts = list(parts)
+
+    def to_arrow(self) -> "pyarrow.Table":
+        arrow = need("pyarrow", "An Arrow table", "arrow")
+        parquet = need("pyarrow.parquet", "An Arrow table", "arrow")
+        tables = []
+        for constants, read in self._parts:
+            table = parquet.read_table(io.BytesIO(read()))
+            for place, (name, value) in enumerate(constants.items()):
+                table = table.add_column(place, name, arrow.array([value] * table.num_rows))
+            tables.append(table)
+        return tables[0] if len(tables) == 1 else arrow.concat_tables(tables, promote_options="default")
+
+    def to_polars(self) -> "polars.DataFrame":
+        library = need("polars", "A data frame of polars", "polars")
+        frames = []
+        for constants, read in self._parts:
+            frame = library.read_parquet(io.BytesIO(read()))
+            fixed = [library.lit(value).alias(name) for name, value in constants.items()]
+            frames.append(frame.select(*fixed, library.all()))
+        whole: "polars.DataFrame" = library.concat(frames, how="diagonal")
+        return whole
+
+    def matrix(self, column: str) -> "NDArray[np.float64]":
+        """A column of lists of equal length, as an array (extra `numpy`, and `arrow` or `polars`).
+
+        Raises:
+            Error: there is no such column.
+        """
+        need("numpy", "An array", "numpy")
+        library = either(["pyarrow", "polars"], "An array from a Parquet file", "arrow")
+        if library.__name__ == "pyarrow":
+            table = self.to_arrow()
+            found = present(column, table.column_names)
+            flat = table[found].combine_chunks().flatten().to_numpy(zero_copy_only=False)
+            return cast("NDArray[np.float64]", flat.reshape(table.num_rows, -1))
+        frame = self.to_polars()
+        series: Any = frame[present(column, frame.columns)].explode()
+        return cast("NDArray[np.float64]", series.to_numpy().reshape(len(frame), -1))
+
+
+def present(column: str, names: Sequence[str]) -> str:
+    if column not in names:
+        raise Error(f"There is no column {column!r}; the columns are {', '.join(names)}.")
+    return column
+
+
+def joined(tables: Sequence[Parquet]) -> Parquet:
+    """The rows of several tables below each other; columns that some lack are empty there."""
+    return Parquet([part for table in tables for part in table._parts])
+
+
+def worded(value: Any) -> str:
+    """A value as text, numbers with four digits that count."""
+    if value is None:
+        return "-"
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    return str(value)
+
+
+def picked(data: Mapping[str, Any], *names: str) -> Any:
+    """A value inside of nested JSON objects, or nothing where a part is absent."""
+    found: Any = data
+    for name in names:
+        if not isinstance(found, Mapping):
+            return None
+        found = found.get(name)
+    return found
