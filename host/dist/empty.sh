@@ -17,7 +17,7 @@ mkdir -m 1777 "$root/tmp"
 mount -t proc proc "$root/proc"
 mount --rbind /sys "$root/sys"
 for device in null zero random urandom full; do touch "$root/dev/$device"; mount --bind "/dev/$device" "$root/dev/$device"; done
-cp "$package" "$(dirname "$0")/heatmap.py" "$root/srv/"
+cp "$package" "$(dirname "$0")"/{heatmap,measure}.py "$root/srv/"
 chown 1000:1000 "$root/srv/visitor"
 package=/srv/$(basename "$package")
 cd "$root"
@@ -58,6 +58,9 @@ service=$!
 /usr/bin/python3 /srv/heatmap.py "$kind" "$started" "$service"
 kill "$service"
 wait "$service"
+if [ "$kind" = wheel ]; then
+  (as 1000 1000 env/bin/python /srv/measure.py)
+fi
 if [ "$kind" = deb ]; then
   dpkg -r opencollbench
   [ ! -e /opt/opencollbench ] && [ ! -e /usr/bin/ocb ]

@@ -1,21 +1,9 @@
 #!/usr/bin/env python3
 """pack.py FOLDER: writes an archive, a wheel and a Debian package of what was built. The same files give the same bytes."""
-import base64, gzip, hashlib, io, os, pathlib, shutil, subprocess, sys, tarfile, tempfile, time, zipfile
-import contents, licences
+import gzip, hashlib, io, os, pathlib, shutil, subprocess, sys, tarfile, tempfile
+import contents, licences, wheel
 
 HERE = pathlib.Path(__file__).parent
-MODULE = '''"""The command `ocb`, which lies in this package with its runner, advisor and plugins."""
-import os, sys
-
-
-def main():
-    program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "ocb")
-    os.execv(program, [program, *sys.argv[1:]])
-
-
-if __name__ == "__main__":
-    main()
-'''
 CONTROL = '''Package: opencollbench
 Version: {version}
 Architecture: amd64
@@ -44,27 +32,6 @@ def archive(path, folder, files, stamp):
             entry = tarfile.TarInfo(f"{folder}/{name}")
             entry.size, entry.mtime, entry.mode = len(data), stamp, 0o755 if program else 0o644
             tar.addfile(entry, io.BytesIO(data))
-
-
-def wheel(path, version, tag, files, stamp):
-    info = f"opencollbench-{version}.dist-info"
-    inside = [(f"opencollbench/{name}", data, program) for name, data, program in files]
-    inside += [("opencollbench/__init__.py", b"", False), ("opencollbench/__main__.py", MODULE.encode(), False)]
-    inside += [(f"{info}/{name}", text.encode(), False) for name, text in [
-        ("METADATA", f"Metadata-Version: 2.1\nName: opencollbench\nVersion: {version}\nRequires-Python: >=3.8\n"
-                     "Summary: Benchmarks of collision detection, mapped onto the object\nLicense: MIT OR Apache-2.0\n"),
-        ("WHEEL", f"Wheel-Version: 1.0\nGenerator: opencollbench\nRoot-Is-Purelib: false\nTag: {tag}\n"),
-        ("entry_points.txt", "[console_scripts]\nocb = opencollbench.__main__:main\n")]]
-    record = "".join(
-        f"{name},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).decode().rstrip('=')},{len(data)}\n"
-        for name, data, _ in inside)
-    inside.append((f"{info}/RECORD", f"{record}{info}/RECORD,,\n".encode(), False))
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as out:
-        for name, data, program in inside:
-            entry = zipfile.ZipInfo(name, time.gmtime(stamp)[:6])
-            entry.compress_type, entry.create_system = zipfile.ZIP_DEFLATED, 3
-            entry.external_attr = (0o100755 if program else 0o100644) << 16
-            out.writestr(entry, data)
 
 
 def deb(path, version, glibc, files, stamp):
@@ -110,7 +77,7 @@ def main():
     tag = f"py3-none-manylinux_{glibc[0]}_{glibc[1]}_x86_64"
     name = f"opencollbench-{version}-x86_64-linux"
     archive(out / f"{name}.tar.gz", name, files, stamp)
-    wheel(out / f"opencollbench-{version}-{tag}.whl", version, tag, files, stamp)
+    wheel.write(out / f"opencollbench-{version}-{tag}.whl", version, tag, files, stamp)
     if shutil.which("dpkg-deb"):
         deb(out / f"opencollbench_{version}_amd64.deb", version, glibc, files, stamp)
     for file in sorted(out.iterdir()):
