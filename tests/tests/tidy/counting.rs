@@ -59,9 +59,10 @@ fn every_kind_of_log_is_counted() {
         ("vitest", " Test Files  45 passed (45)\n\u{1b}[32m      Tests  2 failed | 242 passed (244)\u{1b}[0m\n"),
         ("browser", "ℹ tests 37\nℹ pass 36\nℹ fail 1\n"),
         ("dist", "test result: ok. 1 passed; 0 failed\nnot run: there is no dpkg on this machine\n"),
+        ("python", "Ran 37 tests in 61.2s\nOK\ntest result: ok. 37 passed; 0 failed\n"),
         ("check", "test result: ok. 21 passed; 0 failed\ndeny: 3 passed, 1 failed\n"),
     ];
-    let said = "1 not run: there is no dpkg on this machine\n291 passed, 4 failed\n";
+    let said = "1 not run: there is no dpkg on this machine\n328 passed, 4 failed\n";
     assert_eq!(summary("", &logs), (said.to_owned(), false));
 }
 
