@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import queue
 import shutil
 import signal
 import subprocess
@@ -11,7 +12,7 @@ import threading
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Collection, List, Optional, Sequence, Union
+from typing import Any, Callable, Collection, Iterator, List, Optional, Sequence, Tuple, Union
 
 from .errors import Error, Notice
 from .progress import Progress, show_line
@@ -24,6 +25,8 @@ ENDED = (0, 1, 3)
 
 #: How long a stopped command may take to end its jails, seconds.
 PATIENCE = 30.0
+#: Between two looks for a line, seconds.
+LOOK_EVERY = 0.2
 
 
 @dataclass(frozen=True)
@@ -107,23 +110,23 @@ def parsed(printed: bytes) -> Any:
         return None
 
 
-def run(line: Sequence[str], progress: Progress) -> tuple[int, bytes, list[str]]:
+def run(line: Sequence[str], progress: Progress) -> Tuple[int, bytes, List[str]]:
     """Runs a command line; its exit code, its output, and the sentences that it said beside its progress."""
     try:
         process = subprocess.Popen(line, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     except OSError as error:
         raise Error(f"{line[0]} cannot be started: {error.strerror}.") from error
-    assert process.stdout is not None and process.stderr is not None
     printed: List[bytes] = []
+    lines: "queue.SimpleQueue[Optional[bytes]]" = queue.SimpleQueue()
+    readers = [threading.Thread(target=each, daemon=True) for each in (output(process, printed), errors(process, lines))]
+    for reader in readers:
+        reader.start()
     said: List[str] = []
-    output = process.stdout
-    reader = threading.Thread(target=lambda: printed.append(output.read()), daemon=True)
-    reader.start()
     try:
-        for raw in process.stderr:
+        for raw in arriving(lines):
             text = raw.decode("utf-8", "replace").rstrip()
             if text.startswith("ocb: "):
-                said.append(text[len("ocb: "):])
+                said.append(text[len("ocb: ") :])
             elif text:
                 show_line(progress, text)
         code = process.wait()
@@ -132,10 +135,41 @@ def run(line: Sequence[str], progress: Progress) -> tuple[int, bytes, list[str]]
         raise
     finally:
         progress.close()
-        reader.join(PATIENCE)
-        process.stderr.close()
-        process.stdout.close()
+        for reader in readers:
+            reader.join(PATIENCE)
     return code, b"".join(printed), said
+
+
+def output(process: "subprocess.Popen[bytes]", printed: List[bytes]) -> Callable[[], None]:
+    def read() -> None:
+        assert process.stdout is not None
+        with process.stdout:
+            printed.append(process.stdout.read())
+
+    return read
+
+
+def errors(process: "subprocess.Popen[bytes]", lines: "queue.SimpleQueue[Optional[bytes]]") -> Callable[[], None]:
+    def read() -> None:
+        assert process.stderr is not None
+        with process.stderr:
+            for line in process.stderr:
+                lines.put(line)
+        lines.put(None)
+
+    return read
+
+
+def arriving(lines: "queue.SimpleQueue[Optional[bytes]]") -> Iterator[bytes]:
+    """The lines until the end. Python notices an interrupt between two looks, whichever thread the signal reaches."""
+    while True:
+        try:
+            line = lines.get(timeout=LOOK_EVERY)
+        except queue.Empty:
+            continue
+        if line is None:
+            return
+        yield line
 
 
 def stop(process: "subprocess.Popen[bytes]") -> None:

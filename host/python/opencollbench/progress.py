@@ -7,6 +7,7 @@ import sys
 from typing import Any, Dict, Optional, Protocol
 
 STAGE = re.compile(r"(?P<name>.+?): (?P<done>\d+)/(?P<total>\d+)(?: (?P<note>.*))?")
+BEGUN = re.compile(r"(?P<name>.+): running")
 QUERIES = re.compile(r"(?P<done>\d+) of (?P<total>\d+) (?P<name>queries)")
 
 
@@ -14,7 +15,7 @@ class Progress(Protocol):
     """Shows what is being done."""
 
     def stage(self, name: str, done: int, total: int, note: str) -> None:
-        """So much of a stage is done."""
+        """So much of a stage is done; `total` is 0 while it is unknown."""
 
     def say(self, text: str) -> None:
         """Something that is no number."""
@@ -43,7 +44,8 @@ class Lines:
         self.last: Optional[str] = None
 
     def stage(self, name: str, done: int, total: int, note: str) -> None:
-        self.say(f"{name}: {done}/{total} {note}".rstrip())
+        count = f"{done}/{total} " if total else ""
+        self.say(f"{name}: {count}{note}".rstrip())
 
     def say(self, text: str) -> None:
         if text != self.last:
@@ -64,8 +66,8 @@ class Bars:
     def stage(self, name: str, done: int, total: int, note: str) -> None:
         bar = self.bars.get(name)
         if bar is None:
-            bar = self.bars[name] = self.tqdm(total=total, desc=name, file=sys.stderr)
-        bar.total = total
+            bar = self.bars[name] = self.tqdm(desc=name, file=sys.stderr)
+        bar.total = total or None
         bar.set_postfix_str(note, refresh=False)
         bar.update(done - bar.n)
 
@@ -90,10 +92,13 @@ def shown(progress: bool) -> Progress:
 
 
 def show_line(progress: Progress, line: str) -> None:
-    """Shows a line of progress as `ocb` prints it: `parry: 300/1000 100/s, 7 s left` or `300 of 1000 queries`."""
+    """Shows a line of progress as `ocb` prints it: `parry: 300/1000 100/s, 7 s left`, `parry: running` or `300 of 1000 queries`."""
+    begun = BEGUN.fullmatch(line)
     found = STAGE.fullmatch(line) or QUERIES.fullmatch(line)
-    if found is None:
+    if found is not None:
+        parts = found.groupdict()
+        progress.stage(parts["name"], int(parts["done"]), int(parts["total"]), parts.get("note") or "")
+    elif begun is not None:
+        progress.stage(begun["name"], 0, 0, "running")
+    else:
         progress.say(line)
-        return
-    parts = found.groupdict()
-    progress.stage(parts["name"], int(parts["done"]), int(parts["total"]), parts.get("note") or "")

@@ -63,7 +63,7 @@ def queries(pose_a: Numbers, pose_b: Numbers, answered: Numbers) -> bytes:
         "library": places,
     }
     out = io.BytesIO()
-    pyarrow.parquet.write_table(pyarrow.table(table), out)
+    pyarrow.parquet.write_table(pyarrow.table(table), out, compression="none")
     return out.getvalue()
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import doctest
 import importlib
+import io
 import os
 import pkgutil
 import re
@@ -43,8 +45,10 @@ class Examples(unittest.TestCase):
         blocks = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
         self.assertGreater(len(blocks), 3)
         names: "dict[str, object]" = {}
-        for block in blocks:
-            exec(compile(block, str(README), "exec"), names)
+        with contextlib.redirect_stdout(io.StringIO()) as printed, contextlib.redirect_stderr(io.StringIO()):
+            for block in blocks:
+                exec(compile(block, str(README), "exec"), names)
+        self.assertIn("ocb-fast", printed.getvalue())
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import unittest
 from pathlib import Path
@@ -13,10 +14,11 @@ import numpy
 import pyarrow
 import pyarrow.parquet
 import support
+import tqdm
 from opencollbench import Error, MissingPackage, Parquet, Positions, Rows
 from opencollbench.objects import named, ply
 from opencollbench.poses import filed, matrices, relative
-from opencollbench.progress import Bars, show_line
+from opencollbench.progress import Bars, Lines, show_line
 from opencollbench.tables import joined
 
 VERTICES = numpy.array([[0.0, 0.0, 1 / 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.1]])
@@ -130,17 +132,33 @@ class Tables(unittest.TestCase):
 
 
 class Shown(unittest.TestCase):
+    def show(self, progress: Any) -> None:
+        for line in [
+            "parry: running",
+            "parry: 30/100 50/s, 2 s left",
+            "30 of 200 queries",
+            "waiting: another process is measuring on this machine",
+        ]:
+            show_line(progress, line)
+
     def test_lines_of_the_command_become_bars(self) -> None:
-        tqdm = mock.MagicMock()
-        tqdm.return_value.n = 0
-        bars = Bars(tqdm)
-        show_line(bars, "box-tree:leaf_size=4: 30/100 50/s, 2 s left")
-        show_line(bars, "30 of 100 queries")
-        show_line(bars, "waiting: another process is measuring on this machine")
-        names = [call.kwargs["desc"] for call in tqdm.call_args_list]
-        self.assertEqual(names, ["box-tree:leaf_size=4", "queries"])
-        tqdm.return_value.update.assert_called_with(30)
-        tqdm.write.assert_called_once()
+        shown = io.StringIO()
+        with contextlib.redirect_stderr(shown):
+            bars = Bars(tqdm.tqdm)
+            self.show(bars)
+            found = {name: (bar.n, bar.total) for name, bar in bars.bars.items()}
+            bars.close()
+        self.assertEqual(found, {"parry": (30, 100), "queries": (30, 200)})
+        self.assertIn("waiting: another process is measuring on this machine\n", shown.getvalue())
+        self.assertIn("50/s, 2 s left", shown.getvalue())
+
+    def test_or_lines(self) -> None:
+        shown = io.StringIO()
+        with contextlib.redirect_stderr(shown):
+            self.show(Lines())
+        waiting = "waiting: another process is measuring on this machine"
+        lines = ["parry: running", "parry: 30/100 50/s, 2 s left", "queries: 30/200", waiting]
+        self.assertEqual(shown.getvalue().splitlines(), lines)
 
 
 if __name__ == "__main__":
