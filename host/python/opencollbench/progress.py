@@ -92,7 +92,7 @@ def shown(progress: bool) -> Progress:
 
 
 def show_line(progress: Progress, line: str) -> None:
-    """Shows a line of progress as `ocb` prints it: `parry: 300/1000 100/s, 7 s left`, `parry: running` or `300 of 1000 queries`."""
+    """Shows a line of progress of `ocb`, such as `parry: 300/1000 100/s, 7 s left`, `parry: running` or `300 of 1000 queries`."""
     begun = BEGUN.fullmatch(line)
     found = STAGE.fullmatch(line) or QUERIES.fullmatch(line)
     if found is not None:
