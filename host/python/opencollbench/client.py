@@ -15,6 +15,14 @@ from .errors import Error
 
 #: Seconds without a byte after which a request fails; a stream of events says something every 15 seconds.
 TIMEOUT = 60.0
+REDIRECTIONS = (301, 302, 303, 307, 308)
+
+
+class NoRedirect(urllib.request.HTTPRedirectHandler):
+    """Follows no redirection, which would take the token to another host."""
+
+    def redirect_request(self, *arguments: Any) -> None:
+        """Makes the redirection an error."""
 
 
 class Client:
@@ -34,7 +42,7 @@ class Client:
         if token is not None:
             self._headers["Authorization"] = f"Bearer {token}"
         cookies = urllib.request.HTTPCookieProcessor(http.cookiejar.CookieJar())
-        self._opener = urllib.request.build_opener(cookies)
+        self._opener = urllib.request.build_opener(cookies, NoRedirect)
 
     def json(self, path: str) -> Any:
         """What the service answers to a GET."""
@@ -87,7 +95,10 @@ class Client:
             return self._opener.open(request, timeout=TIMEOUT)
         except urllib.error.HTTPError as error:
             with error:
-                raise Error(sentence(error.read(), f"The service answered {error.code} to {path}."), error.code) from None
+                otherwise = f"The service {self.url} answered {error.code} to {path}."
+                if error.code in REDIRECTIONS:
+                    otherwise = f"The service {self.url} redirects to {error.headers.get('Location')}; use its address there."
+                raise Error(sentence(error.read(), otherwise), error.code) from None
         except (OSError, http.client.HTTPException) as error:
             reason = getattr(error, "reason", error)
             raise Error(f"The service {self.url} cannot be reached: {reason}.") from error

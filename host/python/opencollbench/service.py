@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import secrets
 import tempfile
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Dict, Mapping, Optional, Union
 
@@ -23,8 +24,9 @@ if TYPE_CHECKING:
 QUICK_LOOK = 5000
 #: States in which a run stays.
 ENDED = ("done", "failed", "cancelled")
-#: How often a broken stream of events is opened again without anything new.
-TRIES = 10
+#: How often a stream of events is opened again while the service fails, and the seconds between.
+TRIES = 30
+PAUSE = 1.0
 
 
 class Service:
@@ -111,23 +113,25 @@ class Service:
         return str(self._client.upload("/api/v1/objects", path.name, content)["id"])
 
     def _follow(self, id: str, progress: Progress) -> None:
-        """Shows how far the run is until it has ended. A stream that breaks off is opened again behind the last event."""
+        """Shows how far the run is until it has ended. A stream that breaks off, as when the service starts anew, is opened again
+        behind the last event."""
         after, failures = 0, 0
         try:
-            while failures < TRIES:
-                failures += 1
+            while True:
                 try:
                     for event in self._client.events(f"/api/v1/runs/{id}/events", after):
                         after, failures = event["seq"], 0
                         show(progress, event)
                         if event["state"] in ENDED:
                             return
+                    if self._client.json(f"/api/v1/runs/{id}")["state"] in ENDED:
+                        return
                 except (Error, OSError) as error:
-                    if getattr(error, "code", None) in (403, 404):
+                    code = getattr(error, "code", None) or 500
+                    if failures >= TRIES or code < 500:
                         raise
-                if self._client.json(f"/api/v1/runs/{id}")["state"] in ENDED:
-                    return
-            raise Error(f"The events of the run {id} break off again and again; load_run gives it when it has ended.")
+                failures += 1
+                time.sleep(PAUSE)
         finally:
             progress.close()
 
