@@ -38,7 +38,7 @@ class Configurations(Parquet):
     @property
     def poses(self) -> "NDArray[np.float64]":
         """Poses of B in A's frame, (n, 4, 4) (extra `numpy`, and `arrow` or `polars`)."""
-        return relative(self.matrix("pose_a"), self.matrix("pose_b"))
+        return relative(*self.matrices("pose_a", "pose_b"))
 
     def file(self, folder: Path) -> Path:
         """Writes the set as `configurations.parquet` into a folder, and gives the path."""

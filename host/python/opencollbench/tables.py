@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, Mapping, Sequence, Tuple, cast
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, Sequence, Tuple
 
 from .errors import Error
 from .extras import either, need
@@ -107,8 +107,8 @@ class Parquet(Table):
         whole: "polars.DataFrame" = library.concat(frames, how="diagonal")
         return whole
 
-    def matrix(self, column: str) -> "NDArray[np.float64]":
-        """A column of lists of equal length, as an array (extra `numpy`, and `arrow` or `polars`).
+    def matrices(self, *columns: str) -> "List[NDArray[np.float64]]":
+        """Columns of lists of equal length, each as an array (extra `numpy`, and `arrow` or `polars`).
 
         Raises:
             Error: there is no such column.
@@ -117,12 +117,12 @@ class Parquet(Table):
         library = either(["pyarrow", "polars"], "An array from a Parquet file", "arrow")
         if library.__name__ == "pyarrow":
             table = self.to_arrow()
-            found = present(column, table.column_names)
-            flat = table[found].combine_chunks().flatten().to_numpy(zero_copy_only=False)
-            return cast("NDArray[np.float64]", flat.reshape(table.num_rows, -1))
+            found: List[Any] = [table[present(column, table.column_names)].combine_chunks() for column in columns]
+            flat = [each.flatten().to_numpy(zero_copy_only=False) for each in found]
+            return [each.reshape(table.num_rows, -1) for each in flat]
         frame = self.to_polars()
-        series: Any = frame[present(column, frame.columns)].explode()
-        return cast("NDArray[np.float64]", series.to_numpy().reshape(len(frame), -1))
+        series: List[Any] = [frame[present(column, frame.columns)].explode() for column in columns]
+        return [each.to_numpy().reshape(len(frame), -1) for each in series]
 
 
 def present(column: str, names: Sequence[str]) -> str:

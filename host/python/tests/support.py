@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Dict
 
 ROOT = Path(__file__).resolve().parents[3]
-BUILT = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release"
+BUILT = ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "release"
 #: The plugins that are asked; to describe all of them takes longer than most tests.
 PLUGINS = [BUILT / name for name in ("libocb_box_tree.so", "libocb_brute_force.so", "libocb_fast.so")]
 #: A small object, so that everything is quick.

@@ -116,13 +116,13 @@ class Tables(unittest.TestCase):
     def test_lists_become_an_array_by_either_library(self) -> None:
         poses = pyarrow.array([[1.0, 2.0], [3.0, 4.0]], pyarrow.list_(pyarrow.float64(), 2))
         table = self.part("x", pose=poses)
-        self.assertEqual(table.matrix("pose").tolist(), [[1.0, 2.0], [3.0, 4.0]])
+        self.assertEqual(table.matrices("pose")[0].tolist(), [[1.0, 2.0], [3.0, 4.0]])
         with mock.patch.dict("sys.modules", {"pyarrow": None}):
-            self.assertEqual(table.matrix("pose").tolist(), [[1.0, 2.0], [3.0, 4.0]])
+            self.assertEqual(table.matrices("pose")[0].tolist(), [[1.0, 2.0], [3.0, 4.0]])
             with self.assertRaisesRegex(MissingPackage, "needs pyarrow"):
                 table.to_pandas()
         with self.assertRaisesRegex(Error, "There is no column 'q'; the columns are algorithm, pose."):
-            table.matrix("q")
+            table.matrices("q")
 
     def test_rows_are_text_without_any_package(self) -> None:
         rows = Rows([{"algorithm": "x", "ns": 1234.56}, {"algorithm": "longer", "ns": None}])
