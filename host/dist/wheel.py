@@ -16,8 +16,14 @@ def metadata(facts):
              f"License: {facts['license']}", f"Requires-Python: {facts['requires-python']}", "Description-Content-Type: text/markdown"]
     for extra, packages in facts["optional-dependencies"].items():
         lines.append(f"Provides-Extra: {extra}")
-        lines += [f'Requires-Dist: {package}; extra == "{extra}"' for package in packages]
+        lines += [requirement(package, extra) for package in packages]
     return "\n".join(lines) + "\n\n" + (PYTHON / "README.md").read_text()
+
+
+def requirement(package, extra):
+    name, _, condition = package.partition("; ")
+    marker = f'extra == "{extra}"' + (f" and {condition}" if condition else "")
+    return f"Requires-Dist: {name}; {marker}"
 
 
 def modules():

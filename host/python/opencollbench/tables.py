@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from abc import ABC, abstractmethod
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, Sequence, Tuple
 
 from .errors import Error
@@ -101,7 +102,7 @@ class Parquet(Table):
         library = need("polars", "A data frame of polars", "polars")
         frames = []
         for constants, read in self._parts:
-            frame = library.read_parquet(io.BytesIO(read()))
+            frame = polars_frame(library, read())
             fixed = [library.lit(value).alias(name) for name, value in constants.items()]
             frames.append(frame.select(*fixed, library.all()))
         whole: "polars.DataFrame" = library.concat(frames, how="diagonal")
@@ -123,6 +124,19 @@ class Parquet(Table):
         frame = self.to_polars()
         series: List[Any] = [frame[present(column, frame.columns)].explode() for column in columns]
         return [each.to_numpy().reshape(len(frame), -1) for each in series]
+
+
+def polars_frame(polars: Any, content: bytes) -> Any:
+    """Reads a Parquet file. Before version 1.43 polars refuses those that name the total order of floating-point numbers."""
+    try:
+        return polars.read_parquet(io.BytesIO(content))
+    except polars.exceptions.ComputeError:
+        try:
+            parquet = import_module("pyarrow.parquet")
+        except ImportError:
+            version = polars.__version__
+            raise Error(f"polars {version} cannot read this Parquet file; install polars 1.43 or newer, or pyarrow.") from None
+        return polars.from_arrow(parquet.read_table(io.BytesIO(content)))
 
 
 def present(column: str, names: Sequence[str]) -> str:

@@ -11,6 +11,7 @@ from typing import Any
 from unittest import mock
 
 import numpy
+import polars
 import pyarrow
 import pyarrow.parquet
 import support
@@ -112,6 +113,15 @@ class Tables(unittest.TestCase):
         self.assertEqual(whole.to_arrow().to_pydict(), expected)
         self.assertEqual(whole.to_polars().to_dict(as_series=False), expected)
         self.assertEqual(list(whole.to_pandas()["algorithm"]), expected["algorithm"])
+
+    def test_a_polars_that_cannot_read_the_file_is_helped_or_named(self) -> None:
+        table = self.part("x", n=[1, 2])
+        refusal = polars.exceptions.ComputeError("Invalid thrift: bad data")
+        with mock.patch.object(polars, "read_parquet", side_effect=refusal):
+            self.assertEqual(table.to_polars().to_dict(as_series=False), {"algorithm": ["x", "x"], "n": [1, 2]})
+            with mock.patch.dict("sys.modules", {"pyarrow.parquet": None}):
+                with self.assertRaisesRegex(Error, "cannot read this Parquet file; install polars 1.43 or newer, or pyarrow"):
+                    table.to_polars()
 
     def test_lists_become_an_array_by_either_library(self) -> None:
         poses = pyarrow.array([[1.0, 2.0], [3.0, 4.0]], pyarrow.list_(pyarrow.float64(), 2))
