@@ -1,5 +1,5 @@
 import type { AlgorithmOnWorkload, Claim, RecordedAnswers, Track, WorkloadInfo, WorkloadResult } from '../api/workload-types'
-import { count, percent, seconds, significant } from '../ui/format'
+import { count, percent, significant, time } from '../ui/format'
 import { isFair, type Standing, together } from './fastest'
 
 /** What an answer is worth, the worst first. */
@@ -92,5 +92,5 @@ export function scopeWords({ queries, seen, groups, objects, hits, passes }: Wor
 /** How long the program's own library took, where that was recorded. */
 export function libraryWords({ seconds: took }: RecordedAnswers, libraries: readonly string[]): string | null {
   if (took == null) return null
-  return `In the recorded program ${libraries.length > 0 ? libraries.join(', ') : 'its library'} took ${took < 1 ? `${significant(1000 * took)}\u202fms` : seconds(took)}, as recorded on that machine; this is not comparable with the times here.`
+  return `In the recorded program ${libraries.length > 0 ? libraries.join(', ') : 'its library'} took ${time(1e9 * took)}, as recorded on that machine; this is not comparable with the times here.`
 }

@@ -1,0 +1,41 @@
+import type { AlgorithmOnWorkload, Stretch, Track, WorkloadResult } from '../api/workload-types'
+import { inOrder, listed } from './fastest'
+import { SHOWN, type Shown } from './matrix'
+import { readStretch } from './timeline'
+
+/** Algorithms in the timeline unless the reader chooses. */
+const LINES = 4
+
+/** What the page of a replay shows: all of it is in the link. */
+export interface View {
+  order: Track
+  /** The algorithms of this order, the fastest first; never empty in a result. */
+  algorithms: { one: AlgorithmOnWorkload; ratio: number | null }[]
+  /** Whose pairs the matrix shows. */
+  algorithm: string
+  shown: Shown
+  /** Whose times the timeline shows. */
+  lines: string[]
+  stretch: Stretch | null
+}
+
+/** Reads a link; what it does not say, or what is not in the result, is the usual. */
+export function readView(query: Record<string, unknown>, result: WorkloadResult): View {
+  const order = result.tracks.find(({ track }) => track === query['order'])?.track ?? result.tracks[0]?.track ?? 'shuffled'
+  const algorithms = listed(inOrder(result, order))
+  const ids = algorithms.map(({ one }) => one.algorithm)
+  const lines = typeof query['lines'] === 'string' ? query['lines'].split(',').filter((id) => ids.includes(id)) : []
+  return {
+    order, algorithms,
+    algorithm: ids.find((id) => id === query['algorithm']) ?? ids[0] ?? '',
+    shown: (Object.keys(SHOWN) as Shown[]).find((shown) => shown === query['show']) ?? 'time',
+    lines: lines.length > 0 ? lines : ids.slice(0, LINES),
+    stretch: readStretch(query),
+  }
+}
+
+/** The link with these keys changed; what is undefined is taken out. */
+export function changed(query: Record<string, unknown>, part: Record<string, string | undefined>): Record<string, string> {
+  const strings = Object.entries({ ...query, ...part }).filter((pair): pair is [string, string] => typeof pair[1] === 'string')
+  return Object.fromEntries(strings)
+}
