@@ -17,6 +17,7 @@ describe('the matrix of pairs', () => {
     const deep = matrix([pair([0, 1], 1e9), pair([0, 2], 1), pair([0, 3], 0)], 'time')
     expect((deep.ends?.[0] ?? 0) / (deep.ends?.[1] ?? 1)).toBeCloseTo(1e-3, 9)
     expect([2, 3].map((column) => deep.cell(0, column)?.position)).toEqual([0, 0])
+    expect([three.cut, deep.cut]).toEqual([false, true])
   })
 
   it('has a scale for one pair, for none, and for pairs without a time', () => {

@@ -24,6 +24,8 @@ export interface Matrix {
   cell: (row: number, column: number) => Cell | null
   /** Values at the ends of the scale; null where none is shown. */
   ends: [number, number] | null
+  /** Values below the low end have its colour. */
+  cut: boolean
   /** What does not fit in. */
   remainder: { objects: number; pairs: number; share: number } | null
 }
@@ -57,7 +59,7 @@ export function matrix(pairs: readonly PairTime[], shown: Shown): Matrix {
   const columns = ascending(inside.map(({ objects }) => Math.max(...objects)))
   const outside = pairs.length - inside.length
   return {
-    rows, columns, ends: position.ends,
+    rows, columns, ends: position.ends, cut: position.ends !== null && inside.some((pair) => valueOf(pair, shown, all) < (position.ends?.[0] ?? 0)),
     // Each pair is in the matrix once: the object that stands first in the scene is the row.
     cell: (row, column) => (row <= column ? (cells.get(key([row, column])) ?? null) : null),
     remainder: outside === 0 ? null : {
