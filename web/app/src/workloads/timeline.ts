@@ -1,4 +1,6 @@
 import type { Stretch, Timeline, TimelineSeries } from '../api/workload-types'
+import type { SeriesStyle } from '../charts/series-style'
+import { time } from '../ui/format'
 
 /** One part of the recording, for one algorithm. */
 export interface Part {
@@ -62,4 +64,24 @@ export const writeStretch = (stretch: Stretch | null): Record<string, string> =>
 /** A stretch in words, with its first and its last query. */
 export function stretchWords(timeline: Timeline, { from = timeline.from[0] ?? 0, to = endOf(timeline) }: Stretch): string {
   return `queries ${from.toLocaleString('en-GB')} to ${(to - 1).toLocaleString('en-GB')}`
+}
+
+/** A line of the timeline. */
+export interface Line {
+  name: string
+  series: TimelineSeries
+  style: SeriesStyle
+}
+
+/** The timeline to be read aloud. */
+export function aloud(timeline: Timeline, lines: readonly Line[]): string {
+  const told = lines.map(({ name, series, style }) => {
+    const timed = parts(timeline, series).flatMap((part) => (part.each ? [{ ...part, each: part.each }] : []))
+    if (timed.length === 0) return `${name}: nothing measured.`
+    const sorted = timed.toSorted((a, b) => a.each - b.each)
+    const [least, most] = [sorted[0], sorted.at(-1)]
+    const wrong = series.wrong.reduce((sum, n) => sum + n, 0)
+    return `${name} (${style.name}): ${time(least?.each ?? 0)} to ${time(most?.each ?? 0)} per query, slowest in ${most ? stretchWords(timeline, most) : ''}; ${wrong === 0 ? 'no' : wrong} wrong ${wrong === 1 ? 'answer' : 'answers'}.`
+  })
+  return [`${timeline.from.length} parts of the recording, ${stretchWords(timeline, {})}.`, ...told].join(' ')
 }
