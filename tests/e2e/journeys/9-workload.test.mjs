@@ -1,0 +1,134 @@
+// A visitor replays a recording: uploads it, follows it, reads what was found, chooses a stretch of it, and takes the files away.
+import assert from 'node:assert/strict'
+import { test } from 'node:test'
+import { recording } from '../recording.mjs'
+import { until, visitor } from '../visitor.mjs'
+
+/** Uploads the recording with two algorithms and one process each; gives the id of the replay. */
+async function upload(v, file) {
+  await v.go('/workloads')
+  await v.at('workload-file').setInputFiles(file)
+  for (const box of await v.page.locator('[data-testid^="algorithm-"]').all()) await box.uncheck()
+  await v.page.getByText('Choose at least one algorithm.').waitFor()
+  assert.ok(await v.at('workload-start').isDisabled())
+  for (const id of ['box-tree', 'fcl']) await v.at(`algorithm-${id}`).check()
+  await v.at('workload-passes').fill('2')
+  await v.at('workload-passes').press('Enter')
+  await v.page.waitForURL(/\/workloads\/[0-9a-f-]{36}/)
+  return /\/workloads\/([0-9a-f-]{36})/.exec(v.page.url())[1]
+}
+
+const state = (v) => v.at('workload-progress').getAttribute('data-state')
+
+test('a recording is replayed, read and explored', async (t) => {
+  const v = await visitor(t, { width: 1920, height: 1080 })
+  await v.go('/workloads')
+  await v.at('workloads-empty').waitFor()
+  await v.accessible('the workloads page without a replay')
+  const id = await upload(v, recording())
+  await until('the replay to end', async () => (await state(v)) === 'done', 180)
+  const { result } = await v.api(`/workloads/${id}`)
+
+  // The program's false answers come first.
+  const sections = await v.page.locator('main h2').allTextContents()
+  assert.equal(sections[0], 'What your program was told')
+  for (const { claim, count } of result.recorded.claims.filter(() => result.recorded.false_answers.length > 0))
+    assert.equal(await v.at('recorded').locator(`[data-claim="${claim}"]`).getAttribute('data-count'), String(count))
+
+  // One row per algorithm; the fastest has the ratio 1, and those that were wrong have none.
+  const rows = v.at('workload-algorithms').locator('tbody tr')
+  assert.equal(await rows.count(), result.tracks[0].algorithms.length)
+  for (const { algorithm, wrong } of result.tracks[0].algorithms.filter((one) => one.wrong > 0))
+    assert.equal(await v.at('workload-algorithms').locator(`[data-algorithm="${algorithm}"]`).getAttribute('data-ratio'), '', `${wrong} wrong`)
+
+  // The matrix has each pair once, and is walked with the arrow keys.
+  const cells = v.at('pair-matrix').locator('button')
+  assert.equal(await cells.count(), result.tracks[0].algorithms[0].pairs.length)
+  const shares = await cells.evaluateAll((all) => all.map((one) => Number(one.dataset.value)))
+  assert.ok(Math.abs(shares.reduce((sum, share) => sum + share, 0) - 1) < 1e-9)
+  await v.at('pair-matrix').locator('button[tabindex="0"]').focus()
+  const first = await v.at('pair-reading').textContent()
+  for (const key of ['ArrowRight', 'ArrowDown']) await v.page.keyboard.press(key)
+  if ((await cells.count()) > 1) assert.notEqual(await v.at('pair-reading').textContent(), first)
+  for (const shown of ['hits', 'wrong', 'time']) await v.at(`show-${shown}`).check()
+  await v.accessible('the page of a replay')
+  await v.picture('workload')
+
+  // A stretch is brushed, is in the link, and narrows the matrix; what is shown is what the service says.
+  await v.at('timeline').scrollIntoViewIfNeeded()
+  const box = await v.at('timeline').boundingBox()
+  await v.page.mouse.move(box.x + 0.3 * box.width, box.y + 80)
+  await v.page.mouse.down()
+  await v.page.mouse.move(box.x + 0.6 * box.width, box.y + 90, { steps: 4 })
+  await v.page.mouse.up()
+  await v.at('stretch-table').waitFor()
+  const link = new URL(v.page.url())
+  assert.match(link.search, /from=\d+/)
+  const within = await v.api(`/workloads/${id}/stretch${link.search}`)
+  const [{ algorithm, track, n }] = within.algorithms
+  assert.equal(track, result.tracks[0].track)
+  assert.match(await v.at('stretch-table').locator(`[data-algorithm="${algorithm}"]`).textContent(), new RegExp(n.toLocaleString('en-GB')))
+  assert.ok(n < result.tracks[0].algorithms.find((one) => one.algorithm === algorithm).n)
+  await v.accessible('a stretch of a replay')
+  await v.picture('workload-stretch')
+  await v.page.reload()
+  await v.at('stretch-table').waitFor()
+  await v.at('stretch-clear').click()
+  await until('the whole recording', async () => (await v.at('stretch-table').count()) === 0)
+  assert.equal(new URL(v.page.url()).searchParams.get('from'), null)
+  // The same by numbers, for the keyboard.
+  await v.at('stretch-first').fill('9')
+  await v.at('stretch-last').fill('3')
+  await v.at('stretch-last').press('Enter')
+  await v.page.getByText('The first query must not be behind the last one.').waitFor()
+  await v.at('stretch-last').fill('12')
+  await v.at('stretch-last').press('Enter')
+  await v.page.waitForURL(/from=9&to=13/)
+
+  const files = []
+  v.page.on('download', (file) => files.push(file.suggestedFilename()))
+  for (const name of ['workload-json', 'workload-parquet', 'workload-recording', 'timeline-svg']) await v.at(name).click()
+  await until('the files', () => files.length === 4)
+  assert.match(await v.at('workload-command').textContent(), new RegExp(`--run-seed ${result.seed}`))
+})
+
+test('a replay is asked for again, cancelled and deleted on a telephone', async (t) => {
+  const v = await visitor(t, { scheme: 'dark', width: 390 })
+  const first = await upload(v, recording())
+  await until('the replay to end', async () => (await state(v)) === 'done', 180)
+  await v.accessible('a replay on a telephone')
+  await v.picture('workload-390')
+  await v.at('again').locator('summary').first().click()
+  await v.at('again').getByTestId('orders-recorded').check()
+  await v.at('again-start').click()
+  await until('the other replay', () => !v.page.url().includes(first))
+  const second = v.page.url().split('/').at(-1)
+  assert.deepEqual((await v.api(`/workloads/${second}`)).spec.tracks, ['recorded'])
+  await until('the other replay to end', async () => (await state(v)) === 'done', 180)
+
+  for (const id of [second, first]) {
+    await v.go(`/workloads/${id}`)
+    await v.at('workload-delete').click()
+    await v.at('workload-delete-now').click()
+    await v.page.waitForURL(/\/workloads$/)
+  }
+  await v.at('workloads-empty').waitFor()
+  v.expectRefusal(`/workloads/${first}`)
+  v.expectRefusal('404')
+  await v.go(`/workloads/${first}`)
+  await v.page.getByText('This replay cannot be shown').waitFor()
+  await v.accessible('a replay that is gone')
+})
+
+test('what is no recording is refused with the reason', async (t) => {
+  const v = await visitor(t)
+  v.expectRefusal('/api/v1/workloads')
+  v.expectRefusal('status of 4')
+  await v.go('/workloads')
+  await v.at('workload-file').setInputFiles({ name: 'notes.ocbrec', mimeType: 'application/zip', buffer: Buffer.from('no archive') })
+  await v.at('workload-start').click()
+  await v.at('workload-problem').waitFor()
+  assert.match(await v.at('workload-problem').textContent(), /notes\.ocbrec/)
+  assert.match(v.page.url(), /\/workloads$/)
+  await v.accessible('a refused recording')
+})
