@@ -4,15 +4,15 @@ import { test } from 'node:test'
 import { recording } from '../recording.mjs'
 import { until, visitor } from '../visitor.mjs'
 
-/** Uploads the recording with two algorithms and one process each; gives the id of the replay. */
-async function upload(v, file) {
+/** Uploads the recording with two algorithms and so many processes each; gives the id of the replay. */
+async function upload(v, file, passes = 2) {
   await v.go('/workloads')
   await v.at('workload-file').setInputFiles(file)
   for (const box of await v.page.locator('[data-testid^="algorithm-"]').all()) await box.uncheck()
   await v.page.getByText('Choose at least one algorithm.').waitFor()
   assert.ok(await v.at('workload-start').isDisabled())
   for (const id of ['box-tree', 'fcl']) await v.at(`algorithm-${id}`).check()
-  await v.at('workload-passes').fill('2')
+  await v.at('workload-passes').fill(String(passes))
   await v.at('workload-passes').press('Enter')
   await v.page.waitForURL(/\/workloads\/[0-9a-f-]{36}/)
   return /\/workloads\/([0-9a-f-]{36})/.exec(v.page.url())[1]
@@ -92,7 +92,7 @@ test('a recording is replayed, read and explored', async (t) => {
   assert.match(await v.at('workload-command').textContent(), new RegExp(`--run-seed ${result.seed}`))
 })
 
-test('a replay is asked for again, cancelled and deleted on a telephone', async (t) => {
+test('a replay is asked for again and deleted on a telephone', async (t) => {
   const v = await visitor(t, { scheme: 'dark', width: 390 })
   const first = await upload(v, recording())
   await until('the replay to end', async () => (await state(v)) === 'done', 180)
@@ -118,6 +118,18 @@ test('a replay is asked for again, cancelled and deleted on a telephone', async 
   await v.go(`/workloads/${first}`)
   await v.page.getByText('This replay cannot be shown').waitFor()
   await v.accessible('a replay that is gone')
+})
+
+test('a replay is cancelled and leaves no result', async (t) => {
+  const v = await visitor(t)
+  // So many processes that it is not done before it is cancelled.
+  const id = await upload(v, recording(), 64)
+  await v.at('workload-cancel').click()
+  await until('the replay to be cancelled', async () => (await state(v)) === 'cancelled')
+  await v.page.getByText('so there is no result').waitFor()
+  await v.accessible('a cancelled replay')
+  await v.go('/workloads')
+  await v.at('workloads').locator(`[data-workload="${id}"]`).getByText('cancelled').waitFor()
 })
 
 test('what is no recording is refused with the reason', async (t) => {
