@@ -11,7 +11,7 @@ async function upload(v, file, passes = 2) {
   for (const box of await v.page.locator('[data-testid^="algorithm-"]').all()) await box.uncheck()
   await v.page.getByText('Choose at least one algorithm.').waitFor()
   assert.ok(await v.at('workload-start').isDisabled())
-  for (const id of ['box-tree', 'fcl']) await v.at(`algorithm-${id}`).check()
+  for (const id of ['box-tree', 'parry']) await v.at(`algorithm-${id}`).check()
   await v.at('workload-passes').fill(String(passes))
   await v.at('workload-passes').press('Enter')
   await v.page.waitForURL(/\/workloads\/[0-9a-f-]{36}/)

@@ -31,11 +31,19 @@ describe('the fastest', () => {
     expect(standingWords(null)).toContain('none is called the fastest')
   })
 
+  it('is not named where the range of any other, not only of the next, overlaps its own', () => {
+    const wide = algorithm('wide', 1900, { total: { ns: 1900, lowest_ns: 1050, highest_ns: 2800 } })
+    const found = standing([algorithm('a', 1000), algorithm('b', 1800), wide])
+    expect([found?.next?.one.algorithm, found?.tied.map(({ algorithm: id }) => id)]).toEqual(['b', ['wide']])
+    expect(standingWords(found)).toContain('A and WIDE are the fastest and cannot be told apart')
+    expect(standingWords(standing([algorithm('a', 1000), algorithm('b', 1050), wide]))).toContain('A, B and WIDE are the fastest')
+  })
+
   it('comes with the pair that takes most of its time', () => {
     const result = replay()
     const found = standing(result.tracks[0]?.algorithms ?? [])
     expect(found && dearestWords(result, found)).toBe('75\u202f% of this time is spent on one pair, arm against table, with 60\u202f% of the queries.')
-    const idle = { fastest: algorithm('a', 0), next: null }
+    const idle = { fastest: algorithm('a', 0), next: null, tied: [] }
     expect(dearestWords(result, idle)).toBeNull()
   })
 })

@@ -28,17 +28,20 @@ export function listed(algorithms: readonly AlgorithmOnWorkload[]): { one: Algor
   }))
 }
 
-/** The fastest and the next, whether their ranges lie apart, and how many times as fast. */
+/** The fastest, how many times as fast it is as the next, and those that may be as fast: their ranges overlap its range. */
 export interface Standing {
   fastest: AlgorithmOnWorkload
-  next: { one: AlgorithmOnWorkload; ratio: number; apart: boolean } | null
+  next: { one: AlgorithmOnWorkload; ratio: number } | null
+  tied: AlgorithmOnWorkload[]
 }
 
 export function standing(algorithms: readonly AlgorithmOnWorkload[]): Standing | null {
-  const [fastest, one] = comparable(algorithms)
+  const [fastest, ...others] = comparable(algorithms)
   if (!fastest) return null
-  const apart = (one?.total?.lowest_ns ?? 0) > (fastest.total?.highest_ns ?? 0)
-  return { fastest, next: one ? { one, ratio: together(one) / together(fastest), apart } : null }
+  const [one] = others
+  // Not the next alone: one that is slower on the whole may have the wider range.
+  const tied = others.filter(({ total }) => (total?.lowest_ns ?? 0) <= (fastest.total?.highest_ns ?? 0))
+  return { fastest, next: one ? { one, ratio: together(one) / together(fastest) } : null, tied }
 }
 
 /** How many times as fast an algorithm is in the order of the recording; `apart` is false where the ranges overlap. */

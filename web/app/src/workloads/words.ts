@@ -51,10 +51,13 @@ export const pairName = (result: Pick<WorkloadResult, 'objects'>, [a = 0, b = 0]
 /** The fastest algorithm and how it compares with the next, in a sentence. */
 export function standingWords(found: Standing | null): string {
   if (!found) return 'No algorithm answered all its queries without a wrong answer, so none is called the fastest.'
-  const { fastest, next } = found
+  const { fastest, next, tied } = found
   const n = count(fastest.n)
   if (!next) return `${fastest.name} is the only algorithm that answered all ${n} queries without a wrong answer.`
-  if (!next.apart) return `${fastest.name} and ${next.one.name} are the fastest and cannot be told apart; neither gave a wrong answer to ${n} queries.`
+  if (tied.length > 0) {
+    const names = [fastest, ...tied].map(({ name }) => name)
+    return `${names.slice(0, -1).join(', ')} and ${names.at(-1)} are the fastest and cannot be told apart; none of them gave a wrong answer to ${n} queries.`
+  }
   return `${fastest.name} answers these queries fastest, ${significant(next.ratio)} times as fast as ${next.one.name}, with no wrong answer to ${n} queries.`
 }
 
