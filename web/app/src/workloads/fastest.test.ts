@@ -42,7 +42,7 @@ describe('the fastest', () => {
   it('comes with the pair that takes most of its time', () => {
     const result = replay()
     const found = standing(result.tracks[0]?.algorithms ?? [])
-    expect(found && dearestWords(result, found)).toBe('75\u202f% of this time is spent on one pair, arm against table, with 60\u202f% of the queries.')
+    expect(found && dearestWords(result, found)).toBe('FAST spends 75\u202f% of its time on one pair, arm against table, with 60\u202f% of the queries.')
     const idle = { fastest: algorithm('a', 0), next: null, tied: [] }
     expect(dearestWords(result, idle)).toBeNull()
   })

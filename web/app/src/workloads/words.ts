@@ -66,7 +66,7 @@ export function dearestWords(result: WorkloadResult, { fastest }: Standing): str
   const [pair] = fastest.pairs
   const all = together(fastest)
   if (!pair || !(all > 0)) return null
-  return `${percent(pair.ns / all)} of this time is spent on one pair, ${pairName(result, pair.objects)}, with ${percent(pair.n / fastest.n)} of the queries.`
+  return `${fastest.name} spends ${percent(pair.ns / all)} of its time on one pair, ${pairName(result, pair.objects)}, with ${percent(pair.n / fastest.n)} of the queries.`
 }
 
 /** Why the time of an algorithm is not compared; null where it is. `most`: queries of those that are compared. */
