@@ -1,13 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
-mod convexity;
-mod gjk;
-mod simplex;
-mod vertices;
-
-use convexity::Body;
-use gjk::{Found, Pair};
+use ocb_bodies::{Body, Found, Pair, Surface};
 use ocb_triangles::Frame;
 use opencollbench_plugin::{
     About, Algorithm, Answer, Capability, Collision, Count, Distance, Mesh, Parameter, Parameters, Placed, Refusal,
@@ -36,7 +30,8 @@ impl Algorithm for Convex {
     type Object = Body;
 
     fn load_mesh(&mut self, mesh: Mesh<'_>) -> Answer<Body> {
-        Body::new(&mesh, self.dent)
+        Surface::of(&mesh)
+            .and_then(|surface| Body::new(&surface, self.dent))
             .map_err(|why| Refusal::Error(format!("unsupported mesh: this is for convex objects alone, and {why}")))
     }
 

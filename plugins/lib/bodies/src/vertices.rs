@@ -51,6 +51,7 @@ impl Vertices {
     }
 
     /// A vertex by its number.
+    #[inline]
     pub fn get(&self, vertex: u32) -> Vector {
         self.points[vertex as usize]
     }

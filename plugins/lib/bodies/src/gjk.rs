@@ -4,7 +4,7 @@ use ocb_triangles::vector::{Vector, add, dot, norm_1, rotate, sub};
 use ocb_triangles::{Closest, Frame, Triangle};
 use opencollbench_plugin::Count;
 
-use crate::convexity::Body;
+use crate::body::Body;
 use crate::simplex::{Difference, Simplex};
 
 /// What is less than so many roundings at the size of the scene is nothing.
@@ -12,7 +12,8 @@ const NOTHING: f64 = 4.0 * 0.5 * f64::EPSILON;
 /// More steps than polyhedra of any size have needed by far; what is reached then is answered.
 const STEPS: u32 = 500;
 
-/// What has become of a search.
+/// How a search ended.
+#[derive(Clone, Copy, Debug)]
 pub enum Found {
     /// The bodies, not only their surfaces, have a point in common.
     Meeting,
@@ -20,7 +21,7 @@ pub enum Found {
     Apart(Closest),
 }
 
-/// One query.
+/// One query, with the count of its work.
 pub struct Pair<'a, C> {
     a: &'a Body,
     b: &'a Body,
@@ -33,6 +34,7 @@ pub struct Pair<'a, C> {
 }
 
 impl<'a, C: Count> Pair<'a, C> {
+    /// Two bodies in their frame.
     pub fn new(a: &'a Body, b: &'a Body, frame: Frame, work: &'a mut C) -> Self {
         let nothing = NOTHING * (a.size + b.size + norm_1(frame.offset));
         Self { a, b, frame, nothing, near: [0; 2], work }

@@ -6,15 +6,15 @@
 //! not along the axes can carry more, because the planes of small triangles are less certain than their corners; such
 //! a mesh is refused although it is convex for all practical purposes, because no proof is at hand.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 use ocb_triangles::vector::{Vector, add, cross, dot, sub};
-use opencollbench_plugin::Mesh;
 
+use crate::surface::Surface;
 use crate::vertices::Vertices;
 
-/// What a vertex may lie in front of a plane, in units of the largest coordinate.
-const TOLERANCE: f64 = 32.0 * 0.5 * f64::EPSILON;
+/// What a vertex may lie in front of a plane, as a share of the largest coordinate.
+pub const TOLERANCE: f64 = 32.0 * 0.5 * f64::EPSILON;
 
 /// Points p with normal . p <= offset.
 #[derive(Clone, Copy, Debug)]
@@ -39,16 +39,18 @@ pub struct Body {
 }
 
 impl Body {
-    /// The body, or why the mesh has none. Dents of the share `dent` of its size are taken for none.
-    pub fn new(mesh: &Mesh<'_>, dent: f64) -> Result<Self, String> {
-        let (points, triangles) = weld(mesh);
-        closed(&triangles)?;
+    /// The body of a surface. Dents of the share `dent` of its size are taken for none.
+    ///
+    /// # Errors
+    /// Why it is not convex, as the end of a sentence.
+    pub fn new(surface: &Surface, dent: f64) -> Result<Self, String> {
+        let points = &surface.points;
         let size = points.iter().flatten().fold(0.0, |size: f64, x| size.max(x.abs()));
         let middle = points.iter().fold([0.0; 3], |sum, &p| add(sum, p)).map(|x| x / points.len() as f64);
-        let corners: Vec<[Vector; 3]> = triangles.iter().map(|t| t.map(|vertex| points[vertex as usize])).collect();
-        let vertices = Vertices::new(points);
+        let vertices = Vertices::new(points.clone());
         let (mut near, mut sides, mut seen) = (0, Vec::new(), HashSet::new());
-        for (triangle, [p, q, r]) in corners.into_iter().enumerate() {
+        for triangle in 0..surface.triangles.len() {
+            let [p, q, r] = surface.corners(triangle);
             let normal = cross(sub(q, p), sub(r, p));
             let length = dot(normal, normal).sqrt();
             if length == 0.0 {
@@ -73,36 +75,6 @@ impl Body {
         scatter(&mut sides);
         Ok(Self { vertices, sides, middle, size })
     }
-}
-
-/// Vertices that triangles use, each place once, and the triangles by their numbers.
-fn weld(mesh: &Mesh<'_>) -> (Vec<Vector>, Vec<[u32; 3]>) {
-    let (mut points, mut numbers) = (Vec::new(), HashMap::new());
-    let mut number = |vertex: u32| {
-        let point = mesh.positions[vertex as usize];
-        *numbers.entry(point.map(|x| (x + 0.0).to_bits())).or_insert_with(|| {
-            points.push(point);
-            points.len() as u32 - 1
-        })
-    };
-    let triangles = mesh.triangles.iter().map(|t| t.map(&mut number)).collect();
-    (points, triangles)
-}
-
-/// Does each edge belong to two triangles, and is each triangle there once?
-fn closed(triangles: &[[u32; 3]]) -> Result<(), String> {
-    let edges = triangles.iter().flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)]);
-    let mut edges: Vec<_> = edges.map(|(from, to)| (from.min(to), from.max(to))).collect();
-    edges.sort_unstable();
-    if let Some(edge) = edges.chunk_by(|one, other| one == other).find(|same| same.len() != 2) {
-        return Err(format!("an edge of this one belongs to {} triangles and not to 2", edge.len()));
-    }
-    let mut seen = HashSet::new();
-    let again = triangles.iter().position(|&(mut triangle)| {
-        triangle.sort_unstable();
-        !seen.insert(triangle)
-    });
-    again.map_or(Ok(()), |triangle| Err(format!("triangle {triangle} of this one comes twice")))
 }
 
 /// Puts neighbours far apart, the same way every time.
