@@ -5,62 +5,10 @@ mod support;
 
 use ocb_convex::Convex;
 use opencollbench_plugin::{Algorithm, Collision, Distance, Parameters, Placed, Pose, Refusal, Uncounted};
+use support::convex::{cut_box, ellipsoid};
 use support::{Dice, Scene, Soup, apply};
 
 type Body = <Convex as Algorithm>::Object;
-
-/// An ellipsoid: an octahedron cut into n * n triangles a side, blown up.
-fn ellipsoid(n: usize, axes: [f64; 3]) -> Soup {
-    let mut soup = Soup { positions: Vec::new(), triangles: Vec::new() };
-    for octant in 0..8 {
-        let sign = [octant & 1, octant >> 1 & 1, octant >> 2].map(|bit| f64::from(2 * bit - 1));
-        let first = soup.positions.len() as u32;
-        let mut at = std::collections::HashMap::new();
-        for i in 0..=n {
-            for j in 0..=n - i {
-                at.insert((i, j), first + at.len() as u32);
-                let p = [i, j, n - i - j].map(|x| x as f64);
-                let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
-                soup.positions.push(std::array::from_fn(|k| sign[k] * axes[k] * p[k] / length));
-            }
-        }
-        for i in 0..n {
-            for j in 0..n - i {
-                soup.triangles.push([at[&(i, j)], at[&(i + 1, j)], at[&(i, j + 1)]]);
-                if i + j + 2 <= n {
-                    soup.triangles.push([at[&(i + 1, j)], at[&(i + 1, j + 1)], at[&(i, j + 1)]]);
-                }
-            }
-        }
-    }
-    soup
-}
-
-/// A box with these half sides, its sides cut into n * n squares.
-fn cut_box(n: usize, half: [f64; 3]) -> Soup {
-    let mut soup = Soup { positions: Vec::new(), triangles: Vec::new() };
-    for (axis, end) in [(0, -1.0), (0, 1.0), (1, -1.0), (1, 1.0), (2, -1.0), (2, 1.0)] {
-        let first = soup.positions.len() as u32;
-        let number = |i: usize, j: usize| first + (i * (n + 1) + j) as u32;
-        for i in 0..=n {
-            for j in 0..=n {
-                let mut p = [0.0; 3];
-                p[axis] = end * half[axis];
-                for (k, step) in [((axis + 1) % 3, i), ((axis + 2) % 3, j)] {
-                    p[k] = half[k] * (2.0 * step as f64 / n as f64 - 1.0);
-                }
-                soup.positions.push(p);
-            }
-        }
-        for i in 0..n {
-            for j in 0..n {
-                soup.triangles.push([number(i, j), number(i + 1, j), number(i, j + 1)]);
-                soup.triangles.push([number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)]);
-            }
-        }
-    }
-    soup
-}
 
 fn body(soup: &Soup) -> Body {
     Convex::default().load_mesh(soup.view()).expect("it is convex")

@@ -44,6 +44,19 @@ pub fn distance_below(a: &Triangle, b: &Triangle, limit: f64) -> Option<Closest>
     (best.squared < limit).then_some(best)
 }
 
+/// The minimum distance of two segments, each given by its ends; a point is a segment with the same end twice.
+#[inline]
+pub fn segments(a: [Vector; 2], b: [Vector; 2]) -> Closest {
+    let mut best = Closest { squared: f64::INFINITY, a: a[0], b: b[0] };
+    let (d, e) = (sub(a[1], a[0]), sub(b[1], b[0]));
+    for i in 0..2 {
+        best.point_to_segment(a[i], b[0], e, false);
+        best.point_to_segment(b[i], a[0], d, true);
+    }
+    best.segment_to_segment(a[0], d, b[0], e);
+    best
+}
+
 fn edges(t: &Triangle) -> [Vector; 3] {
     [sub(t[1], t[0]), sub(t[2], t[1]), sub(t[0], t[2])]
 }

@@ -6,7 +6,7 @@ mod frame;
 mod meet;
 pub mod vector;
 
-pub use distance::{Closest, distance, distance_below};
+pub use distance::{Closest, distance, distance_below, segments};
 pub use frame::{Frame, skew};
 pub use meet::meet;
 

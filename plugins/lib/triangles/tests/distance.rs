@@ -1,7 +1,7 @@
 //! `distance` on pairs that are built around their answer: A on one side of a slab, B on the other, both touching it.
 
 use ocb_triangles::vector::{Vector, add, add_scaled, cross, dot, sub};
-use ocb_triangles::{Triangle, distance, distance_below, meet};
+use ocb_triangles::{Triangle, distance, distance_below, meet, segments};
 use proptest::prelude::*;
 
 /// Unit roundoff times the size of the pair's coordinates, times this many, is what a distance may be off. The project
@@ -105,6 +105,17 @@ proptest! {
         for t in [a, b] {
             prop_assert!(distance(&[found.a; 3], &t).squared.sqrt() <= tau);
         }
+    }
+
+    #[test]
+    fn segments_are_triangles_without_area(c in proptest::array::uniform12(number()), point in any::<bool>()) {
+        let corner = |i: usize| [c[i], c[i + 1], c[i + 2]];
+        let (a, b) = ([corner(0), corner(if point { 0 } else { 3 })], [corner(6), corner(9)]);
+        let found = segments(a, b);
+        let expected = distance(&[a[0], a[1], a[1]], &[b[0], b[1], b[1]]).squared.sqrt();
+        prop_assert!((found.squared.sqrt() - expected).abs() <= ROUNDINGS * f64::EPSILON);
+        let gap = sub(found.a, found.b);
+        prop_assert_eq!(dot(gap, gap), found.squared);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 
 #[macro_use]
 pub mod algorithm;
+pub mod convex;
 pub mod extremes;
 pub mod known;
 pub mod ladder;
