@@ -59,6 +59,8 @@ pub struct Face {
     pub anchor: Vector,
     /// Three vertices, wide apart.
     pub wide: [u32; 3],
+    /// How far the third of these is from the line through the others.
+    pub width: f64,
     /// Its edges, counter-clockwise.
     pub rims: Vec<Rim>,
 }
@@ -100,8 +102,8 @@ impl Polyhedron {
                 let Edge { ends: [base, _], walls, .. } = edges[edge as usize];
                 Rim { edge, base: vertices[base as usize], wall: walls[side] }
             });
-            let wide = wide(&vertices, corners);
-            Face { normal: facet.normal, anchor: facet.anchor, wide, rims: rims.collect() }
+            let (wide, width) = wide(&vertices, corners);
+            Face { normal: facet.normal, anchor: facet.anchor, wide, width, rims: rims.collect() }
         };
         let faces = facets.iter().zip(&loops).map(face).collect();
         let (spokes, first) = spokes(vertices.len(), &edges);
@@ -183,8 +185,9 @@ fn spokes(vertices: usize, edges: &[Edge]) -> (Vec<Spoke>, Vec<u32>) {
     (spokes, first)
 }
 
-/// Three corners of a large triangle: their plane is more certain than that of neighbours.
-fn wide(vertices: &[Vector], corners: &[u32]) -> [u32; 3] {
+/// Three corners of a large triangle, whose plane is more certain than that of neighbours, and how far the third is from the
+/// line through the others.
+fn wide(vertices: &[Vector], corners: &[u32]) -> ([u32; 3], f64) {
     let at = |corner: u32| vertices[corner as usize];
     let furthest = |from: &dyn Fn(Vector) -> f64| {
         corners.iter().copied().max_by(|&c, &d| from(at(c)).total_cmp(&from(at(d)))).unwrap_or(corners[0])
@@ -193,10 +196,11 @@ fn wide(vertices: &[Vector], corners: &[u32]) -> [u32; 3] {
     let one = apart(corners[0]);
     let other = apart(one);
     let way = sub(at(other), at(one));
-    let foot = |p: Vector| dot(sub(p, at(one)), way) / dot(way, way);
-    let third = furthest(&|p| {
-        let off = add_scaled(sub(p, at(one)), -foot(p), way);
-        dot(off, off)
-    });
-    [one, other, third]
+    let off = |p: Vector| {
+        let from = sub(p, at(one));
+        let across = add_scaled(from, -dot(from, way) / dot(way, way), way);
+        dot(across, across)
+    };
+    let third = furthest(&off);
+    ([one, other, third], off(at(third)).sqrt())
 }

@@ -12,6 +12,8 @@ use crate::{Object, VClip, Work};
 /// Below so many roundings at the size of the scene the direction of a distance is uncertain, and with it the regions that
 /// the features lie in.
 const UNCERTAIN: f64 = 256.0 * 0.5 * f64::EPSILON;
+/// What rounding may move a vertex by in its place, as a share of the scene.
+const ROUNDING: f64 = 4.0 * 0.5 * f64::EPSILON;
 /// Rotations may be off by so much: the walk compares features in the frames of the objects, and what it misses in the
 /// distance is of the order of the square.
 const SKEW: f64 = 1e-9;
@@ -62,9 +64,10 @@ impl<'a> Query<'a> {
         let mut walk = Walk::new([a, b], self.frame, start);
         let found = match walk.run() {
             Ending::Nearest => {
-                let closest = walk.closest();
-                let uncertain = UNCERTAIN * (self.a.body.size + self.b.body.size + norm_1(self.frame.offset));
-                (closest.squared > uncertain * uncertain).then_some(Relation::Apart(closest))
+                let scene = self.a.body.size + self.b.body.size + norm_1(self.frame.offset);
+                let uncertain = UNCERTAIN * scene;
+                let certain = |closest: &Closest| closest.squared > uncertain * uncertain;
+                walk.closest(ROUNDING * scene).filter(certain).map(Relation::Apart)
             }
             Ending::Crossing => Some(Relation::Crossing),
             Ending::Inside => Some(Relation::Meeting),

@@ -1,6 +1,6 @@
 //! The walk from pair to pair of features, until no neighbour is nearer.
 
-use ocb_triangles::vector::{cross, dot, rotate, sub, transposed};
+use ocb_triangles::vector::{Vector, add_scaled, cross, dot, rotate, sub, transposed};
 use ocb_triangles::{Closest, Frame, segments};
 
 use crate::polyhedron::{Feature, Polyhedron};
@@ -85,25 +85,26 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The distance of the features and where they have it, from their vertices where the poses put them.
-    pub fn closest(&self) -> Closest {
+    /// The distance of the features and where they have it, from their vertices where the poses put them. `rounding` is that
+    /// of a coordinate.
+    ///
+    /// None if a face is so narrow that rounding its corners turns its plane too far.
+    pub fn closest(&self, rounding: f64) -> Option<Closest> {
         let [a, b] = self.at;
         match (self.ends(0, a), self.ends(1, b)) {
-            (Some(a), Some(b)) => segments(a, b),
+            (Some(a), Some(b)) => Some(segments(a, b)),
             (None, Some([p, _])) => {
-                let (squared, foot) = self.foot(0, a, p);
-                Closest { squared, a: foot, b: p }
+                self.foot(0, a, p, rounding).map(|(squared, foot)| Closest { squared, a: foot, b: p })
             }
             (Some([p, _]), None) => {
-                let (squared, foot) = self.foot(1, b, p);
-                Closest { squared, a: p, b: foot }
+                self.foot(1, b, p, rounding).map(|(squared, foot)| Closest { squared, a: p, b: foot })
             }
             (None, None) => unreachable!("no step leads to two faces"),
         }
     }
 
     /// The ends of an edge, or a vertex twice.
-    fn ends(&self, side: usize, feature: Feature) -> Option<[[f64; 3]; 2]> {
+    fn ends(&self, side: usize, feature: Feature) -> Option<[Vector; 2]> {
         let polyhedron = self.polyhedra[side];
         let ends = match feature {
             Feature::Vertex(vertex) => [vertex; 2],
@@ -113,20 +114,26 @@ impl<'a> Walk<'a> {
         Some(ends.map(|vertex| self.place(side, vertex)))
     }
 
-    fn place(&self, side: usize, vertex: u32) -> [f64; 3] {
+    fn place(&self, side: usize, vertex: u32) -> Vector {
         let corner = [self.polyhedra[side].vertex(vertex); 3];
         if side == 0 { self.frame.place_a(&corner)[0] } else { self.frame.place_b(&corner)[0] }
     }
 
     /// The square of the distance of a point from the plane of a face, and its foot there.
-    fn foot(&self, side: usize, feature: Feature, point: [f64; 3]) -> (f64, [f64; 3]) {
+    fn foot(&self, side: usize, feature: Feature, point: Vector, rounding: f64) -> Option<(f64, Vector)> {
         let Feature::Face(face) = feature else { unreachable!("only a face has no ends") };
-        let [p, q, r] = self.polyhedra[side].faces[face as usize].wide.map(|vertex| self.place(side, vertex));
-        let normal = cross(sub(q, p), sub(r, p));
+        let face = &self.polyhedra[side].faces[face as usize];
+        let [p, q, r] = face.wide.map(|vertex| self.place(side, vertex));
+        let (way, to) = (sub(q, p), sub(r, p));
+        // Of near parallel vectors the cross product would lose digits.
+        let across = add_scaled(to, -dot(to, way) / dot(way, way), way);
+        let normal = cross(way, across);
         let size = dot(normal, normal);
         let height = dot(normal, sub(point, p));
-        let foot = [0, 1, 2].map(|i| point[i] - height / size * normal[i]);
-        (height * height / size, foot)
+        let squared = height * height / size;
+        // The foot moves by the distance times the angle, which is a rounding of a corner over the width.
+        let certain = squared.sqrt() * rounding < face.width * face.width;
+        certain.then(|| (squared, add_scaled(point, -height / size, normal)))
     }
 }
 
