@@ -101,7 +101,7 @@ const ADVISOR: &str = "ocb-advisor";
 const LANES: &str = "ocb-lanes";
 /// The methods of ocb-fast and simdop, which ocb-auto chooses from.
 const WIDE: &str = "ocb-wide";
-const PLUGINS: [&str; 16] = [
+const PLUGINS: [&str; 17] = [
     "ocb-auto",
     "ocb-box-tree",
     "ocb-brute-force",
@@ -117,6 +117,7 @@ const PLUGINS: [&str; 16] = [
     "ocb-rss-tree",
     "ocb-simdop",
     "ocb-sphere-tree",
+    "ocb-v-clip",
     "ocb-voxmap-pointshell",
 ];
 

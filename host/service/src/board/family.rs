@@ -10,7 +10,7 @@ const FAMILIES: [(&str, &[&str]); 8] = [
     ("swept spheres", &["rss-tree", "pqp"]),
     ("k-DOPs", &["dop-tree", "simdop"]),
     ("spheres", &["sphere-tree", "inner-spheres"]),
-    ("convex bodies", &["convex", "convex-parts"]),
+    ("convex bodies", &["convex", "convex-parts", "v-clip"]),
     ("fields and voxels", &["distance-field", "voxmap-pointshell"]),
     ("others", &[]),
 ];
