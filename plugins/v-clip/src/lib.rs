@@ -61,9 +61,9 @@ impl VClip {
         self.work
     }
 
-    fn relation(&mut self, a: &Placed<'_, Self>, b: &Placed<'_, Self>, count: &mut impl Count) -> Relation {
-        let query = Query::new(a, b);
-        let objects = [a.object.id, b.object.id];
+    /// How the bodies lie; none where only GJK can tell.
+    fn relation(&mut self, query: &Query<'_>, count: &mut impl Count) -> Option<Relation> {
+        let objects = query.objects();
         let start = self.memory.of(objects).filter(|_| self.coherent);
         let (relation, at, work) = query.ask(start, count);
         self.memory.keep(objects, at);
@@ -96,17 +96,23 @@ impl Algorithm for VClip {
     }
 
     fn collide(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<Collision> {
-        let meet = match self.relation(&a, &b, work) {
-            Relation::Apart(_) => false,
-            Relation::Crossing => true,
-            Relation::Meeting => Query::new(&a, &b).room(work) <= 0.0,
+        let query = Query::new(&a, &b);
+        let meet = match self.relation(&query, work) {
+            Some(Relation::Apart(_)) => false,
+            Some(Relation::Crossing) => true,
+            Some(Relation::Meeting) => query.room(work) <= 0.0,
+            None => query.meet(work) && query.room(work) <= 0.0,
         };
         Ok(if meet { Collision::Somewhere } else { Collision::Apart })
     }
 
     /// The surfaces do not meet: then bodies that do are one inside the other.
     fn inside(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<bool> {
-        Ok(!matches!(self.relation(&a, &b, work), Relation::Apart(_)))
+        let query = Query::new(&a, &b);
+        Ok(match self.relation(&query, work) {
+            Some(relation) => !matches!(relation, Relation::Apart(_)),
+            None => query.meet(work),
+        })
     }
 }
 
@@ -114,7 +120,8 @@ impl Distance for VClip {
     fn distance(&mut self, a: Placed<'_, Self>, b: Placed<'_, Self>, work: &mut impl Count) -> Answer<Separation> {
         let query = Query::new(&a, &b);
         let overlapping = |distance: f64| Separation { distance, points: None, triangles: None };
-        Ok(match self.relation(&a, &b, work) {
+        let relation = self.relation(&query, work).unwrap_or_else(|| query.nearest(work));
+        Ok(match relation {
             Relation::Apart(closest) => Separation {
                 distance: closest.squared.sqrt(),
                 points: Some([query.frame.to_world(closest.a), query.frame.to_world(closest.b)]),

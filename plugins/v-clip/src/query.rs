@@ -44,14 +44,18 @@ impl<'a> Query<'a> {
         Self { a: a.object, b: b.object, frame }
     }
 
-    /// How the bodies lie, the pair of features at the end of the walk from `start`, and what it took.
-    pub fn ask(&self, start: Option<[Feature; 2]>, count: &mut impl Count) -> (Relation, [Feature; 2], Work) {
-        let start = start.unwrap_or(FIRST);
-        let (found, at, steps) = self.walk(start);
+    /// What tells the objects from others.
+    pub fn objects(&self) -> [u32; 2] {
+        [self.a.id, self.b.id]
+    }
+
+    /// How the bodies lie, the pair of features at the end of the walk from `start`, and what it took. Where rounding may have
+    /// misled the walk, only GJK can tell.
+    pub fn ask(&self, start: Option<[Feature; 2]>, count: &mut impl Count) -> (Option<Relation>, [Feature; 2], Work) {
+        let (found, at, steps) = self.walk(start.unwrap_or(FIRST));
         count.bv_tests(steps);
         let fallbacks = u64::from(found.is_none());
-        let relation = found.unwrap_or_else(|| self.gjk(count));
-        (relation, at, Work { steps, fallbacks })
+        (found, at, Work { steps, fallbacks })
     }
 
     /// None if rounding may have misled the walk.
@@ -76,7 +80,13 @@ impl<'a> Query<'a> {
         (found, walk.at, walk.steps)
     }
 
-    fn gjk(&self, count: &mut impl Count) -> Relation {
+    /// Whether the bodies meet, by GJK. Cheaper than where they are nearest: it ends with the first plane between them.
+    pub fn meet(&self, count: &mut impl Count) -> bool {
+        Pair::new(&self.a.body, &self.b.body, self.frame, count).meet()
+    }
+
+    /// How the bodies lie, by GJK.
+    pub fn nearest(&self, count: &mut impl Count) -> Relation {
         match Pair::new(&self.a.body, &self.b.body, self.frame, count).nearest() {
             Found::Apart(closest) => Relation::Apart(closest),
             Found::Meeting => Relation::Meeting,
