@@ -27,7 +27,7 @@ use crate::algorithm::{Algorithm, Runner};
 use crate::configurations::{Gauge, specks};
 use crate::machine::Machine;
 use crate::measure::{self, Measured, News, Part, Stop, Task};
-use crate::model::{LeftOut, Track, TrackResult, WorkloadResult};
+use crate::model::{LeftOut, Track, TrackResult, WorkloadResult, order_gains};
 use crate::pairing::Pairing;
 use crate::recording::Recording;
 use crate::truth::on_all_cpus;
@@ -142,6 +142,7 @@ pub fn replay(
         groups: recording.queries.iter().map(|query| query.group).collect::<HashSet<u64>>().len() as u64,
         hits: judged.hits.iter().filter(|hit| **hit == Some(true)).count() as u64,
         recorded: judged.answers(),
+        order_gains: order_gains(&tracks),
         tracks,
         timeline,
         passes: wanted.passes,

@@ -95,8 +95,8 @@ pub use truth::{ContactRow, TruthRow};
 pub use unranked::{Controls, Unranked, UnrankedCause};
 pub use visibility::{NewVisibility, Visibility};
 pub use workload::{
-    AlgorithmOnWorkload, ClaimCount, EndedPair, FalseAnswer, GroupTimes, LeftOut, PairTime, RecordedAnswers, TotalTime,
-    Track, TrackResult, WorkloadObject, WorkloadResult,
+    AlgorithmOnWorkload, ClaimCount, EndedPair, FalseAnswer, GroupTimes, LeftOut, OrderGain, PairTime, RecordedAnswers,
+    TotalTime, Track, TrackResult, WorkloadObject, WorkloadResult, order_gains,
 };
 pub use workload_job::{
     AlgorithmOnStretch, AtQuery, PosedGroup, PosedObject, RecordingInfo, Stretch, StretchResult, Timeline,

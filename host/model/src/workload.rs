@@ -1,11 +1,15 @@
 //! A recording that was replayed: what the recorded program was answered, and what each algorithm does with its queries.
 
+mod order;
+
 use ocb_core::workload::Claim;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use crate::outcome::OutcomeInfo;
 use crate::workload_job::Timeline;
+
+pub use order::{OrderGain, order_gains};
 
 /// In which order the queries of a pair are put.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
@@ -42,6 +46,10 @@ pub struct WorkloadResult {
     pub tracks: Vec<TrackResult>,
     /// The same along the recording.
     pub timeline: Timeline,
+    /// What the order of the recording is worth to each algorithm that was asked everything in both orders, the largest gain
+    /// first.
+    #[serde(default)]
+    pub order_gains: Vec<OrderGain>,
     /// Processes per algorithm, order and pair of objects.
     pub passes: u32,
     /// Seed of the orders and of the equivalent instances.

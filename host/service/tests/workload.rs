@@ -161,6 +161,14 @@ async fn a_recording_is_replayed_and_its_own_answers_are_judged() {
         // The ratio is in the hundreds, so that no disturbance turns it round.
         assert!(tree.total.unwrap().ns < brute.total.unwrap().ns);
     }
+    let mut gains: Vec<&str> = result.order_gains.iter().map(|it| it.algorithm.as_str()).collect();
+    gains.sort_unstable();
+    assert_eq!(gains, ["box-tree", "brute-force"]);
+    assert!(
+        result.order_gains.iter().all(|it| it.lowest <= it.ratio && it.ratio <= it.highest),
+        "{:?}",
+        result.order_gains
+    );
     assert_eq!(replayed.rows.len(), 2 * 2 * 93);
     assert!(!workload_parquet(&replayed.rows, &recording.queries).unwrap().is_empty());
     engine.shutdown().await;
