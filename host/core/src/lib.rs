@@ -36,3 +36,4 @@ pub mod stock;
 pub mod units;
 pub mod validation;
 pub mod workload;
+pub mod xml;

@@ -3,69 +3,33 @@
 use std::cell::Cell;
 use std::collections::HashMap;
 
-use roxmltree::{Document, Node, ParsingOptions};
+use roxmltree::{Document, Node};
 
 use crate::mesh::read::words::shown;
 use crate::mesh::read::{Place, ReadError};
+use crate::xml::{self, MOST_ATTRIBUTES, MOST_NAMESPACES, MOST_NODES, MOST_OF_ONE, XmlError};
 
-/// Most elements and pieces of text.
-const MOST_NODES: u32 = 2_000_000;
-/// Most attributes in all, most of one element and most declarations of namespaces: the parser compares those of an
-/// element with each other, and an element with a declaration copies those around it.
-const MOST_ATTRIBUTES: usize = 4_000_000;
-const MOST_OF_ONE: usize = 100;
-const MOST_NAMESPACES: usize = 1_000;
 /// Most elements and numbers that are looked at, counted each time: what a file refers to again is read again.
 const MOST_STEPS: usize = 100_000_000;
 
 /// Parses the text; entities of its own (a DTD) are refused.
 pub fn parse(text: &str) -> Result<Document<'_>, ReadError> {
-    let line_at = |at: usize| Place::Line(1 + text.as_bytes()[..at].iter().filter(|&&b| b == b'\n').count());
-    if let Some(at) = too_many_attributes(text.as_bytes()) {
-        return Err(line_at(at).has(format!(
+    xml::parse(text).map_err(|e| match e {
+        XmlError::Attributes(line) => Place::Line(line).has(format!(
             "more than {MOST_OF_ONE} attributes here, or {MOST_ATTRIBUTES} attributes or {MOST_NAMESPACES} namespaces \
              in all; export the object again"
-        )));
-    }
-    let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
-    Document::parse_with_options(text, options).map_err(|e| match e {
-        roxmltree::Error::NodesLimitReached => {
+        )),
+        XmlError::Nodes => {
             ReadError::Whole(format!("the COLLADA file has more than {MOST_NODES} elements; join its meshes").into())
         }
-        roxmltree::Error::DtdDetected => {
+        XmlError::Dtd => {
             ReadError::Whole("the COLLADA file has a DTD, which is not read; remove its '<!DOCTYPE' part".into())
         }
-        // These have no position: the end is missing.
-        roxmltree::Error::UnclosedRootNode | roxmltree::Error::UnexpectedEndOfStream | roxmltree::Error::NoRootNode => {
-            line_at(text.len()).has("the file ends inside an element; export or download it again")
-        }
-        e => {
-            let said = e.to_string();
-            let reason: String =
-                said.split(" at ").next().unwrap_or_default().chars().filter(|c| !c.is_control()).take(120).collect();
-            Place::Line(e.pos().row as usize).has(format!("this is no XML ({reason}); export the object again"))
+        XmlError::Cut(line) => Place::Line(line).has("the file ends inside an element; export or download it again"),
+        XmlError::Syntax { line, reason } => {
+            Place::Line(line).has(format!("this is no XML ({reason}); export the object again"))
         }
     })
-}
-
-/// The byte at which there are too many attributes: found before parsing, since an attribute takes more room in memory
-/// than in the file, and comparing those of one element takes the square of their number.
-fn too_many_attributes(text: &[u8]) -> Option<usize> {
-    let (mut all, mut here, mut namespaces, mut inside) = (0, 0, 0, false);
-    for (at, &byte) in text.iter().enumerate() {
-        match byte {
-            // Neither a comment nor a declaration has attributes.
-            b'<' => (inside, here) = (!matches!(text.get(at + 1), Some(b'!' | b'?')), 0),
-            b'>' => inside = false,
-            b'=' if inside => (all, here) = (all + 1, here + 1),
-            b'x' if inside && text[at..].starts_with(b"xmlns") => namespaces += 1,
-            _ => {}
-        }
-        if here > MOST_OF_ONE || all > MOST_ATTRIBUTES || namespaces > MOST_NAMESPACES {
-            return Some(at);
-        }
-    }
-    None
 }
 
 /// A parsed file, and its elements by their ids.
