@@ -15,6 +15,7 @@ pub mod recording;
 pub mod replay;
 mod repro;
 pub mod scene_file;
+pub mod scene_import;
 pub mod stability;
 pub mod truth;
 pub mod workload;
