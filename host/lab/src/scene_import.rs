@@ -8,6 +8,7 @@
 mod assembly;
 mod element;
 mod kinematics;
+mod mjcf;
 mod packages;
 mod pairs;
 mod srdf;
@@ -52,7 +53,7 @@ pub struct Imported {
     pub notes: Vec<String>,
 }
 
-/// Imports the collision geometry of a robot: URDF, as its root element says.
+/// Imports the collision geometry of a robot or model: URDF or MJCF, as its root element says.
 ///
 /// # Errors
 /// `Invalid`, with one sentence, for a file that cannot be imported as a whole.
@@ -63,11 +64,17 @@ pub fn import(path: &Path, wanted: &Wanted) -> Result<Imported> {
 
 fn whole(path: &Path, wanted: &Wanted) -> Found<Imported> {
     let root = read(path, None)?;
+    if root.name != "robot" && wanted.srdf.is_some() {
+        return Err("an SRDF file belongs to a URDF file only".to_owned());
+    }
     let srdf = wanted.srdf.as_deref().map(|path| read(path, Some(&path.to_string_lossy()))).transpose()?;
     let packages = Packages::new(path, &wanted.packages)?;
     match root.name.as_str() {
         "robot" => urdf::import(&root, srdf.as_ref(), wanted, packages),
-        other => Err(format!("its root element is {}, and only <robot> (URDF) is read", shown(other))),
+        "mujoco" => mjcf::import(root, wanted, packages),
+        other => {
+            Err(format!("its root element is {}, and only <robot> (URDF) and <mujoco> (MJCF) are read", shown(other)))
+        }
     }
 }
 

@@ -31,6 +31,8 @@ pub enum Shape {
     },
     /// A primitive.
     Primitive(Geometry),
+    /// Triangles that stand for another shape, which the text describes.
+    Triangles(Mesh, String),
 }
 
 /// One object.
@@ -104,6 +106,11 @@ impl Assembly {
         let (geometry, source, scale, licence) = match shape {
             Shape::Primitive(geometry) => {
                 (geometry, String::new(), [1.0; 3], self.packages.licence().map(str::to_owned))
+            }
+            Shape::Triangles(mesh, what) => {
+                self.count(&mesh)?;
+                let licence = self.packages.licence().map(str::to_owned);
+                (SceneFile::keep(&mut self.meshes, mesh), what, [1.0; 3], licence)
             }
             Shape::File { address, scale } => {
                 let place = self.packages.find(&address)?;

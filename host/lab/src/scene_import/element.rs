@@ -9,7 +9,7 @@ use roxmltree::{Document, Node};
 use super::{Found, shown};
 
 /// Deepest nesting: the tree is walked by functions that call themselves.
-const MOST_DEPTH: usize = 256;
+pub const MOST_DEPTH: usize = 256;
 
 /// An element with what is in it.
 #[derive(Clone, Debug)]
@@ -43,6 +43,16 @@ impl Element {
         self.attributes.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str())
     }
 
+    /// All attributes.
+    pub fn attributes(&self) -> &[(String, String)] {
+        &self.attributes
+    }
+
+    /// Sets an attribute that it does not have.
+    pub fn set(&mut self, name: &str, value: &str) {
+        self.attributes.push((name.to_owned(), value.to_owned()));
+    }
+
     /// An attribute that must be there and not be empty.
     pub fn required(&self, name: &str) -> Found<&str> {
         let value = self.attribute(name).map(str::trim).filter(|value| !value.is_empty());
@@ -64,6 +74,11 @@ impl Element {
         let Some(text) = self.attribute(name) else { return Ok(None) };
         let numbers = self.parse(name, text)?;
         numbers.try_into().map(Some).map_err(|found: Vec<f64>| self.count(name, N, found.len()))
+    }
+
+    /// As many numbers as there are in an attribute, if it is there.
+    pub fn list(&self, name: &str) -> Found<Option<Vec<f64>>> {
+        self.attribute(name).map(|text| self.parse(name, text)).transpose()
     }
 
     /// A number in an attribute, if it is there.

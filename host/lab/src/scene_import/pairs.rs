@@ -76,6 +76,11 @@ impl ObjectPairs {
         Ok(())
     }
 
+    /// A pair is asked after all.
+    pub fn enable(&mut self, a: u32, b: u32) {
+        self.reasons.remove(&(a.min(b), a.max(b)));
+    }
+
     /// In the order of their objects.
     pub fn finish(self) -> Vec<DisabledPair> {
         let pair = |((a, b), reason): ((u32, u32), Arc<str>)| DisabledPair { a, b, reason: reason.to_string() };

@@ -1,6 +1,7 @@
 //! Robots that the tests write themselves, compared with places computed by hand.
 
 mod hostile;
+mod mjcf;
 mod urdf;
 
 use std::path::{Path, PathBuf};
