@@ -7,6 +7,7 @@ mod looking;
 mod mail;
 mod plugins;
 mod runs;
+mod scene;
 mod secret;
 mod services;
 mod suite;
@@ -23,6 +24,7 @@ pub use looking::{HeatmapArgs, SelectArgs, WorstArgs};
 pub use mail::MailArgs;
 pub use plugins::{AdminCommand, PluginCommand, SubmitArgs};
 pub use runs::{ReplayArgs, RunCommand};
+pub use scene::{ImportArgs, SceneCommand};
 pub use services::{CiteArgs, CiteAs, Cited, LookArgs, ServiceArgs, Shown, VisibilityArgs};
 pub use suite::{SuiteCommand, SuiteRunArgs};
 
@@ -136,6 +138,11 @@ pub enum Command {
     Object {
         #[command(subcommand)]
         command: ObjectCommand,
+    },
+    /// Make a scene of a robot, or list the objects of a scene or recording.
+    Scene {
+        #[command(subcommand)]
+        command: SceneCommand,
     },
     /// List, show, refine or archive runs of the command line; runs of the web pages can be shown by id.
     Run {

@@ -25,6 +25,7 @@ mod placing;
 mod plugin;
 mod replay;
 mod run;
+mod scene;
 mod select;
 mod serve;
 mod service;
@@ -77,6 +78,7 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Plugin { command } => plugin::plugin(&store, &command, json).await,
         Command::Object { command } => object::object(&store, &command, json).await,
         Command::Run { command } => run::run(&store, &command, json).await,
+        Command::Scene { command } => scene::scene(&command, json),
         Command::Replay(args) => replay::replay(&store, &args, json).await,
         Command::Submit(args) => submit::submit(&args, json).await,
         Command::Data { command } => data::data(&store, &command, json).await,
