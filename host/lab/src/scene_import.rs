@@ -11,6 +11,7 @@ mod kinematics;
 mod mjcf;
 mod packages;
 mod pairs;
+mod sdf;
 mod srdf;
 #[cfg(test)]
 mod tests;
@@ -53,7 +54,8 @@ pub struct Imported {
     pub notes: Vec<String>,
 }
 
-/// Imports the collision geometry of a robot or model: URDF or MJCF, as its root element says.
+/// Imports the collision geometry of a robot or model: URDF, MJCF or SDF, as its root element
+/// says.
 ///
 /// # Errors
 /// `Invalid`, with one sentence, for a file that cannot be imported as a whole.
@@ -72,9 +74,11 @@ fn whole(path: &Path, wanted: &Wanted) -> Found<Imported> {
     match root.name.as_str() {
         "robot" => urdf::import(&root, srdf.as_ref(), wanted, packages),
         "mujoco" => mjcf::import(root, wanted, packages),
-        other => {
-            Err(format!("its root element is {}, and only <robot> (URDF) and <mujoco> (MJCF) are read", shown(other)))
-        }
+        "sdf" => sdf::import(&root, wanted, packages),
+        other => Err(format!(
+            "its root element is {}, and only <robot> (URDF), <mujoco> (MJCF) and <sdf> (SDF) are read",
+            shown(other)
+        )),
     }
 }
 

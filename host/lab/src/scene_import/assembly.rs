@@ -7,7 +7,7 @@ use std::sync::Arc;
 use nalgebra::{Point3, Vector3};
 use ocb_core::mesh::{self, FileFormat, MAX_BYTES, Mesh};
 use ocb_core::pose::{AS_IT_IS, Pose};
-use ocb_core::scene::{DisabledPair, Geometry, MOST_OBJECTS, Scene, SceneObject};
+use ocb_core::scene::{DisabledPair, Geometry, MOST_OBJECTS, Scene, SceneObject, tessellate};
 use ocb_sandbox::given;
 
 use super::packages::{Packages, Place};
@@ -16,6 +16,8 @@ use crate::scene_file::SceneFile;
 
 /// Most triangles and vertices that are read and kept; a file that is used at several scales counts for each.
 const MOST_PARTS: usize = 40_000_000;
+/// How far a polyhedron may be inside an ellipsoid, as a share of its half axes.
+const BOUND: f64 = 0.005;
 /// Numbers of a pose nearer to 0 than this are products of rounding errors, and become 0.
 const NOTHING: f64 = 1e-90;
 
@@ -33,6 +35,22 @@ pub enum Shape {
     Primitive(Geometry),
     /// Triangles that stand for another shape, which the text describes.
     Triangles(Mesh, String),
+}
+
+impl Shape {
+    /// A polyhedron inside an ellipsoid with these half axes, or a sphere.
+    pub fn ellipsoid(half: [f64; 3]) -> Found<Self> {
+        let [x, y, z] = half;
+        if x == y && y == z {
+            return Ok(Self::Primitive(Geometry::Sphere { radius: x }));
+        }
+        if half.iter().any(|&axis| axis <= 0.0) {
+            return Err("the half axes of an ellipsoid must be above 0".to_owned());
+        }
+        let ball = tessellate::inside(&Geometry::Sphere { radius: 1.0 }, BOUND).map_err(|why| why.to_string())?;
+        let mesh = scale_mesh(&ball, half).map_err(|why| why.to_string())?;
+        Ok(Self::Triangles(mesh, format!("ellipsoid with half axes {x} {y} {z}")))
+    }
 }
 
 /// One object.

@@ -92,6 +92,12 @@ impl Element {
         Ok(self.number(name)?.unwrap_or_default())
     }
 
+    /// So many numbers in its text.
+    pub fn text_numbers<const N: usize>(&self) -> Found<[f64; N]> {
+        let numbers = self.parse(&self.name, &self.text)?;
+        numbers.try_into().map_err(|found: Vec<f64>| self.count(&self.name, N, found.len()))
+    }
+
     /// A sentence about this place.
     pub fn fault(&self, why: &str) -> String {
         match &self.file {

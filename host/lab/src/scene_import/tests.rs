@@ -2,6 +2,7 @@
 
 mod hostile;
 mod mjcf;
+mod sdf;
 mod urdf;
 
 use std::path::{Path, PathBuf};

@@ -2,10 +2,9 @@
 
 use std::collections::HashMap;
 
-use nalgebra::{Point3, Vector3};
-use ocb_core::mesh::Mesh;
+use nalgebra::Vector3;
 use ocb_core::pose::Pose;
-use ocb_core::scene::{Geometry, tessellate};
+use ocb_core::scene::Geometry;
 
 use super::Compiler;
 use super::defaults::{Defaults, MAIN};
@@ -13,9 +12,6 @@ use super::orientation::{Angles, z_to};
 use crate::scene_import::assembly::Shape;
 use crate::scene_import::element::Element;
 use crate::scene_import::{Found, shown};
-
-/// How far a polyhedron may be inside an ellipsoid, as a share of its half axes.
-const BOUND: f64 = 0.005;
 
 /// The meshes of a model, by their names, and how geoms are read.
 pub struct Shapes {
@@ -91,23 +87,7 @@ fn shape(geom: &Element, kind: &str, sizes: &[f64]) -> Found<Shape> {
         "capsule" => Geometry::Capsule { radius: size(0)?, length: 2.0 * size(1)? },
         "cylinder" => Geometry::Cylinder { radius: size(0)?, length: 2.0 * size(1)? },
         "box" => Geometry::Box { size: [2.0 * size(0)?, 2.0 * size(1)?, 2.0 * size(2)?] },
-        "ellipsoid" => return ellipsoid([size(0)?, size(1)?, size(2)?]).map_err(|why| geom.fault(&why)),
+        "ellipsoid" => return Shape::ellipsoid([size(0)?, size(1)?, size(2)?]).map_err(|why| geom.fault(&why)),
         other => return Err(geom.fault(&format!("geoms of the type {} are not read", shown(other)))),
     }))
-}
-
-/// A polyhedron inside an ellipsoid, or a sphere.
-fn ellipsoid(half: [f64; 3]) -> Found<Shape> {
-    let [x, y, z] = half;
-    if x == y && y == z {
-        return Ok(Shape::Primitive(Geometry::Sphere { radius: x }));
-    }
-    if half.iter().any(|&axis| axis <= 0.0) {
-        return Err("the half axes of an ellipsoid must be above 0".to_owned());
-    }
-    let ball = tessellate::inside(&Geometry::Sphere { radius: 1.0 }, BOUND).map_err(|why| why.to_string())?;
-    let half = Vector3::from(half);
-    let positions = ball.positions().iter().map(|p| Point3::from(p.coords.component_mul(&half))).collect();
-    let mesh = Mesh::new(positions, ball.triangles().to_vec()).map_err(|why| why.to_string())?;
-    Ok(Shape::Triangles(mesh, format!("ellipsoid with half axes {x} {y} {z}")))
 }
