@@ -1,5 +1,6 @@
 //! `ocb scene`: robots as scenes, and what a scene consists of.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -11,8 +12,6 @@ use serde::Serialize;
 use crate::args::{ImportArgs, SceneCommand};
 use crate::failure::Result;
 use crate::output;
-
-const KINDS: [&str; 5] = ["mesh", "box", "sphere", "cylinder", "capsule"];
 
 /// Imports or shows.
 pub fn scene(command: &SceneCommand, json: bool) -> Result<ExitCode> {
@@ -27,8 +26,8 @@ pub fn scene(command: &SceneCommand, json: bool) -> Result<ExitCode> {
 struct Summary {
     name: String,
     objects: usize,
-    /// Numbers of objects, as in `KINDS`.
-    kinds: Vec<(&'static str, usize)>,
+    /// Numbers of objects.
+    kinds: BTreeMap<&'static str, usize>,
     /// Triangles of all objects that are meshes.
     triangles: usize,
     disabled_pairs: usize,
@@ -42,11 +41,12 @@ struct Summary {
 impl Summary {
     fn new(file: &SceneFile) -> Self {
         let scene = &file.scene;
-        let of_kind = |kind: &str| scene.objects.iter().filter(|it| self::kind(&it.geometry) == kind).count();
+        let mut kinds = BTreeMap::new();
+        scene.objects.iter().for_each(|it| *kinds.entry(kind(&it.geometry)).or_default() += 1);
         Self {
             name: scene.name.clone(),
             objects: scene.objects.len(),
-            kinds: KINDS.map(|kind| (kind, of_kind(kind))).into_iter().filter(|(_, count)| *count > 0).collect(),
+            kinds,
             triangles: scene.objects.iter().filter_map(|it| triangles(file, &it.geometry)).sum(),
             disabled_pairs: scene.disabled.len(),
             links: None,
@@ -123,13 +123,12 @@ fn show(path: &Path, json: bool) -> Result<ExitCode> {
 }
 
 fn kind(geometry: &Geometry) -> &'static str {
-    let [mesh, a_box, sphere, cylinder, capsule] = KINDS;
     match geometry {
-        Geometry::Mesh { .. } => mesh,
-        Geometry::Box { .. } => a_box,
-        Geometry::Sphere { .. } => sphere,
-        Geometry::Cylinder { .. } => cylinder,
-        Geometry::Capsule { .. } => capsule,
+        Geometry::Mesh { .. } => "mesh",
+        Geometry::Box { .. } => "box",
+        Geometry::Sphere { .. } => "sphere",
+        Geometry::Cylinder { .. } => "cylinder",
+        Geometry::Capsule { .. } => "capsule",
     }
 }
 

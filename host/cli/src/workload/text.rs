@@ -1,7 +1,7 @@
 //! A replayed recording as text: the false answers first, then what it costs with each algorithm.
 
 use ocb_core::workload::Claim;
-use ocb_service::model::{AlgorithmOnWorkload, RecordedAnswers, Track, TrackResult, WorkloadResult};
+use ocb_service::model::{AlgorithmOnWorkload, OrderGain, RecordedAnswers, Track, TrackResult, WorkloadResult};
 
 use crate::{output, units};
 
@@ -20,6 +20,8 @@ const HEADINGS: [&str; 12] = [
     "outcome",
 ];
 
+/// The last column in the order of the recording.
+const GAIN: &str = "shuffled / recorded";
 /// Pairs that are listed.
 const PAIRS: usize = 5;
 /// False answers that are listed.
@@ -34,10 +36,16 @@ pub fn text(result: &WorkloadResult) -> String {
         text.push(String::new());
         text.push(order(track, result.passes));
         let fastest = fastest(track);
-        let rows = track.algorithms.iter().map(|it| row(it, fastest)).collect();
-        text.push(output::table(&HEADINGS, rows, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10]));
+        let mut headings = HEADINGS.to_vec();
+        let mut rows: Vec<Vec<String>> = track.algorithms.iter().map(|it| row(it, fastest)).collect();
+        if track.track == Track::Recorded && !result.order_gains.is_empty() {
+            headings.push(GAIN);
+            for (row, it) in rows.iter_mut().zip(&track.algorithms) {
+                row.push(gain(&result.order_gains, &it.algorithm));
+            }
+        }
+        text.push(output::table(&headings, rows, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10]));
     }
-    text.extend(gain(result));
     text.extend(pairs(result));
     text.extend(sentence(result));
     text.push(format!(
@@ -140,16 +148,15 @@ fn row(it: &AlgorithmOnWorkload, fastest: Option<&AlgorithmOnWorkload>) -> Vec<S
     ]
 }
 
-/// Who is faster in the order of the recording, or slower.
-fn gain(result: &WorkloadResult) -> Option<String> {
-    let of = |track| result.tracks.iter().find(|it| it.track == track);
-    let (shuffled, recorded) = (of(Track::Shuffled)?, of(Track::Recorded)?);
-    let ratios = shuffled.algorithms.iter().zip(&recorded.algorithms).filter_map(|(a, b)| {
-        let (shuffled, recorded) = (a.total?, b.total?);
-        (a.n == b.n).then(|| format!("{} {:.2}", a.algorithm, shuffled.ns / recorded.ns))
-    });
-    let ratios: Vec<String> = ratios.collect();
-    (!ratios.is_empty()).then(|| format!("\nFaster by the order of the recording, times: {}.", ratios.join(", ")))
+/// What the order of the recording is worth to an algorithm.
+fn gain(gains: &[OrderGain], algorithm: &str) -> String {
+    gains.iter().find(|it| it.algorithm == algorithm).map_or_else(
+        || "-".to_owned(),
+        |it| {
+            let doubt = if it.told_apart { "" } else { ", not told apart" };
+            format!("{:.2} ({:.2} to {:.2}){doubt}", it.ratio, it.lowest, it.highest)
+        },
+    )
 }
 
 /// Where the fastest algorithm spends its time.

@@ -11,6 +11,7 @@ mod errors;
 mod generate;
 mod look;
 mod replay;
+mod scene;
 mod serve;
 mod settings;
 mod stability;
