@@ -17,6 +17,7 @@ from .configurations import Configurations, generate
 from .errors import Error, MissingPackage, Notice
 from .loading import load_run
 from .positions import Positions
+from .recorders import record
 from .run import Run
 from .service import Service
 from .tables import Parquet, Rows, Table
@@ -41,6 +42,7 @@ __all__ = [
     "bench",
     "generate",
     "load_run",
+    "record",
     "replay",
     "truth",
 ]

@@ -1,0 +1,136 @@
+"""Records what is asked of python-fcl, directly or through trimesh: `fcl.collide`, `fcl.distance`, and what managers call.
+
+Not recorded, and counted: continuous collision, and objects that are not a mesh, convex body, box, sphere, cylinder or capsule.
+"""
+
+import functools
+import sys
+
+from . import fcl_memory, session
+from .patching import replace
+from .spool import ANSWERED, COLLIDE, CONTACTS, DISTANCE, HIT, MEASURED, Unusable
+
+#: What FCL gives as distance where it has no algorithm for a pair.
+_NO_ANSWER = sys.float_info.max
+
+
+def patch(fcl):
+    """Puts recording functions in the place of the library's; a list of what to put back."""
+    library = ("python-fcl", fcl.__version__)
+    shapes = _Shapes(fcl, library)
+    core = fcl.fcl
+    undo = []
+    for name, describe in [("collide", shapes.collided), ("distance", shapes.measured)]:
+        undo += replace([fcl, core], name, _recording(getattr(core, name), describe))
+    continuous = session.missed("continuous collision is not recorded")
+    undo += replace([fcl, core], "continuousCollide", _recording(core.continuousCollide, lambda *_: continuous))
+    return undo + replace([fcl, core], "DynamicAABBTreeCollisionManager", _manager(core.DynamicAABBTreeCollisionManager))
+
+
+def _recording(function, describe):
+    @functools.wraps(function)
+    def recording(*args, **kwargs):
+        return session.observe(lambda: function(*args, **kwargs), lambda *of: describe(args, kwargs)(*of))
+
+    return recording
+
+
+def _manager(original):
+    """A manager whose calls are a group each."""
+
+    class DynamicAABBTreeCollisionManager(original):
+        def collide(self, *args):
+            with session.together():
+                return super().collide(*args)
+
+        def distance(self, *args):
+            with session.together():
+                return super().distance(*args)
+
+    DynamicAABBTreeCollisionManager.__module__ = original.__module__
+    DynamicAABBTreeCollisionManager.__qualname__ = original.__qualname__
+    return DynamicAABBTreeCollisionManager
+
+
+def _given(args, kwargs):
+    """The two objects and the request of a call."""
+    names = ("o1", "o2", "request")
+    return [args[i] if i < len(args) else kwargs.get(name) for i, name in enumerate(names)]
+
+
+class _Shapes:
+    """What the geometries of python-fcl are."""
+
+    def __init__(self, fcl, library):
+        self.fcl, self.library = fcl, library
+        self.readable = fcl_memory.known(fcl)
+        #: Numbers of objects in a spool by the fingerprint of their model.
+        self.known, self.spool = {}, None
+
+    def collided(self, args, kwargs):
+        one, other, request = _given(args, kwargs)
+
+        def describe(spool, contacts):
+            objects, poses, solid = self.pair(spool, one, other)
+            most = 1 if request is None else request.num_max_contacts
+            # FCL answers nothing when no contact is asked for; a body may be inside a convex one, whose surface alone is recorded.
+            bits = 0 if most == 0 or (solid and contacts) else ANSWERED | (HIT if contacts else 0)
+            return objects, poses, CONTACTS if most > 1 else COLLIDE, bits, float(most), 0.0
+
+        return describe
+
+    def measured(self, args, kwargs):
+        one, other, _ = _given(args, kwargs)
+
+        def describe(spool, distance):
+            objects, poses, solid = self.pair(spool, one, other)
+            answered = distance < _NO_ANSWER and not (solid and distance <= 0)
+            return objects, poses, DISTANCE, MEASURED if answered else 0, 0.0, distance
+
+        return describe
+
+    def pair(self, spool, one, other):
+        """The numbers of two collision objects, their poses, and whether one is a convex body."""
+        if not self.readable:
+            raise Unusable("this version of python-fcl has its objects at unknown places of memory")
+        geometries = [fcl_memory.geometry(each) for each in (one, other)]
+        objects = [self.number(spool, each) for each in geometries]
+        solid = any(isinstance(each, self.fcl.Convex) for each in geometries)
+        return objects, [(each.getRotation(), each.getTranslation()) for each in (one, other)], solid
+
+    def number(self, spool, geometry):
+        if spool is not self.spool:
+            self.known, self.spool = {}, spool
+        fcl = self.fcl
+        if isinstance(geometry, fcl.BVHModel):
+            return self.mesh(spool, fcl_memory.fingerprint(geometry), lambda: fcl_memory.model(geometry), "mesh")
+        if isinstance(geometry, fcl.Convex):
+            mark = fcl_memory.convex_fingerprint(geometry)
+            return self.mesh(spool, mark, lambda: fcl_memory.convex(geometry), "convex body")
+        name, mark = self.primitive(geometry)
+        if mark not in self.known:
+            kind, *sizes = mark
+            fields = {"box": ["size"], "sphere": ["radius"]}.get(kind, ["radius", "length"])
+            values = [sizes] if kind == "box" else sizes
+            self.known[mark] = spool.object(name, {"kind": kind} | dict(zip(fields, values)), self.library)
+        return self.known[mark]
+
+    def primitive(self, geometry):
+        fcl = self.fcl
+        if isinstance(geometry, fcl.Box):
+            size = geometry.side.tolist()
+            return "box", ("box", *size)
+        if isinstance(geometry, fcl.Sphere):
+            return "sphere", ("sphere", geometry.radius)
+        for kind, of in [("cylinder", fcl.Cylinder), ("capsule", fcl.Capsule)]:
+            if isinstance(geometry, of):
+                return kind, (kind, geometry.radius, geometry.lz)
+        raise Unusable(f"{type(geometry).__name__} is not a recorded kind of object")
+
+    def mesh(self, spool, mark, read, what):
+        if mark not in self.known:
+            vertices, triangles = read()
+            source = "its surface; the program's answers where it collides are left out" if what == "convex body" else ""
+            name = f"{what} of {len(triangles)} triangles"
+            self.known[mark] = spool.object(name, (vertices, triangles), self.library, source)
+        return self.known[mark]
