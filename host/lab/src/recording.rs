@@ -3,6 +3,7 @@
 //! A recording is a scene file with two more files in it: `queries.parquet` and `about.json`. Recorders write a spool, a folder
 //! that only grows, so that a killed program leaves what it had asked; [`pack`] makes a recording of it.
 
+mod merge;
 mod spool;
 
 use std::path::Path;
@@ -14,7 +15,7 @@ use crate::columns::{read_recorded, recorded_parquet};
 use crate::scene_file::{Reader, SceneFile};
 use crate::{LabError, Result};
 
-pub use spool::{Packed, pack};
+pub use merge::{Packed, pack};
 
 /// The queries in the archive.
 const QUERIES: &str = "queries.parquet";

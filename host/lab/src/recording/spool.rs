@@ -1,22 +1,22 @@
 //! Reading a spool, the folder that a recorder writes. The program that wrote it may have been killed at any moment.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::io::{ErrorKind, Read};
-use std::path::Path;
-use std::sync::Arc;
+use std::path::{Path, PathBuf};
 
 use ocb_core::configuration::Configuration;
 use ocb_core::mesh::{self, Mesh};
 use ocb_core::pose::Pose;
-use ocb_core::scene::{Geometry, Scene, SceneObject};
+use ocb_core::scene::Geometry;
 use ocb_core::workload::{Answered, Kind, Recorded};
 use ocb_sandbox::given;
 use serde::Deserialize;
 
-use super::{About, Dropped, Recording};
-use crate::scene_file::SceneFile;
-use crate::{LabError, Result, sha256_hex};
+use super::Dropped;
+use crate::sha256_hex;
 
+/// What says that a folder is a spool.
+pub const ABOUT: &str = "about.json";
 /// The only format there is.
 const FORMAT: &str = "opencollbench-spool/1";
 /// Bytes of a query.
@@ -29,93 +29,79 @@ const ANSWER_KNOWN: u32 = 1;
 const HIT: u32 = 2;
 const DISTANCE_KNOWN: u32 = 4;
 
-/// What became of a spool.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Packed {
-    /// Objects of the scene.
-    pub objects: usize,
-    /// Queries in the recording.
-    pub queries: usize,
-    /// Queries that the recorder saw.
-    pub seen: u64,
-    /// Queries that are not in the recording, by reason.
+/// What a recorder wrote in one process.
+pub struct Spool {
+    /// Where it was written.
+    pub folder: PathBuf,
+    /// The recorded program, and what recorded it.
+    pub head: Head,
+    /// The objects.
+    pub objects: Vec<Line>,
+    /// In the order in which they were asked.
+    pub queries: Vec<Recorded>,
+    /// Queries that are not in it, by reason.
     pub dropped: Vec<Dropped>,
 }
 
+/// What a spool says of itself.
 #[derive(Deserialize)]
-struct Head {
+pub struct Head {
     format: String,
     #[serde(default)]
-    program: String,
+    pub program: String,
     #[serde(default)]
-    recorder: String,
+    pub recorder: String,
 }
 
+/// An object as a recorder writes it.
 #[derive(Deserialize)]
-struct Line {
+pub struct Line {
     id: u32,
     #[serde(default)]
-    name: String,
-    geometry: Geometry,
+    pub name: String,
+    pub geometry: Geometry,
     #[serde(default)]
-    source: String,
+    pub source: String,
     #[serde(default)]
     library: String,
     #[serde(default)]
     version: String,
 }
 
-/// Makes a recording of a spool.
-///
-/// # Errors
-/// `Invalid`, with one sentence, for a folder that is no spool, or in which no query was recorded.
-pub fn pack(spool: &Path, to: &Path) -> Result<Packed> {
-    let recording = read(spool).map_err(|why| {
-        let name = spool.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        LabError::Invalid(format!("{name:?} holds no recording: {why}."))
-    })?;
-    recording.write(to)?;
-    let Recording { scene, about, queries } = recording;
-    Ok(Packed { objects: scene.scene.objects.len(), queries: queries.len(), seen: about.seen, dropped: about.dropped })
+impl Line {
+    /// The library that knows it, with its version.
+    pub fn library(&self) -> String {
+        format!("{} {}", self.library, self.version).trim().to_owned()
+    }
 }
 
-fn read(spool: &Path) -> std::result::Result<Recording, String> {
-    let head: Head = serde_json::from_slice(&bytes(spool, "about.json", MOST_TEXT)?)
-        .map_err(|e| format!("its about.json cannot be read ({e})"))?;
+/// Reads the spool in a folder; one in which no query was recorded is one, too.
+///
+/// # Errors
+/// Why it cannot be read, without a full stop.
+pub fn read(spool: &Path) -> Result<Spool, String> {
+    let head: Head = serde_json::from_slice(&bytes(spool, ABOUT, MOST_TEXT)?)
+        .map_err(|e| format!("its {ABOUT} cannot be read ({e})"))?;
     if head.format != FORMAT {
         return Err(format!("its format is {:?}, and only {FORMAT:?} can be read", head.format));
     }
-    let lines = objects(spool)?;
+    let objects = objects(spool)?;
     let mut dropped = dropped(spool)?;
     let mut queries = Vec::new();
     let mut left_out: HashMap<String, u64> = HashMap::new();
     for row in bytes(spool, "queries.bin", u64::MAX)?.as_chunks::<ROW>().0 {
-        match query(row, lines.len()) {
+        match query(row, objects.len()) {
             Ok(query) => queries.push(query),
             Err(why) => *left_out.entry(why).or_default() += 1,
         }
     }
-    if queries.is_empty() {
-        return Err("no query was recorded".into());
-    }
     queries.sort_by_key(|query| query.sequence);
     dropped.extend(left_out.into_iter().map(|(reason, count)| Dropped { reason, count }));
-    dropped.sort_by(|a, b| (b.count, &a.reason).cmp(&(a.count, &b.reason)));
-    let seen = queries.len() as u64 + dropped.iter().map(|dropped| dropped.count).sum::<u64>();
-    let mut libraries: Vec<String> = Vec::new();
-    for line in &lines {
-        let library = format!("{} {}", line.library, line.version).trim().to_owned();
-        if !libraries.contains(&library) {
-            libraries.push(library);
-        }
-    }
-    let scene = scene(spool, lines, &head.program)?;
-    let about = About { program: head.program, recorder: head.recorder, libraries, seen, dropped };
-    Ok(Recording { scene, about, queries })
+    Ok(Spool { folder: spool.to_owned(), head, objects, queries, dropped })
 }
 
 /// A file of the spool; one that is not there is empty.
-fn bytes(spool: &Path, name: &str, most: u64) -> std::result::Result<Vec<u8>, String> {
+fn bytes(spool: &Path, name: &str, most: u64) -> Result<Vec<u8>, String> {
     let failed = |e: std::io::Error| format!("its {name} cannot be read ({e})");
     let file = match given::open(&spool.join(name)) {
         Ok(file) => file,
@@ -128,13 +114,13 @@ fn bytes(spool: &Path, name: &str, most: u64) -> std::result::Result<Vec<u8>, St
 }
 
 /// The whole lines of a file; what follows the last of them was being written when the program ended.
-fn lines(spool: &Path, name: &str) -> std::result::Result<Vec<String>, String> {
+fn lines(spool: &Path, name: &str) -> Result<Vec<String>, String> {
     let text = String::from_utf8_lossy(&bytes(spool, name, MOST_TEXT)?).into_owned();
     let whole = text.rfind('\n').map_or("", |end| &text[..end]);
     Ok(whole.lines().filter(|line| !line.trim().is_empty()).map(str::to_owned).collect())
 }
 
-fn objects(spool: &Path) -> std::result::Result<Vec<Line>, String> {
+fn objects(spool: &Path) -> Result<Vec<Line>, String> {
     let mut all: Vec<Line> = Vec::new();
     for (number, line) in (1..).zip(lines(spool, "objects.jsonl")?) {
         let bad = |why: String| format!("line {number} of its objects.jsonl cannot be used: {why}");
@@ -148,7 +134,7 @@ fn objects(spool: &Path) -> std::result::Result<Vec<Line>, String> {
 }
 
 /// The last line of each reason holds.
-fn dropped(spool: &Path) -> std::result::Result<Vec<Dropped>, String> {
+fn dropped(spool: &Path) -> Result<Vec<Dropped>, String> {
     let mut all: Vec<Dropped> = Vec::new();
     for (number, line) in (1..).zip(lines(spool, "dropped.jsonl")?) {
         let line: Dropped = serde_json::from_str(&line)
@@ -161,47 +147,8 @@ fn dropped(spool: &Path) -> std::result::Result<Vec<Dropped>, String> {
     Ok(all)
 }
 
-/// Every object under a name of its own, with the meshes that they need.
-fn scene(spool: &Path, lines: Vec<Line>, program: &str) -> std::result::Result<SceneFile, String> {
-    let mut names = HashSet::new();
-    let mut meshes: HashMap<String, Arc<Mesh>> = HashMap::new();
-    // A recorder may write its PLY files in its own way.
-    let mut known: HashMap<String, Geometry> = HashMap::new();
-    let mut objects = Vec::with_capacity(lines.len());
-    for Line { id, name, mut geometry, source, .. } in lines {
-        if let Geometry::Mesh { sha256 } = &geometry {
-            let kept = match known.get(sha256) {
-                Some(kept) => kept.clone(),
-                None => {
-                    let mesh = mesh_of(spool, sha256).map_err(|why| format!("object {id}: {why}"))?;
-                    let kept = SceneFile::keep(&mut meshes, mesh);
-                    known.insert(sha256.clone(), kept.clone());
-                    kept
-                }
-            };
-            geometry = kept;
-        }
-        let mut unique = if name.is_empty() { format!("object {id}") } else { name };
-        if !names.insert(unique.clone()) {
-            unique = format!("{unique} #{id}");
-            names.insert(unique.clone());
-        }
-        objects.push(SceneObject {
-            name: unique,
-            link: None,
-            geometry,
-            pose: Pose::identity(),
-            source,
-            scale: [1.0; 3],
-            licence: None,
-        });
-    }
-    let scene = Scene { name: program.to_owned(), objects, disabled: Vec::new() };
-    scene.check().map_err(|why| why.to_string())?;
-    Ok(SceneFile { scene, meshes })
-}
-
-fn mesh_of(spool: &Path, sha256: &str) -> std::result::Result<Mesh, String> {
+/// The mesh of this hash.
+pub fn mesh_of(spool: &Path, sha256: &str) -> Result<Mesh, String> {
     if sha256.len() != 64 || !sha256.bytes().all(|c| c.is_ascii_hexdigit()) {
         return Err("its mesh is not named by a SHA-256".into());
     }
@@ -213,7 +160,7 @@ fn mesh_of(spool: &Path, sha256: &str) -> std::result::Result<Mesh, String> {
 }
 
 /// One query, or why it is none.
-fn query(row: &[u8; ROW], objects: usize) -> std::result::Result<Recorded, String> {
+fn query(row: &[u8; ROW], objects: usize) -> Result<Recorded, String> {
     let four = |at: usize| u32::from_le_bytes(row[at..at + 4].try_into().expect("four bytes"));
     let eight = |at: usize| u64::from_le_bytes(row[at..at + 8].try_into().expect("eight bytes"));
     let number = |at: usize| f64::from_bits(eight(at));
