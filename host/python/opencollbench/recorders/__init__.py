@@ -13,12 +13,28 @@ Recorded are calls from Python. The times are of the library's function alone. W
 Needs numpy.
 """
 
+import atexit
 import sys
 from contextlib import contextmanager
 
-from .session import group
+#: The name under which `ocb record` puts this package into programs.
+_FOLLOWED = "opencollbench_recorders"
 
 __all__ = ["group", "record", "start", "stop"]
+
+
+def group():
+    """Begins a group; the queries of this thread belong to it until it calls this again.
+
+    Call it for each robot state, call of a planner, or step of a simulation. A thread that never calls it has a group for each
+    call of a collision manager, and for each query outside of those.
+    """
+    from . import session
+
+    session.group()
+    followed = sys.modules.get(_FOLLOWED)
+    if followed and __name__ != _FOLLOWED:
+        followed.group()
 
 
 def start(folder, *, limit=250_000, program=None):
@@ -33,6 +49,19 @@ def start(folder, *, limit=250_000, program=None):
         raise RuntimeError("A recording is under way already; end it with stop() first.")
     session.this_process(folder, program or sys.argv[0] or "python", limit)
     patching.install()
+
+
+def follow(folder, *, limit, program=None):
+    """Begins recording of a whole process and of those that it forks, each into a spool of its own in `folder`."""
+    from . import patching
+
+    def each_process():
+        from . import session
+
+        session.each_process(folder, program or sys.argv[0] or "python", limit)
+        atexit.register(session.end)
+
+    patching.install(each_process)
 
 
 def stop():

@@ -7,7 +7,7 @@ import functools
 import sys
 
 from . import fcl_memory, session
-from .patching import replace
+from .patching import leave, replace
 from .spool import ANSWERED, COLLIDE, CONTACTS, DISTANCE, HIT, MEASURED, Unusable
 
 #: What FCL gives as distance where it has no algorithm for a pair.
@@ -19,6 +19,7 @@ def patch(fcl):
     library = ("python-fcl", fcl.__version__)
     shapes = _Shapes(fcl, library)
     core = fcl.fcl
+    leave("fcl", core)
     undo = []
     for name, describe in [("collide", shapes.collided), ("distance", shapes.measured)]:
         undo += replace([fcl, core], name, _recording(getattr(core, name), describe))

@@ -1,12 +1,14 @@
 """Puts recording functions into libraries: into those that are loaded, and into others when the program imports them."""
 
+import ctypes
+import importlib
 import importlib.abc
-import importlib.util
+import os
 import sys
 
 #: The module that patches each library.
 LIBRARIES = {"fcl": "on_fcl", "coal": "on_coal", "mujoco": "on_mujoco"}
-_undo = []
+_undo, _at_first = [], None
 
 
 def replace(modules, name, new):
@@ -17,8 +19,17 @@ def replace(modules, name, new):
     return undo
 
 
-def install():
-    """Patches every library, now or when it is imported."""
+def leave(library, module):
+    """Tells the recorder that `ocb record` loaded for a C++ library that calls from this module are recorded here."""
+    leave = getattr(ctypes.CDLL(None), f"ocb_record_leave_{library}", None)
+    if leave:
+        leave(os.fsencode(module.__file__))
+
+
+def install(at_first=None):
+    """Patches every library, now or when it is imported; calls `at_first` before the first."""
+    global _at_first
+    _at_first = at_first
     for name in LIBRARIES:
         if name in sys.modules:
             _patch(sys.modules[name])
@@ -33,7 +44,11 @@ def remove():
 
 
 def _patch(library):
+    global _at_first
     try:
+        if _at_first:
+            _at_first, begin = None, _at_first
+            begin()
         module = importlib.import_module(f"{__package__}.{LIBRARIES[library.__name__]}")
         _undo.extend(module.patch(library))
     except Exception as error:  # A recorder must not end the program that it records.

@@ -37,11 +37,7 @@ def recording():
 
 
 def group():
-    """Begins a group: the queries of this thread belong to it until it calls this again.
-
-    Call it for each robot state, call of a planner, or step of a simulation. A thread that never calls it has a group for each
-    call of a collision manager, and for each query outside of those.
-    """
+    """Begins a group of this thread."""
     _here.group = next(_numbers)
 
 

@@ -1,0 +1,27 @@
+// What the geometries of FCL are, for the spool.
+#pragma once
+
+#include <fcl/fcl.h>
+
+#include "spool.hpp"
+
+namespace ocb::record {
+
+// An object of a query: its number in the spool, and whether it is a convex body, of which the surface alone is recorded.
+struct Known {
+  std::uint32_t object = 0;
+  bool convex = false;
+};
+
+// Throws `Unusable` for geometries that are not recorded. For one thread at a time.
+Known describe(Spool &spool, const fcl::CollisionGeometryd &geometry, std::uint32_t library);
+
+// What libfcl alone has functions for, which a process may not have loaded.
+const fcl::CollisionGeometryd &geometry(const fcl::CollisionObjectd &object);
+const fcl::Transform3d &pose(const fcl::CollisionObjectd &object);
+std::size_t contacts(const fcl::CollisionResultd &result);
+
+// A pose as the spool has it.
+Matrix matrix(const fcl::Transform3d &pose);
+
+} // namespace ocb::record
