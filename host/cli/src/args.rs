@@ -6,6 +6,7 @@ mod data;
 mod looking;
 mod mail;
 mod plugins;
+mod record;
 mod runs;
 mod scene;
 mod secret;
@@ -23,6 +24,7 @@ pub use data::{DataCommand, Deleted, PlaceArgs};
 pub use looking::{HeatmapArgs, SelectArgs, WorstArgs};
 pub use mail::MailArgs;
 pub use plugins::{AdminCommand, PluginCommand, SubmitArgs};
+pub use record::RecordArgs;
 pub use runs::{ReplayArgs, RunCommand};
 pub use scene::{ImportArgs, SceneCommand};
 pub use services::{CiteArgs, CiteAs, Cited, LookArgs, ServiceArgs, Shown, VisibilityArgs};
@@ -149,6 +151,9 @@ pub enum Command {
         #[command(subcommand)]
         command: RunCommand,
     },
+    /// Run a program unchanged and record what it asks of collision libraries (FCL, Coal, MuJoCo; also from Python), for
+    /// `ocb bench --workload`. The exit code is the program's.
+    Record(RecordArgs),
     /// Repeat every query of a repro archive in the jail, and compare every answer bit by bit.
     Replay(ReplayArgs),
     /// Submit a plugin to a service, which checks it.

@@ -23,6 +23,7 @@ mod output;
 mod picture;
 mod placing;
 mod plugin;
+mod record;
 mod replay;
 mod run;
 mod scene;
@@ -79,6 +80,7 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Object { command } => object::object(&store, &command, json).await,
         Command::Run { command } => run::run(&store, &command, json).await,
         Command::Scene { command } => scene::scene(&command, json),
+        Command::Record(args) => record::record(&args, json).await,
         Command::Replay(args) => replay::replay(&store, &args, json).await,
         Command::Submit(args) => submit::submit(&args, json).await,
         Command::Data { command } => data::data(&store, &command, json).await,
