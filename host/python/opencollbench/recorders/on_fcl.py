@@ -3,11 +3,11 @@
 Not recorded, and counted: continuous collision, and objects that are not a mesh, convex body, box, sphere, cylinder or capsule.
 """
 
-import functools
 import sys
 
 from . import fcl_memory, session
 from .patching import leave, replace
+from .shapes import Shapes, recording
 from .spool import ANSWERED, COLLIDE, CONTACTS, DISTANCE, HIT, MEASURED, Unusable
 
 #: What FCL gives as distance where it has no algorithm for a pair.
@@ -17,23 +17,15 @@ _NO_ANSWER = sys.float_info.max
 def patch(fcl):
     """Puts recording functions in the place of the library's; a list of what to put back."""
     library = ("python-fcl", fcl.__version__)
-    shapes = _Shapes(fcl, library)
+    asked = _Fcl(fcl, library)
     core = fcl.fcl
     leave("fcl", core)
     undo = []
-    for name, describe in [("collide", shapes.collided), ("distance", shapes.measured)]:
-        undo += replace([fcl, core], name, _recording(getattr(core, name), describe))
+    for name, describe in [("collide", asked.collided), ("distance", asked.measured)]:
+        undo += replace([fcl, core], name, recording(getattr(core, name), describe))
     continuous = session.missed("continuous collision is not recorded")
-    undo += replace([fcl, core], "continuousCollide", _recording(core.continuousCollide, lambda *_: continuous))
+    undo += replace([fcl, core], "continuousCollide", recording(core.continuousCollide, lambda *_: continuous))
     return undo + replace([fcl, core], "DynamicAABBTreeCollisionManager", _manager(core.DynamicAABBTreeCollisionManager))
-
-
-def _recording(function, describe):
-    @functools.wraps(function)
-    def recording(*args, **kwargs):
-        return session.observe(lambda: function(*args, **kwargs), lambda *of: describe(args, kwargs)(*of))
-
-    return recording
 
 
 def _manager(original):
@@ -59,14 +51,12 @@ def _given(args, kwargs):
     return [args[i] if i < len(args) else kwargs.get(name) for i, name in enumerate(names)]
 
 
-class _Shapes:
-    """What the geometries of python-fcl are."""
+class _Fcl:
+    """What is asked of python-fcl."""
 
     def __init__(self, fcl, library):
-        self.fcl, self.library = fcl, library
+        self.fcl, self.shapes = fcl, Shapes(library)
         self.readable = fcl_memory.known(fcl)
-        #: Numbers of objects in a spool by the fingerprint of their model.
-        self.known, self.spool = {}, None
 
     def collided(self, args, kwargs):
         one, other, request = _given(args, kwargs)
@@ -100,38 +90,18 @@ class _Shapes:
         return objects, [(each.getRotation(), each.getTranslation()) for each in (one, other)], solid
 
     def number(self, spool, geometry):
-        if spool is not self.spool:
-            self.known, self.spool = {}, spool
-        fcl = self.fcl
+        """The number of a geometry in the spool."""
+        fcl, shapes = self.fcl, self.shapes
         if isinstance(geometry, fcl.BVHModel):
-            return self.mesh(spool, fcl_memory.fingerprint(geometry), lambda: fcl_memory.model(geometry), "mesh")
+            return shapes.mesh(spool, fcl_memory.fingerprint(geometry), lambda: fcl_memory.model(geometry))
         if isinstance(geometry, fcl.Convex):
             mark = fcl_memory.convex_fingerprint(geometry)
-            return self.mesh(spool, mark, lambda: fcl_memory.convex(geometry), "convex body")
-        name, mark = self.primitive(geometry)
-        if mark not in self.known:
-            kind, *sizes = mark
-            fields = {"box": ["size"], "sphere": ["radius"]}.get(kind, ["radius", "length"])
-            values = [sizes] if kind == "box" else sizes
-            self.known[mark] = spool.object(name, {"kind": kind} | dict(zip(fields, values)), self.library)
-        return self.known[mark]
-
-    def primitive(self, geometry):
-        fcl = self.fcl
+            return shapes.convex(spool, mark, lambda: fcl_memory.convex(geometry))
         if isinstance(geometry, fcl.Box):
-            size = geometry.side.tolist()
-            return "box", ("box", *size)
+            return shapes.primitive(spool, "box", *geometry.side.tolist())
         if isinstance(geometry, fcl.Sphere):
-            return "sphere", ("sphere", geometry.radius)
+            return shapes.primitive(spool, "sphere", geometry.radius)
         for kind, of in [("cylinder", fcl.Cylinder), ("capsule", fcl.Capsule)]:
             if isinstance(geometry, of):
-                return kind, (kind, geometry.radius, geometry.lz)
+                return shapes.primitive(spool, kind, geometry.radius, geometry.lz)
         raise Unusable(f"{type(geometry).__name__} is not a recorded kind of object")
-
-    def mesh(self, spool, mark, read, what):
-        if mark not in self.known:
-            vertices, triangles = read()
-            source = "its surface; the program's answers where it collides are left out" if what == "convex body" else ""
-            name = f"{what} of {len(triangles)} triangles"
-            self.known[mark] = spool.object(name, (vertices, triangles), self.library, source)
-        return self.known[mark]
