@@ -33,7 +33,7 @@ trap 'stop_services; [ -z "$beside" ] || kill "$beside" 2>/dev/null || true' EXI
 trap 'exit 130' INT TERM
 
 # All programs at once: the tests' dependencies give a crate another feature, and without them half of it is built again.
-step build bash -c 'make -sk --jobs=3 pages stock plugins-cpp; made=$?; cargo build --release --workspace --lib --bins --examples --tests && exit $made'
+step build bash -c 'make -sk --jobs=3 pages stock plugins-cpp recorders; made=$?; cargo build --release --workspace --lib --bins --examples --tests && exit $made'
 step vitest npm --prefix web/app run test
 start_services || broken+=(services)
 step rust tests/setup/rust.py

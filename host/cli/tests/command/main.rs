@@ -10,6 +10,7 @@ mod data;
 mod errors;
 mod generate;
 mod look;
+mod record;
 mod replay;
 mod scene;
 mod serve;

@@ -1,0 +1,201 @@
+//! `ocb record`: programs that know nothing of it, on Debian's libfcl and on python-fcl, are recorded, and their answers stay.
+
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use ocb_core::workload::{Kind, Recorded};
+use ocb_service::Recording;
+
+use crate::support::Desk;
+
+/// The repository.
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+/// What the programs end with, and what a shell says of SIGKILL.
+const CODE: i32 = 3;
+const KILLED: i32 = 137;
+
+#[expect(clippy::disallowed_methods, reason = "the test runs the program that is recorded")]
+fn command(program: impl AsRef<Path>) -> Command {
+    Command::new(program.as_ref())
+}
+
+fn said(Output { status, stdout, stderr }: Output) -> (i32, String, String) {
+    let text = |bytes| String::from_utf8(bytes).expect("text");
+    (status.code().unwrap_or(-1), text(stdout), text(stderr))
+}
+
+/// The C++ program, compiled as its author would.
+fn robot(desk: &Desk) -> PathBuf {
+    let program = desk.path("robot");
+    let mut compiler = command("c++");
+    compiler.args(["-std=c++17", "-O2", "-isystem", "/usr/include/eigen3"]);
+    compiler.arg(format!("{ROOT}/tests/record/robot.cpp")).arg("-o").arg(&program).args(["-lfcl", "-lccd", "-pthread"]);
+    let (code, _, stderr) = said(compiler.output().expect("a compiler"));
+    assert_eq!(code, 0, "{stderr}");
+    program
+}
+
+/// Python with the libraries, and its program.
+fn python() -> [PathBuf; 2] {
+    let python = Path::new(ROOT).join(".tools/record/bin/python");
+    assert!(python.exists(), "not run: python-fcl is not installed");
+    [python, Path::new(ROOT).join("tests/record/robot.py")]
+}
+
+/// Records a program; gives the exit code and what both said.
+fn record(desk: &Desk, out: &str, options: &[&str], program: &[&Path], args: &[&str]) -> (i32, String, String) {
+    let built = Path::new(env!("CARGO_BIN_EXE_ocb")).with_file_name("record/libocb_record_fcl.so");
+    assert!(built.exists(), "{} is missing; run `make recorders` first", built.display());
+    let mut record = desk.command(&["record", "--out", desk.path(out).to_str().expect("text")]);
+    record.args(options).arg("--").args(program).args(args);
+    said(record.output().expect("it starts"))
+}
+
+fn read(desk: &Desk, out: &str) -> Recording {
+    Recording::read(&desk.path(out)).expect("a recording")
+}
+
+/// The answers to the first queries are those that the program printed.
+fn assert_as_printed(queries: &[Recorded], printed: &str) -> usize {
+    let mut lines = 0;
+    for (line, query) in printed.lines().zip(queries) {
+        match line.split_once(' ').expect("two words") {
+            ("collide", hit) => {
+                assert_eq!(query.answered.hit, Some(hit == "1"), "{line}: {query:?}");
+                assert_eq!(query.kind, if query.limit > 1.0 { Kind::Contacts } else { Kind::Collide });
+            }
+            ("distance", distance) => {
+                assert_eq!(query.answered.distance, Some(distance.parse().expect("a number")), "{line}");
+                assert_eq!(query.kind, Kind::Distance);
+            }
+            _ => break,
+        }
+        assert!(query.seconds.is_some_and(|seconds| seconds > 0.0 && seconds < 10.0), "{query:?}");
+        lines += 1;
+    }
+    lines
+}
+
+/// Dropped queries by reason.
+fn dropped(recording: &Recording) -> Vec<(&str, u64)> {
+    recording.about.dropped.iter().map(|dropped| (dropped.reason.as_str(), dropped.count)).collect()
+}
+
+#[test]
+fn a_program_on_libfcl_gives_the_same_answers_and_is_recorded() {
+    let desk = Desk::new();
+    let robot = robot(&desk);
+    let plain = said(command(&robot).arg("20").output().expect("it starts"));
+    let (code, stdout, stderr) = record(&desk, "r.ocbrec", &[], &[&robot], &["20"]);
+    assert_eq!((code, &stdout), (CODE, &plain.1), "{stderr}");
+    assert_eq!(plain.0, CODE);
+    assert!(stderr.contains("1 queries (a cone is not a recorded kind of object)"), "{stderr}");
+
+    let recording = read(&desk, "r.ocbrec");
+    let names: Vec<&str> = recording.scene.scene.objects.iter().map(|object| object.name.as_str()).collect();
+    assert_eq!(names, ["mesh of 400 triangles", "mesh of 160 triangles", "box", "sphere", "capsule"]);
+    let queries = &recording.queries;
+    // Four objects in 20 rounds, asked twice; then once more of the geometries.
+    assert_eq!(assert_as_printed(queries, &stdout), 161);
+    assert_eq!(queries[161].answered.hit, None, "a result that had a contact tells nothing");
+    // What follows: the manager asks in one group, two threads ask 20 times each, the child once.
+    assert_eq!(recording.about.seen, queries.len() as u64 + 1);
+    let managed = &queries[162..queries.len() - 41];
+    assert!(managed.len() > 1 && managed.iter().all(|query| query.group == managed[0].group), "{}", managed.len());
+    let groups: HashSet<u64> = queries.iter().map(|query| query.group).collect();
+    assert_eq!(groups.len(), queries.len() - managed.len() + 1);
+    let line = stdout.lines().find_map(|line| line.strip_prefix("child ")).expect("the child's answer");
+    assert_eq!(queries.last().expect("a query").answered.hit, Some(line == "1"));
+    assert_eq!((&*recording.about.program, &*recording.about.libraries), ("robot 20", &["fcl 0.7.0".to_owned()][..]));
+
+    // The program asked FCL, and box-tree and the oracle agree with it.
+    let replay = desk.path("r.ocbrec");
+    let replay = replay.to_str().expect("text");
+    let result = desk.json(&["bench", "--workload", replay, "--algorithm", "box-tree", "--passes", "1", "--order", "recorded"]);
+    let claims = result["recorded"]["claims"].as_array().expect("claims");
+    assert!(claims.iter().all(|claim| claim["claim"] == "right" || claim["claim"] == "undecided"), "{claims:?}");
+    assert!(claims.iter().any(|claim| claim["claim"] == "right" && claim["count"].as_u64() > Some(150)), "{claims:?}");
+}
+
+#[test]
+fn a_python_program_gives_the_same_answers_and_is_recorded() {
+    let desk = Desk::new();
+    let [python, program] = python();
+    let plain = said(command(&python).arg(&program).arg("20").output().expect("it starts"));
+    let (code, stdout, stderr) = record(&desk, "p.ocbrec", &[], &[&python, &program], &["20"]);
+    assert_eq!((code, &stdout), (CODE, &plain.1), "{stderr}");
+    assert_eq!(plain.0, CODE, "{}", plain.2);
+    let recording = read(&desk, "p.ocbrec");
+    let queries = &recording.queries;
+    assert_eq!(assert_as_printed(queries, &stdout), 120);
+    assert_eq!(dropped(&recording), [("Cone is not a recorded kind of object", 1)]);
+    // Through the manager in one group, and through trimesh, once: a ring against a convex body, whose hit is not told.
+    let (last, managed) = queries[120..].split_last().expect("queries of managers");
+    assert!(managed.len() > 1 && managed.iter().all(|query| query.group == managed[0].group), "{managed:?}");
+    assert_eq!(last.answered.hit, None);
+    let cube = last.objects[0].max(last.objects[1]);
+    assert_eq!(recording.scene.scene.objects[cube as usize].name, "convex body of 12 triangles");
+    assert_eq!(recording.about.libraries, ["python-fcl 0.7.0.11"]);
+    assert_eq!(recording.about.program, "python robot.py 20");
+}
+
+#[test]
+fn what_a_killed_program_asked_is_kept() {
+    let desk = Desk::new();
+    let robot = robot(&desk);
+    let (code, stdout, stderr) = record(&desk, "r.ocbrec", &[], &[&robot], &["30", "killed"]);
+    assert_eq!(code, KILLED, "{stderr}");
+    assert!(stderr.contains("ended by signal 9"), "{stderr}");
+    let queries = read(&desk, "r.ocbrec").queries;
+    assert_eq!((queries.len(), assert_as_printed(&queries, &stdout)), (240, 240));
+
+    let [python, program] = python();
+    let (code, stdout, stderr) = record(&desk, "p.ocbrec", &[], &[&python, &program], &["30", "killed"]);
+    assert_eq!(code, KILLED, "{stderr}");
+    let queries = read(&desk, "p.ocbrec").queries;
+    assert_eq!((queries.len(), assert_as_printed(&queries, &stdout)), (180, 180));
+}
+
+#[test]
+fn of_too_many_queries_whole_groups_are_kept() {
+    let desk = Desk::new();
+    let robot = robot(&desk);
+    record(&desk, "all.ocbrec", &[], &[&robot], &["100"]);
+    record(&desk, "few.ocbrec", &["--limit", "100"], &[&robot], &["100"]);
+    let (all, few) = (read(&desk, "all.ocbrec"), read(&desk, "few.ocbrec"));
+    assert!((40..=101).contains(&few.queries.len()), "{}", few.queries.len());
+    assert_eq!(few.about.seen, all.about.seen);
+    let sampled = all.queries.len() - few.queries.len();
+    assert!(dropped(&few).contains(&("sampled", sampled as u64)), "{:?}", few.about.dropped);
+    // Evenly over the run of the program, and each as it was.
+    let kept: Vec<u64> = few.queries.iter().map(|query| query.sequence).take(40).collect();
+    let step = kept[1] - kept[0];
+    assert!(step >= 8 && kept.windows(2).all(|pair| pair[1] - pair[0] == step), "{kept:?}");
+    for query in few.queries.iter().take(40) {
+        let same = &all.queries[query.sequence as usize];
+        assert_eq!((query.configuration, query.answered.hit), (same.configuration, same.answered.hit));
+    }
+}
+
+#[test]
+fn what_cannot_be_recorded_is_told() {
+    let desk = Desk::new();
+    let (code, _, stderr) = record(&desk, "n.ocbrec", &[], &[Path::new("true")], &[]);
+    assert_eq!(code, 2);
+    assert!(stderr.contains("Nothing was recorded: the program asked none of FCL (libfcl), python-fcl"), "{stderr}");
+    let (code, _, stderr) = record(&desk, "n.ocbrec", &[], &[Path::new("no-such-program")], &[]);
+    assert_eq!((code, &*stderr), (2, "ocb: Cannot run no-such-program: no such file or directory.\n"));
+    let (code, _, stderr) = record(&desk, "none/n.ocbrec", &[], &[Path::new("true")], &[]);
+    assert_eq!(code, 2);
+    assert!(stderr.starts_with("ocb: Cannot write into the folder "), "{stderr}");
+    assert!(desk.refused(&["record", "--out", "n.ocbrec"]).contains("<PROGRAM>"));
+    assert!(!desk.path("n.ocbrec").exists());
+    let empty = desk.path("empty");
+    std::fs::create_dir(&empty).expect("a folder");
+    let told = desk.refused(&["record", "--out", "n.ocbrec", "--spool", empty.to_str().expect("text")]);
+    assert!(told.contains("\"empty\" holds no recording"), "{told}");
+    // Nothing of the spools is left behind.
+    let left: Vec<_> = std::fs::read_dir(desk.path("")).expect("a folder").map(|entry| entry.expect("one").file_name()).collect();
+    assert!(left.iter().all(|name| !name.to_string_lossy().ends_with(".spool")), "{left:?}");
+}
