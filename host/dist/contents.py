@@ -43,6 +43,10 @@ def files(data):
     stock = [f"{name}.{end}" for name in ("bunny", "dragon") for end in ("obj", "terms")]
     found += [(f"stock/{name}", BUILD / "stock" / name, False) for name in stock]
     found += [(name, ROOT / name, False) for name in ("LICENSE-APACHE", "LICENSE-MIT")]
+    # The recorders for Python; those of C++ libraries contain code of their headers.
+    record = BUILD / "release/record/python"
+    recorders = [record / "sitecustomize.py", *sorted((record / "opencollbench_recorders").glob("*.py"))]
+    found += [(str(path.relative_to(BUILD / "release")), path, False) for path in recorders]
     missing = [str(path) for _, path, _ in found if not path.is_file()]
     if missing:
         sys.exit(f"dist: not built: {', '.join(missing)}; run make build first")
