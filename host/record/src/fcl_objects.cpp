@@ -1,6 +1,8 @@
 #include "fcl_objects.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <map>
 #include <unordered_map>
 
 namespace ocb::record {
@@ -63,19 +65,40 @@ Fingerprint fingerprint(const fcl::CollisionGeometryd &geometry, const V *vertic
   return mark;
 }
 
-// Models that were described, by their address; for the spool that is being written.
+// What was described in the spool that is being written: models by their address, primitives by their kind and lengths.
+struct Described {
+  std::uint64_t spool = 0;
+  std::unordered_map<const void *, Model> models;
+  std::map<std::pair<int, std::array<double, 3>>, std::uint32_t> primitives;
+};
+
+Described &described(const Spool &spool) {
+  static Described &of_process = *new Described;
+  if (of_process.spool != spool.serial)
+    of_process = Described{spool.serial, {}, {}};
+  return of_process;
+}
+
 std::uint32_t known(Spool &spool, const fcl::CollisionGeometryd &geometry, const Fingerprint &mark, const auto &read, const char *what,
                     const char *source, std::uint32_t library) {
-  static auto &models = *new std::unordered_map<const void *, Model>;
-  static std::uint64_t of = 0;
-  if (of != spool.serial)
-    models.clear(), of = spool.serial;
+  auto &models = described(spool).models;
   if (const auto found = models.find(&geometry); found != models.end() && found->second.mark == mark)
     return found->second.object;
   const Triangles triangles = read();
   const std::string name = std::string(what) + " of " + std::to_string(triangles.corners.size() / 3) + " triangles";
   const std::uint32_t object = spool.mesh(name, triangles, source, library);
   models.insert_or_assign(&geometry, Model{mark, object});
+  return object;
+}
+
+std::uint32_t primitive(Spool &spool, const char *kind, int type, std::initializer_list<double> sizes, std::uint32_t library) {
+  std::array<double, 3> lengths{};
+  std::copy(sizes.begin(), sizes.end(), lengths.begin());
+  auto &primitives = described(spool).primitives;
+  if (const auto found = primitives.find({type, lengths}); found != primitives.end())
+    return found->second;
+  const std::uint32_t object = spool.primitive(kind, sizes, library);
+  primitives.emplace(std::pair{type, lengths}, object);
   return object;
 }
 
@@ -124,7 +147,8 @@ std::uint32_t convex(Spool &spool, const fcl::Convexd &body, std::uint32_t libra
 } // namespace
 
 Known describe(Spool &spool, const fcl::CollisionGeometryd &geometry, std::uint32_t library) {
-  switch (geometry.getNodeType()) {
+  const auto type = geometry.getNodeType();
+  switch (type) {
   case fcl::BV_AABB:
   case fcl::BV_OBB:
   case fcl::BV_RSS:
@@ -138,17 +162,17 @@ Known describe(Spool &spool, const fcl::CollisionGeometryd &geometry, std::uint3
     return {convex(spool, static_cast<const fcl::Convexd &>(geometry), library), true};
   case fcl::GEOM_BOX: {
     const V &side = static_cast<const fcl::Boxd &>(geometry).side;
-    return {spool.primitive("box", {side[0], side[1], side[2]}, library), false};
+    return {primitive(spool, "box", type, {side[0], side[1], side[2]}, library), false};
   }
   case fcl::GEOM_SPHERE:
-    return {spool.primitive("sphere", {static_cast<const fcl::Sphered &>(geometry).radius}, library), false};
+    return {primitive(spool, "sphere", type, {static_cast<const fcl::Sphered &>(geometry).radius}, library), false};
   case fcl::GEOM_CYLINDER: {
     const auto &cylinder = static_cast<const fcl::Cylinderd &>(geometry);
-    return {spool.primitive("cylinder", {cylinder.radius, cylinder.lz}, library), false};
+    return {primitive(spool, "cylinder", type, {cylinder.radius, cylinder.lz}, library), false};
   }
   case fcl::GEOM_CAPSULE: {
     const auto &capsule = static_cast<const fcl::Capsuled &>(geometry);
-    return {spool.primitive("capsule", {capsule.radius, capsule.lz}, library), false};
+    return {primitive(spool, "capsule", type, {capsule.radius, capsule.lz}, library), false};
   }
   case fcl::GEOM_CONE:
     throw Unusable{"a cone is not a recorded kind of object"};
