@@ -20,7 +20,7 @@ constexpr std::size_t MOST_OBJECTS = 20'000;
 constexpr std::uint64_t MOST_MESH_BYTES = std::uint64_t{4} << 30;
 // Largest coordinate of a mesh, smallest and largest length of a primitive.
 constexpr double LARGEST = 1e18, SMALLEST = 1e-100;
-// Seconds between two notes of how many queries were dropped.
+// Seconds between two notes of how many queries were dropped for known reasons.
 constexpr double NOTED = 0.2;
 
 std::uint64_t spools = 0;
@@ -206,8 +206,8 @@ void Spool::add(Query query) {
 }
 
 void Spool::drop(const std::string &reason) {
-  ++dropped_[reason];
-  if (const double time = now(); time - noted_ > NOTED) {
+  const bool first = ++dropped_[reason] == 1;
+  if (const double time = now(); first || time - noted_ > NOTED) {
     noted_ = time;
     note();
   }

@@ -36,11 +36,11 @@ fn robot(desk: &Desk) -> PathBuf {
     program
 }
 
-/// Python with the libraries, and its program.
-fn python() -> [PathBuf; 2] {
+/// Python with the libraries, and a program.
+fn python(program: &str) -> [PathBuf; 2] {
     let python = Path::new(ROOT).join(".tools/record/bin/python");
-    assert!(python.exists(), "not run: python-fcl is not installed");
-    [python, Path::new(ROOT).join("tests/record/robot.py")]
+    assert!(python.exists(), "not run: the collision libraries of Python are not installed");
+    [python, Path::new(ROOT).join("tests/record").join(program)]
 }
 
 /// Records a program; gives the exit code and what both said.
@@ -121,7 +121,7 @@ fn a_program_on_libfcl_gives_the_same_answers_and_is_recorded() {
 #[test]
 fn a_python_program_gives_the_same_answers_and_is_recorded() {
     let desk = Desk::new();
-    let [python, program] = python();
+    let [python, program] = python("robot.py");
     let plain = said(command(&python).arg(&program).arg("20").output().expect("it starts"));
     let (code, stdout, stderr) = record(&desk, "p.ocbrec", &[], &[&python, &program], &["20"]);
     assert_eq!((code, &stdout), (CODE, &plain.1), "{stderr}");
@@ -141,6 +141,72 @@ fn a_python_program_gives_the_same_answers_and_is_recorded() {
 }
 
 #[test]
+fn coal_and_mujoco_are_recorded_in_python() {
+    let desk = Desk::new();
+    let [python, program] = python("others.py");
+    let answers = |library: &str| {
+        let plain = said(command(&python).arg(&program).args([library, "20"]).output().expect("it starts"));
+        let (code, stdout, stderr) = record(&desk, "o.ocbrec", &[], &[&python, &program], &[library, "20"]);
+        assert_eq!((code, &stdout), (CODE, &plain.1), "{stderr}");
+        (read(&desk, "o.ocbrec"), stdout)
+    };
+    let (coal, printed) = answers("coal");
+    assert_eq!(dropped(&coal), [("Cone is not a recorded kind of object", 1)]);
+    assert_eq!(coal.about.libraries, ["coal 3.0.3"]);
+    for (line, query) in printed.lines().zip(&coal.queries) {
+        let (asked, answer) = line.split_once(' ').expect("two words");
+        if asked == "distance" {
+            assert_eq!(query.answered.distance, answer.parse().ok(), "{line}");
+        } else {
+            let margin = if query.kind == Kind::Tolerance { 0.25 } else { 1.0 };
+            assert_eq!((query.answered.hit, query.limit), (Some(answer == "1"), margin), "{line}");
+        }
+    }
+    assert_eq!(coal.queries.iter().filter(|query| query.kind == Kind::Tolerance).count(), 40);
+
+    let (mujoco, printed) = answers("mujoco");
+    assert_eq!(dropped(&mujoco), [("mjGEOM_ELLIPSOID is not a recorded kind of object", 20)]);
+    // Each fourth line is about the ellipsoid.
+    let kept = printed.lines().enumerate().filter(|(i, _)| i % 4 != 3);
+    let mut closer = 0;
+    for ((_, line), query) in kept.zip(&mujoco.queries) {
+        let distance: f64 = line.strip_prefix("tolerance ").expect("a distance").parse().expect("a number");
+        assert_eq!((query.kind, query.limit), (Kind::Tolerance, 0.5));
+        let of_hull = mujoco.scene.scene.objects[query.objects[1] as usize].name.starts_with("convex body");
+        let told = (!of_hull || distance > 0.0).then_some(distance < 0.5);
+        assert_eq!(query.answered.hit, told, "{line}");
+        closer += usize::from(told == Some(true));
+    }
+    assert!(mujoco.queries.len() == 60 && closer > 3, "{closer} of {}", mujoco.queries.len());
+}
+
+#[test]
+fn a_program_can_record_itself() {
+    let desk = Desk::new();
+    let built = Path::new(env!("CARGO_BIN_EXE_ocb")).with_file_name("record");
+    assert!(built.join("libocb_record.so").exists(), "{} is missing; run `make recorders` first", built.display());
+    let (program, spool) = (desk.path("by_hand"), desk.path("spool"));
+    let mut compiler = command("cc");
+    compiler.args(["-std=gnu11", "-Wall", "-Wextra", "-Werror", "-pedantic"]);
+    compiler.arg(format!("-I{ROOT}/host/record/include")).arg(format!("{ROOT}/tests/record/by_hand.c"));
+    compiler.arg("-o").arg(&program).arg(format!("-L{0}", built.display())).args(["-locb_record", "-lm"]);
+    let (code, _, stderr) = said(compiler.output().expect("a compiler"));
+    assert_eq!(code, 0, "{stderr}");
+    let ended = command(&program).arg(&spool).env("LD_LIBRARY_PATH", &built).status().expect("it starts");
+    assert_eq!(std::os::unix::process::ExitStatusExt::signal(&ended), Some(9), "{ended}");
+
+    let out = desk.path("h.ocbrec").to_str().expect("text").to_owned();
+    let packed = desk.json(&["record", "--out", &out, "--spool", spool.to_str().expect("text")]);
+    assert_eq!((&packed["objects"], &packed["queries"], &packed["seen"]), (&2.into(), &10.into(), &12.into()), "{packed}");
+    let recording = read(&desk, "h.ocbrec");
+    assert_eq!(recording.about.program, "by \"hand\"");
+    assert_eq!(dropped(&recording), [("a pose is not finite", 1), ("an object was not recorded", 1)]);
+    let result = desk.json(&["bench", "--workload", &out, "--algorithm", "box-tree", "--passes", "1", "--order", "recorded"]);
+    let claims = &result["recorded"]["claims"];
+    assert_eq!((&claims[0]["claim"], &claims[0]["count"]), (&"right".into(), &10.into()), "{claims}");
+}
+
+#[test]
 fn what_a_killed_program_asked_is_kept() {
     let desk = Desk::new();
     let robot = robot(&desk);
@@ -150,7 +216,7 @@ fn what_a_killed_program_asked_is_kept() {
     let queries = read(&desk, "r.ocbrec").queries;
     assert_eq!((queries.len(), assert_as_printed(&queries, &stdout)), (240, 240));
 
-    let [python, program] = python();
+    let [python, program] = python("robot.py");
     let (code, stdout, stderr) = record(&desk, "p.ocbrec", &[], &[&python, &program], &["30", "killed"]);
     assert_eq!(code, KILLED, "{stderr}");
     let queries = read(&desk, "p.ocbrec").queries;

@@ -24,7 +24,7 @@ ANSWERED, HIT, MEASURED = 1, 2, 4
 MOST_OBJECTS, MOST_MESH_BYTES = 20_000, 4 << 30
 #: Largest coordinate of a mesh, smallest and largest length of a primitive.
 LARGEST, SMALLEST = 1e18, 1e-100
-#: Seconds between two notes of how many queries were dropped.
+#: Seconds between two notes of how many queries were dropped for known reasons.
 NOTED = 0.2
 
 ROW = np.dtype([
@@ -104,9 +104,9 @@ class Spool:
 
     def drop(self, reason):
         """Counts a query that is not recorded."""
-        self._dropped[reason] = self._dropped.get(reason, 0) + 1
+        count = self._dropped[reason] = self._dropped.get(reason, 0) + 1
         now = time.monotonic()
-        if now - self._noted > NOTED:
+        if count == 1 or now - self._noted > NOTED:
             self._noted = now
             self.note()
 

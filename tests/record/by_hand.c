@@ -1,0 +1,41 @@
+/* Records itself into the folder that it is given, and is killed in the middle of it. */
+#include <math.h>
+#include <opencollbench/record.h>
+#include <signal.h>
+#include <string.h>
+
+int main(int argc, char **argv) {
+  static const double vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, radius = 0.5, none = 0;
+  static const uint32_t corners[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}, wrong[] = {0, 1, 4};
+  if (argc != 2 || ocb_recording_open("/nonexistent/spool", "p", "l", "1"))
+    return 1;
+  ocb_recording *recording = ocb_recording_open(argv[1], "by \"hand\"", "some library", "1.2");
+  const int32_t corner = ocb_recording_mesh(recording, "corner", vertices, 4, corners, 4);
+  const int32_t ball = ocb_recording_primitive(recording, OCB_SPHERE, &radius);
+  if (corner != 0 || ball != 1 || ocb_recording_primitive(recording, OCB_SPHERE, &radius) != ball)
+    return 2;
+  const int32_t no_mesh = ocb_recording_mesh(recording, "wrong", vertices, 4, wrong, 1);
+  if (no_mesh >= 0 || ocb_recording_primitive(recording, OCB_SPHERE, &none) >= 0 || ocb_recording_query(NULL, NULL) != -1)
+    return 3;
+  ocb_query query = {.kind = OCB_DISTANCE, .objects = {corner, ball}, .answered = OCB_MEASURED, .seconds = 1e-6};
+  for (int i = 0; i < 2; ++i)
+    for (int k = 0; k < 3; ++k)
+      query.poses[i][5 * k] = 1;
+  for (int i = 0; i < 10; ++i) {
+    /* Along the x axis from the corner's tip at 1. */
+    query.poses[1][3] = 2 + i;
+    query.distance = 0.5 + i;
+    query.group = (uint64_t)i / 2;
+    if (ocb_recording_query(recording, &query) != 0)
+      return 4;
+  }
+  query.poses[1][3] = NAN;
+  if (ocb_recording_query(recording, &query) != -1)
+    return 5;
+  query.poses[1][3] = 0, query.objects[0] = no_mesh;
+  if (ocb_recording_query(recording, &query) != -1)
+    return 6;
+  raise(SIGKILL);
+  ocb_recording_close(recording);
+  return 0;
+}
