@@ -174,6 +174,32 @@ async fn a_recording_is_replayed_and_its_own_answers_are_judged() {
     engine.shutdown().await;
 }
 
+#[test]
+fn spools_of_several_processes_become_one_recording() {
+    let data = tempfile::tempdir().unwrap();
+    let (folder, file) = (data.path().join("all"), data.path().join("r.ocbrec"));
+    let first = spool(&folder.join("1-a"));
+    first.write(&folder.join("1-a"));
+    // The second process knows another object, and asks about it first.
+    let mut second = Spool { objects: Vec::new(), rows: Vec::new(), sequence: 0 };
+    second.object(&json!({ "kind": "box", "size": [1.0, 2.0, 3.0] }));
+    second.object(&json!({ "kind": "sphere", "radius": 0.5 }));
+    second.query([0, 1], 2, 9.0, by(7.5), 1.0);
+    fs::create_dir(folder.join("2-a")).unwrap();
+    second.write(&folder.join("2-a"));
+
+    let packed = pack(&folder, &file).unwrap();
+    assert_eq!((packed.objects, packed.queries, packed.seen), (4, 62, 62 + 2 * 5));
+    let recording = Recording::read(&file).unwrap();
+    let [.., before, last] = &recording.queries[..] else { panic!("{}", recording.queries.len()) };
+    assert_eq!((last.objects, last.sequence, last.answered.distance), ([3, 2], before.sequence + 1, Some(7.5)));
+    assert!(last.group > before.group);
+    assert_eq!(
+        (recording.about.libraries, recording.about.program),
+        (vec!["fcl 0.7.0".to_owned()], "robot".to_owned())
+    );
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn what_cannot_be_replayed_is_refused_in_a_sentence() {
     let data = tempfile::tempdir().unwrap();
@@ -183,7 +209,7 @@ async fn what_cannot_be_replayed_is_refused_in_a_sentence() {
     assert!(told().contains("its about.json cannot be read"), "{}", told());
     let made = spool(&folder);
     Spool { rows: Vec::new(), ..spool(&folder) }.write(&folder);
-    assert_eq!(told(), "\"spool\" holds no recording: no query was recorded.");
+    assert_eq!(told(), "\"spool\" holds no recording: no query was recorded (left out: sampled).");
     made.write(&folder);
     let mesh = fs::read_dir(folder.join("objects")).unwrap().next().unwrap().unwrap().path();
     let whole = fs::read(&mesh).unwrap();

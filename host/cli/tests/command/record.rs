@@ -112,7 +112,8 @@ fn a_program_on_libfcl_gives_the_same_answers_and_is_recorded() {
     // The program asked FCL, and box-tree and the oracle agree with it.
     let replay = desk.path("r.ocbrec");
     let replay = replay.to_str().expect("text");
-    let result = desk.json(&["bench", "--workload", replay, "--algorithm", "box-tree", "--passes", "1", "--order", "recorded"]);
+    let result =
+        desk.json(&["bench", "--workload", replay, "--algorithm", "box-tree", "--passes", "1", "--order", "recorded"]);
     let claims = result["recorded"]["claims"].as_array().expect("claims");
     assert!(claims.iter().all(|claim| claim["claim"] == "right" || claim["claim"] == "undecided"), "{claims:?}");
     assert!(claims.iter().any(|claim| claim["claim"] == "right" && claim["count"].as_u64() > Some(150)), "{claims:?}");
@@ -197,11 +198,16 @@ fn a_program_can_record_itself() {
 
     let out = desk.path("h.ocbrec").to_str().expect("text").to_owned();
     let packed = desk.json(&["record", "--out", &out, "--spool", spool.to_str().expect("text")]);
-    assert_eq!((&packed["objects"], &packed["queries"], &packed["seen"]), (&2.into(), &10.into(), &12.into()), "{packed}");
+    assert_eq!(
+        (&packed["objects"], &packed["queries"], &packed["seen"]),
+        (&2.into(), &10.into(), &12.into()),
+        "{packed}"
+    );
     let recording = read(&desk, "h.ocbrec");
     assert_eq!(recording.about.program, "by \"hand\"");
     assert_eq!(dropped(&recording), [("a pose is not finite", 1), ("an object was not recorded", 1)]);
-    let result = desk.json(&["bench", "--workload", &out, "--algorithm", "box-tree", "--passes", "1", "--order", "recorded"]);
+    let result =
+        desk.json(&["bench", "--workload", &out, "--algorithm", "box-tree", "--passes", "1", "--order", "recorded"]);
     let claims = &result["recorded"]["claims"];
     assert_eq!((&claims[0]["claim"], &claims[0]["count"]), (&"right".into(), &10.into()), "{claims}");
 }
@@ -262,6 +268,7 @@ fn what_cannot_be_recorded_is_told() {
     let told = desk.refused(&["record", "--out", "n.ocbrec", "--spool", empty.to_str().expect("text")]);
     assert!(told.contains("\"empty\" holds no recording"), "{told}");
     // Nothing of the spools is left behind.
-    let left: Vec<_> = std::fs::read_dir(desk.path("")).expect("a folder").map(|entry| entry.expect("one").file_name()).collect();
+    let left: Vec<_> =
+        std::fs::read_dir(desk.path("")).expect("a folder").map(|entry| entry.expect("one").file_name()).collect();
     assert!(left.iter().all(|name| !name.to_string_lossy().ends_with(".spool")), "{left:?}");
 }
