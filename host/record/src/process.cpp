@@ -1,8 +1,10 @@
 #include "process.hpp"
 
 #include <atomic>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <exception>
 #include <memory>
 #include <pthread.h>
 #include <string>
@@ -60,8 +62,8 @@ std::unique_ptr<Spool> make() {
   try {
     if (state().spool)
       state().spool->note();
-  } catch (...) {
-    state().off = true;
+  } catch (const std::exception &) {
+    // The notes before it stay.
   }
 }
 
@@ -90,9 +92,9 @@ void observe(double seconds, const Describe &describe) noexcept {
     } catch (const Unusable &why) {
       all.spool->drop(why.reason);
     }
-  } catch (...) {
-    // The disk is full, or memory is; what was written stays.
+  } catch (const std::exception &why) {
     all.off = true;
+    std::fprintf(stderr, "ocb record: recording stopped, what was written stays: %s\n", why.what());
   }
 }
 

@@ -2,6 +2,7 @@
 
 import itertools
 import os
+import sys
 import threading
 import time
 from contextlib import contextmanager
@@ -73,11 +74,17 @@ def observe(ask, describe):
     finally:
         try:
             _record(describe, answer, seconds, failed)
-        except Exception:  # A recorder must not end the program that it records.
-            end()
+        except Exception as error:  # A recorder must not end the program that it records.
+            _give_up(error)
         finally:
             _here.inside = False
     return answer
+
+
+def _give_up(error):
+    global active, _make
+    active = _make = None
+    print(f"opencollbench: recording stopped, what was written stays: {error}", file=sys.stderr)
 
 
 def missed(reason):
