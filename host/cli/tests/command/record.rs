@@ -238,8 +238,9 @@ fn of_too_many_queries_whole_groups_are_kept() {
     let (all, few) = (read(&desk, "all.ocbrec"), read(&desk, "few.ocbrec"));
     assert!((40..=101).contains(&few.queries.len()), "{}", few.queries.len());
     assert_eq!(few.about.seen, all.about.seen);
-    let sampled = all.queries.len() - few.queries.len();
-    assert!(dropped(&few).contains(&("sampled", sampled as u64)), "{:?}", few.about.dropped);
+    // What could not be recorded anyway may be among what was sampled away.
+    let (reason, count) = dropped(&few)[0];
+    assert!(reason == "sampled" && count >= (all.queries.len() - few.queries.len()) as u64, "{:?}", few.about.dropped);
     // Evenly over the run of the program, and each as it was.
     let kept: Vec<u64> = few.queries.iter().map(|query| query.sequence).take(40).collect();
     let step = kept[1] - kept[0];

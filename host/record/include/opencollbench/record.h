@@ -1,6 +1,6 @@
 /* Records by hand what a program asks of any collision library, for `ocb bench --workload`.
  *
- * A program is linked with `libocb_record.so`, which lies in the folder `record` beside `ocb` and needs the C library alone:
+ * A program is linked with `libocb_record.so`, which lies in the folder `record` beside `ocb` and needs no other library:
  *
  *     ocb_recording *recording = ocb_recording_open("spool", "planner", "my library", "1.2");
  *     int32_t arm = ocb_recording_mesh(recording, "arm", vertices, num_vertices, corners, num_triangles);
