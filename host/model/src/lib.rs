@@ -99,8 +99,8 @@ pub use workload::{
     TotalTime, Track, TrackResult, WorkloadObject, WorkloadResult, order_gains,
 };
 pub use workload_job::{
-    AlgorithmOnStretch, AtQuery, PosedGroup, PosedObject, RecordingInfo, Stretch, StretchResult, Timeline,
-    TimelineSeries, WorkloadInfo, WorkloadSpec,
+    AlgorithmOnStretch, PosedGroup, PosedObject, RecordingInfo, Stretch, StretchResult, Timeline, TimelineSeries,
+    WhichGroup, WorkloadInfo, WorkloadSpec,
 };
 
 /// What to measure.

@@ -69,6 +69,7 @@ pub struct WorkloadObject {
 
 /// Queries that were left out for one reason.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+#[schema(as = QueriesLeftOut)]
 pub struct LeftOut {
     /// Why.
     pub reason: String,

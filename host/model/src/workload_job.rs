@@ -186,12 +186,14 @@ pub struct PosedObject {
     pub pose: [f64; 16],
 }
 
-/// A query of a recording.
+/// A group of a recording, by one of its queries or its own number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema, IntoParams)]
 #[into_params(parameter_in = Query)]
-pub struct AtQuery {
-    /// Its number.
-    pub sequence: u64,
+pub struct WhichGroup {
+    /// Number of one of its queries.
+    pub sequence: Option<u64>,
+    /// Its number; not asked for when a query is given.
+    pub group: Option<u64>,
 }
 
 #[cfg(test)]

@@ -172,11 +172,11 @@ impl Engine {
         Ok((self.inner.blobs.get(&told.sha256).await?, told.file))
     }
 
-    /// The group of a query as it stands in space.
+    /// A group as it stands in space.
     #[boxed]
-    pub async fn workload_group(&self, id: &str, sequence: u64) -> Result<PosedGroup> {
+    pub async fn workload_group(&self, id: &str, which: WhichGroup) -> Result<PosedGroup> {
         let (_, recording) = self.inner.recording(id).await?;
-        Ok(ocb_lab::workload::posed_group(&recording, sequence)?)
+        Ok(ocb_lab::workload::posed_group(&recording, which)?)
     }
 
     /// The triangles of an object of the scene, as algorithms get them.

@@ -184,17 +184,19 @@ fn sentence(result: &WorkloadResult) -> Option<String> {
         track.algorithms.iter().filter(|it| it.is_fair() && it.n == fastest.n).collect();
     others.sort_by(|a, b| total(a).total_cmp(&total(b)));
     let next = others.get(1)?;
-    let apart = next.total.is_some_and(|next| next.lowest_ns > range.highest_ns);
+    let as_fast = |it: &&&AlgorithmOnWorkload| it.total.is_some_and(|total| total.lowest_ns <= range.highest_ns);
+    let tied: Vec<&str> = others.iter().skip(1).filter(as_fast).map(|it| it.algorithm.as_str()).collect();
     let (ratio, n) = (total(next) / total(fastest), fastest.n);
-    Some(if apart {
+    Some(if tied.is_empty() {
         format!(
             "\n{} answers these queries fastest, {ratio:.2} times as fast as {}, with no wrong answer in {n}.",
             fastest.algorithm, next.algorithm
         )
     } else {
         format!(
-            "\n{} and {} are the fastest and cannot be told apart; neither gave a wrong answer in {n}.",
-            fastest.algorithm, next.algorithm
+            "\n{} is the fastest, but cannot be told apart from {}; none gave a wrong answer in {n}.",
+            fastest.algorithm,
+            tied.join(", ")
         )
     })
 }

@@ -14,6 +14,7 @@ use crate::configuration::{Class, Containment, Truth};
 /// What an answer in a recording is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case")]
+#[schema(as = RecordedClaim)]
 pub enum Claim {
     /// It agrees with the truth.
     Right,

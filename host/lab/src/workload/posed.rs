@@ -4,20 +4,27 @@ use std::collections::BTreeMap;
 
 use ocb_core::mesh::Mesh;
 
-use crate::model::{PosedGroup, PosedObject};
+use crate::model::{PosedGroup, PosedObject, WhichGroup};
 use crate::recording::Recording;
 use crate::{LabError, Result};
 
 use super::shapes::solid;
 
-/// The group of a query: each of its objects where its first query places it.
+/// A group: each of its objects where its first query places it.
 ///
 /// # Errors
-/// `Invalid` for a recording without such a query.
-pub fn posed_group(recording: &Recording, sequence: u64) -> Result<PosedGroup> {
+/// `Invalid` for a recording without such a group.
+pub fn posed_group(recording: &Recording, which: WhichGroup) -> Result<PosedGroup> {
     let queries = &recording.queries;
-    let none = || LabError::Invalid(format!("The recording has no query {sequence}."));
-    let at = queries.binary_search_by_key(&sequence, |query| query.sequence).map_err(|_| none())?;
+    let (at, named) = match (which.sequence, which.group) {
+        (Some(sequence), _) => {
+            (queries.binary_search_by_key(&sequence, |query| query.sequence).ok(), format!("query {sequence}"))
+        }
+        (None, Some(group)) => (queries.iter().position(|query| query.group == group), format!("group {group}")),
+        (None, None) => (Some(0), "query".to_owned()),
+    };
+    let none = || LabError::Invalid(format!("The recording has no {named}."));
+    let at = at.filter(|at| *at < queries.len()).ok_or_else(none)?;
     let group = queries[at].group;
     let apart = |i: &usize| queries[*i].group != group;
     let from = (0..at).rev().find(apart).map_or(0, |before| before + 1);

@@ -1,22 +1,5 @@
-import createClient from 'openapi-fetch'
-import { answer, nothing, part, whole } from './client'
-import type { Stretch, StretchResult, WorkloadInfo, WorkloadSpec } from './workload-types'
-
-type Gives<T, Status extends number = 200> = { responses: Record<Status, { content: { 'application/json': T } }> }
-type Of = { parameters: { path: { id: string } } }
-
-/** The routes of this page. */
-interface Paths {
-  '/api/v1/workloads': {
-    get: { parameters: { query?: { cursor?: string } } } & Gives<WorkloadInfo[]>
-    post: { requestBody: { content: { 'multipart/form-data': { spec?: string; file: string } } } } & Gives<WorkloadInfo, 201>
-  }
-  '/api/v1/workloads/{id}': { get: Of & Gives<WorkloadInfo>; delete: Of & { responses: { 204: { content?: never } } } }
-  '/api/v1/workloads/{id}/cancel': { post: Of & Gives<WorkloadInfo> }
-  '/api/v1/workloads/{id}/again': { post: Of & { requestBody: { content: { 'application/json': WorkloadSpec } } } & Gives<WorkloadInfo, 201> }
-  '/api/v1/workloads/{id}/stretch': { get: { parameters: { path: { id: string }; query?: Stretch } } & Gives<StretchResult> }
-}
-const http = createClient<Paths>({ baseUrl: '/' })
+import { answer, http, nothing, part, whole } from './client'
+import type { PosedGroup, Stretch, StretchResult, WorkloadInfo, WorkloadSpec } from './types'
 
 const of = (id: string) => ({ params: { path: { id } } })
 
@@ -45,5 +28,14 @@ export const deleteWorkload = (id: string): Promise<void> => nothing(http.DELETE
 export const getStretch = (id: string, query: Stretch): Promise<StretchResult> =>
   answer(http.GET('/api/v1/workloads/{id}/stretch', { params: { path: { id }, query } }))
 
-export const workloadFile = (id: string, file: 'workload.json' | 'queries.parquet' | 'recording.ocbrec'): string =>
-  `/api/v1/workloads/${encodeURIComponent(id)}/${file}`
+/** A group as it stands in space. */
+export const getGroup = (id: string, query: { sequence?: number; group?: number }): Promise<PosedGroup> =>
+  answer(http.GET('/api/v1/workloads/{id}/group', { params: { path: { id }, query } }))
+
+/** An object of the scene as binary glTF. */
+export const getWorkloadMesh = (id: string, object: number): Promise<ArrayBuffer> =>
+  answer(http.GET('/api/v1/workloads/{id}/objects/{object}/mesh.glb', { params: { path: { id, object } }, parseAs: 'arrayBuffer' })) as unknown as Promise<ArrayBuffer>
+
+/** Files of a workload; without a name its JSON. */
+export const workloadFile = (id: string, file?: 'queries.parquet' | 'recording.ocbrec'): string =>
+  ['/api/v1/workloads', encodeURIComponent(id), ...(file ? [file] : [])].join('/')

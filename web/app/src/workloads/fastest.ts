@@ -1,4 +1,4 @@
-import type { AlgorithmOnWorkload, Track, WorkloadResult } from '../api/workload-types'
+import type { AlgorithmOnWorkload, Track, WorkloadResult } from '../api/types'
 
 /** It answered all queries that it can be asked, none of them wrongly: its time may be compared. */
 export function isFair({ n, of, wrong, silent, ended }: AlgorithmOnWorkload): boolean {

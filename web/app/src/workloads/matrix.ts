@@ -1,4 +1,4 @@
-import type { PairTime } from '../api/workload-types'
+import type { PairTime } from '../api/types'
 import { colourAt } from '../explorer/colormap'
 import { count, percent } from '../ui/format'
 

@@ -1,4 +1,4 @@
-import type { AlgorithmOnWorkload, PairTime, WorkloadResult } from '../api/workload-types'
+import type { AlgorithmOnWorkload, PairTime, WorkloadResult } from '../api/types'
 
 /** One algorithm of a small replay, for tests: 100 queries about two pairs, all answered right. */
 export function algorithm(id: string, ns: number, change: Partial<AlgorithmOnWorkload> = {}): AlgorithmOnWorkload {

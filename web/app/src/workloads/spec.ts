@@ -1,5 +1,5 @@
 import type { AlgorithmInfo } from '../api/types'
-import type { Track, WorkloadResult, WorkloadSpec } from '../api/workload-types'
+import type { Track, WorkloadResult, WorkloadSpec } from '../api/types'
 import { quote } from '../builder/command-line'
 import { plainId } from '../builder/form'
 

@@ -1,4 +1,4 @@
-import type { Stretch, Timeline, TimelineSeries } from '../api/workload-types'
+import type { Stretch, Timeline, TimelineSeries } from '../api/types'
 import type { SeriesStyle } from '../charts/series-style'
 import { time } from '../ui/format'
 

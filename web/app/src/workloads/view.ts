@@ -1,4 +1,4 @@
-import type { AlgorithmOnWorkload, Stretch, Track, WorkloadResult } from '../api/workload-types'
+import type { AlgorithmOnWorkload, Stretch, Track, WorkloadResult } from '../api/types'
 import { inOrder, listed } from './fastest'
 import { SHOWN, type Shown } from './matrix'
 import { readStretch } from './timeline'
@@ -17,6 +17,8 @@ export interface View {
   /** Whose times the timeline shows. */
   lines: string[]
   stretch: Stretch | null
+  /** A query, whose group is shown in space; the slowest group without it. */
+  at: number | null
 }
 
 /** Reads a link; what it does not say, or what is not in the result, is the usual. */
@@ -31,6 +33,7 @@ export function readView(query: Record<string, unknown>, result: WorkloadResult)
     shown: (Object.keys(SHOWN) as Shown[]).find((shown) => shown === query['show']) ?? 'time',
     lines: lines.length > 0 ? lines : ids.slice(0, LINES),
     stretch: readStretch(query),
+    at: /^\d{1,15}$/.test(String(query['at'])) ? Number(query['at']) : null,
   }
 }
 

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import type { RecordedAnswers } from '../api/workload-types'
+import type { RecordedAnswers } from '../api/types'
 import { replay } from './sample'
 import { claims, libraryWords, pairName, progressWords, recordedWords, scopeWords, titleOf } from './words'
 

@@ -1,4 +1,4 @@
-import type { AlgorithmOnWorkload, Claim, RecordedAnswers, Track, WorkloadInfo, WorkloadResult } from '../api/workload-types'
+import type { AlgorithmOnWorkload, RecordedAnswers, RecordedClaim as Claim, Track, WorkloadInfo, WorkloadResult } from '../api/types'
 import { count, percent, significant, time } from '../ui/format'
 import { isFair, type Standing, together } from './fastest'
 

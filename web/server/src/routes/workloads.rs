@@ -5,7 +5,7 @@ use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::{Extension, Json as Answer};
 use ocb_core::export::glb;
-use ocb_service::model::{AtQuery, Page, PosedGroup, Stretch, StretchResult, WorkloadInfo, WorkloadSpec};
+use ocb_service::model::{Page, PosedGroup, Stretch, StretchResult, WhichGroup, WorkloadInfo, WorkloadSpec};
 use ocb_service::{EngineError, Visitor};
 use utoipa::ToSchema;
 
@@ -135,21 +135,21 @@ pub(crate) async fn show_stretch(
     Ok(Answer(app.engine.workload_stretch(&id, stretch).await?))
 }
 
-/// The group of a query as it stands in space.
+/// A group as it stands in space; the first one when none is named.
 #[utoipa::path(get, path = "/workloads/{id}/group", tag = "runs",
-    params(("id" = String, Path, description = "Id of the workload"), AtQuery),
+    params(("id" = String, Path, description = "Id of the workload"), WhichGroup),
     responses(
         (status = 200, body = PosedGroup),
         (status = 404, description = "The visitor has no such workload"),
-        (status = 422, description = "The recording has no such query"),
+        (status = 422, description = "The recording has no such group"),
     ))]
 pub(crate) async fn show_group(
     State(app): State<App>,
     Path(id): Path<String>,
-    Query(AtQuery { sequence }): Query<AtQuery>,
+    Query(which): Query<WhichGroup>,
 ) -> Result<Answer<PosedGroup>> {
     let _slot = app.drawing.acquire().await;
-    Ok(Answer(app.engine.workload_group(&id, sequence).await?))
+    Ok(Answer(app.engine.workload_group(&id, which).await?))
 }
 
 /// An object of the scene as glTF binary, as algorithms get it.

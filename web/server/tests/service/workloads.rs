@@ -141,6 +141,7 @@ async fn a_recording_is_uploaded_replayed_and_taken_away() {
     );
     let ball = &group["objects"][1];
     assert_eq!((&ball["object"], &ball["pose"][3]), (&json!(1), &json!(4.0 * 10.0 / 2000.0)));
+    assert_eq!(guest.json(&format!("{place}/group?group=2")).await, group);
     let none = guest.get(&format!("{place}/group?sequence=9")).send().await.expect("an answer");
     assert!(problem(none, 422).await.contains("no query 9"));
     let (mesh, _) = guest.bytes(&format!("{place}/objects/1/mesh.glb")).await;

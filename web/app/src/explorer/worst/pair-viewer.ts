@@ -1,11 +1,9 @@
 import {
-  Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Group, HemisphereLight, Line, LineBasicMaterial, Matrix4, Mesh,
-  MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Scene, Sphere, SphereGeometry, SRGBColorSpace, Vector3, WebGLRenderer,
+  Box3, BufferAttribute, BufferGeometry, DoubleSide, Line, LineBasicMaterial, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Sphere,
+  SphereGeometry, Vector3,
 } from 'three'
-import { CameraRig } from '../camera'
-import { cssBytes } from '../shader'
+import { Stage } from '../stage'
 import { originOf } from '../surface'
-import { graphics } from '../software'
 
 /** One configuration to look at: poses row-major, points in the world, pairs of triangles that meet. */
 export interface Posed {
@@ -23,33 +21,14 @@ export interface Posed {
 /** Of the whole scene, the least that a close look shows. */
 const CLOSEST = 0.04
 
-/** Draws both objects of one configuration, translucent, with witness points and lit triangles. Draws on demand only. */
-export class PairViewer {
-  readonly rig: CameraRig
-  private readonly renderer: WebGLRenderer
-  private readonly scene = new Scene()
-  private readonly camera = new PerspectiveCamera(30, 1, 0.01, 100)
+/** Draws both objects of one configuration, translucent, with witness points and lit triangles. */
+export class PairViewer extends Stage {
   private readonly surfaces: [BufferGeometry, BufferGeometry]
-  private readonly content = new Group()
-  private readonly resize: ResizeObserver
-  private frame = 0
 
-  constructor(
-    private readonly stage: HTMLElement,
-    canvas: HTMLCanvasElement,
-    a: BufferGeometry,
-    b: BufferGeometry,
-  ) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: !graphics().software })
-    const sun = new DirectionalLight(0xffffff, 1.6)
-    sun.position.set(-0.4, 0.8, 0.9)
-    this.camera.add(sun)
-    this.scene.add(this.content, this.camera, new HemisphereLight(0xffffff, 0x8a8a80, 1.9))
+  constructor(stage: HTMLElement, canvas: HTMLCanvasElement, a: BufferGeometry, b: BufferGeometry) {
+    super(stage, canvas)
     this.surfaces = [a, b]
     for (const surface of new Set(this.surfaces)) if (!surface.getAttribute('normal')) surface.computeVertexNormals()
-    this.rig = new CameraRig(this.camera, stage, { moved: () => this.invalidate(), rested: () => {}, clicked: () => {} })
-    this.resize = new ResizeObserver(() => this.invalidate())
-    this.resize.observe(stage)
   }
 
   show(posed: Posed): void {
@@ -71,12 +50,12 @@ export class PairViewer {
         color: this.colour(side === 0 ? '--series-0' : '--series-1'), side: DoubleSide, transparent: true, opacity: side === 0 ? 0.42 : 0.34, depthWrite: false,
       })
       const mesh = new Mesh(surface, material)
-      this.place(mesh, pose)
+      this.place(mesh, pose, 1)
       mesh.updateMatrixWorld(true)
       box.expandByObject(mesh, true)
       for (const [chosen, colour] of [[posed.triangles, '--bad'], [posed.claimed.triangles, '--series-3']] as const) {
         const lit = triangles(surface, chosen[side] ?? [])
-        this.place(new Mesh(lit, this.bright(colour)), pose)
+        this.place(new Mesh(lit, this.bright(colour)), pose, 2)
         const corners = lit.getAttribute('position')
         if (chosen === posed.claimed.triangles)
           for (let i = 0; i < corners.count; i++) spots.push(new Vector3().fromBufferAttribute(corners, i).applyMatrix4(pose))
@@ -94,21 +73,10 @@ export class PairViewer {
     this.invalidate()
   }
 
-  dispose(): void {
-    cancelAnimationFrame(this.frame)
-    this.resize.disconnect()
-    this.rig.dispose()
+  override dispose(): void {
     this.clear()
     for (const surface of this.surfaces) surface.dispose()
-    this.renderer.dispose()
-    this.renderer.forceContextLoss()
-  }
-
-  private place(mesh: Mesh, pose: Matrix4): void {
-    mesh.matrixAutoUpdate = false
-    mesh.matrix.copy(pose)
-    mesh.renderOrder = mesh.material instanceof MeshBasicMaterial ? 2 : 1
-    this.content.add(mesh)
+    super.dispose()
   }
 
   /** Dots, and a line through them. */
@@ -139,28 +107,6 @@ export class PairViewer {
       ;(node.material as MeshBasicMaterial).dispose()
     })
     this.content.clear()
-  }
-
-  private colour(name: string): Color {
-    const probe = document.createElement('i')
-    probe.style.color = `var(${name})`
-    this.stage.append(probe)
-    const [r, g, b] = cssBytes(getComputedStyle(probe).color)
-    probe.remove()
-    return new Color().setRGB(r / 255, g / 255, b / 255, SRGBColorSpace)
-  }
-
-  invalidate(): void {
-    this.frame ||= requestAnimationFrame(() => {
-      this.frame = 0
-      const { width, height } = this.stage.getBoundingClientRect()
-      if (width === 0 || height === 0) return
-      this.renderer.setPixelRatio(graphics().software ? 1 : Math.min(2, window.devicePixelRatio))
-      this.renderer.setSize(width, height, false)
-      this.renderer.setClearColor(this.colour('--stage'), 1)
-      this.rig.aspect(width / height)
-      this.renderer.render(this.scene, this.camera)
-    })
   }
 }
 

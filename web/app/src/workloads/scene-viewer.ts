@@ -1,0 +1,47 @@
+import { Box3, type BufferGeometry, DoubleSide, Matrix4, Mesh, MeshLambertMaterial, Sphere, Vector3 } from 'three'
+import { Stage } from '../explorer/stage'
+import { originOf } from '../explorer/surface'
+
+/** An object in its place, and whether it collides with another one. */
+export interface Placed {
+  surface: BufferGeometry
+  /** Row-major. */
+  pose: readonly number[]
+  hit: boolean
+}
+
+/** Draws the objects of a group, those that collide in a colour of their own. */
+export class SceneViewer extends Stage {
+  show(objects: readonly Placed[]): void {
+    this.clear()
+    const [first] = objects
+    if (!first) return
+    // Drawn about the first object: the graphics card has single precision, and a scene may be far from the origin.
+    const about = new Vector3().setFromMatrixPosition(new Matrix4().fromArray([...first.pose]).transpose())
+    const box = new Box3()
+    for (const { surface, pose, hit } of objects) {
+      if (!surface.getAttribute('normal')) surface.computeVertexNormals()
+      const placed = new Matrix4().fromArray([...pose]).transpose().multiply(new Matrix4().makeTranslation(new Vector3(...originOf(surface))))
+      placed.premultiply(new Matrix4().makeTranslation(about.clone().negate()))
+      const material = new MeshLambertMaterial({
+        color: this.colour(hit ? '--bad' : '--series-0'), side: DoubleSide, transparent: true, opacity: hit ? 0.85 : 0.4, depthWrite: hit,
+      })
+      const mesh = new Mesh(surface, material)
+      this.place(mesh, placed, hit ? 1 : 2)
+      mesh.updateMatrixWorld(true)
+      box.expandByObject(mesh, true)
+    }
+    this.rig.fit(box.getBoundingSphere(new Sphere()))
+    this.invalidate()
+  }
+
+  override dispose(): void {
+    this.clear()
+    super.dispose()
+  }
+
+  private clear(): void {
+    for (const node of this.content.children) if (node instanceof Mesh) (node.material as MeshLambertMaterial).dispose()
+    this.content.clear()
+  }
+}
