@@ -95,11 +95,16 @@ impl Merged {
         let mut read: HashMap<String, Geometry> = HashMap::new();
         for (id, mut line) in objects.into_iter().enumerate() {
             if let Geometry::Mesh { sha256 } = &line.geometry {
-                if !read.contains_key(sha256) {
-                    let mesh = spool::mesh_of(&folder, sha256).map_err(|why| format!("object {id}: {why}"))?;
-                    read.insert(sha256.clone(), SceneFile::keep(&mut self.meshes, mesh));
-                }
-                line.geometry = read[sha256].clone();
+                let kept = match read.get(sha256) {
+                    Some(kept) => kept.clone(),
+                    None => {
+                        let mesh = spool::mesh_of(&folder, sha256).map_err(|why| format!("object {id}: {why}"))?;
+                        let kept = SceneFile::keep(&mut self.meshes, mesh);
+                        read.insert(sha256.clone(), kept.clone());
+                        kept
+                    }
+                };
+                line.geometry = kept;
             }
             let library = line.library();
             if !libraries.contains(&library) {
