@@ -41,7 +41,7 @@ struct Summary {
 impl Summary {
     fn new(file: &SceneFile) -> Self {
         let scene = &file.scene;
-        let mut kinds = BTreeMap::new();
+        let mut kinds: BTreeMap<&'static str, usize> = BTreeMap::new();
         scene.objects.iter().for_each(|it| *kinds.entry(kind(&it.geometry)).or_default() += 1);
         Self {
             name: scene.name.clone(),

@@ -14,8 +14,8 @@ use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::locks::Lock;
 use crate::model::{
-    AccountInfo, Cursor, Page, Part, PosedGroup, RecordingInfo, Role, State, Stretch, StretchResult, WorkloadInfo,
-    WorkloadSpec,
+    AccountInfo, Cursor, Page, Part, PosedGroup, RecordingInfo, Role, State, Stretch, StretchResult, WhichGroup,
+    WorkloadInfo, WorkloadSpec,
 };
 use crate::quotas::{Visitor, turn};
 use crate::requests::Made;
