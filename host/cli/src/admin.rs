@@ -61,10 +61,10 @@ async fn delete(engine: &Engine, name: &str, yes: bool, json: bool) -> Result<()
 }
 
 fn said(what: &str, counts: &OwnedCounts) -> String {
-    let OwnedCounts { runs, objects, configurations, advice, stability, plugins } = counts;
+    let OwnedCounts { runs, objects, configurations, advice, stability, workloads, plugins } = counts;
     format!(
         "{what} runs: {runs}, objects: {objects}, saved configurations: {configurations}, pieces of advice: {advice}, \
-         stability runs: {stability}, plugins: {plugins}"
+         stability runs: {stability}, workloads: {workloads}, plugins: {plugins}"
     )
 }
 

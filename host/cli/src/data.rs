@@ -150,7 +150,7 @@ fn list(things: &OwnedItems) -> String {
 fn count(things: &OwnedItems) -> String {
     let several = |n: usize, one: &str, more: &str| format!("{n} {}", if n == 1 { one } else { more });
     format!(
-        "{}, {}, {}, {}, {}; {} in files that no one else uses",
+        "{}, {}, {}, {}, {}, {}; {} in files that no one else uses",
         several(things.runs.len(), "run", "runs"),
         several(things.objects.len(), "object", "objects"),
         several(things.configurations.len(), "saved set of configurations", "saved sets of configurations"),

@@ -145,9 +145,12 @@ export const uploadObject = (file: File): Promise<ObjectInfo> => {
 }
 
 /** The surface of an object as a binary glTF; vertices in the order of the heatmaps. */
-export async function fetchMesh(id: string, signal?: AbortSignal): Promise<ArrayBuffer> {
+export const fetchMesh = (id: string, signal?: AbortSignal): Promise<ArrayBuffer> => fetchBytes(meshUrl(id), signal)
+
+/** The bytes at an address. */
+export async function fetchBytes(url: string, signal?: AbortSignal): Promise<ArrayBuffer> {
   try {
-    const response = await fetch(meshUrl(id), signal ? { signal } : {})
+    const response = await fetch(url, signal ? { signal } : {})
     if (!response.ok) throw fromResponse(response.status, await response.json().catch(() => null))
     return await response.arrayBuffer()
   } catch (thrown) {

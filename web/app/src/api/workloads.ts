@@ -1,4 +1,4 @@
-import { answer, http, nothing, part, whole } from './client'
+import { answer, fetchBytes, http, nothing, part, whole } from './client'
 import type { PosedGroup, Stretch, StretchResult, WorkloadInfo, WorkloadSpec } from './types'
 
 const of = (id: string) => ({ params: { path: { id } } })
@@ -16,7 +16,11 @@ export const listWorkloads = (): Promise<WorkloadInfo[]> => whole((query) => par
 
 export const getWorkload = (id: string): Promise<WorkloadInfo> => answer(http.GET('/api/v1/workloads/{id}', of(id)))
 
-export const cancelWorkload = (id: string): Promise<WorkloadInfo> => answer(http.POST('/api/v1/workloads/{id}/cancel', of(id)))
+/** Ends a replay, and what it is then. */
+export async function cancelWorkload(id: string): Promise<WorkloadInfo> {
+  await answer(http.POST('/api/v1/workloads/{id}/cancel', of(id)))
+  return getWorkload(id)
+}
 
 /** The same recording once more. */
 export const replayAgain = (id: string, spec: WorkloadSpec): Promise<WorkloadInfo> =>
@@ -33,8 +37,7 @@ export const getGroup = (id: string, query: { sequence?: number; group?: number 
   answer(http.GET('/api/v1/workloads/{id}/group', { params: { path: { id }, query } }))
 
 /** An object of the scene as binary glTF. */
-export const getWorkloadMesh = (id: string, object: number): Promise<ArrayBuffer> =>
-  answer(http.GET('/api/v1/workloads/{id}/objects/{object}/mesh.glb', { params: { path: { id, object } }, parseAs: 'arrayBuffer' })) as unknown as Promise<ArrayBuffer>
+export const getWorkloadMesh = (id: string, object: number): Promise<ArrayBuffer> => fetchBytes(`${workloadFile(id)}/objects/${object}/mesh.glb`)
 
 /** Files of a workload; without a name its JSON. */
 export const workloadFile = (id: string, file?: 'queries.parquet' | 'recording.ocbrec'): string =>

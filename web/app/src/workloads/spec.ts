@@ -14,7 +14,7 @@ export interface SpecForm {
   budget: number | ''
 }
 
-export const usualForm = (): SpecForm => ({ algorithms: null, orders: 'both', passes: 3, budget: 60 })
+export const usualForm = (): SpecForm => ({ algorithms: null, orders: 'both', passes: 3, budget: 10 })
 
 /** The names that are chosen, or the usual ones. */
 export const chosenNames = ({ algorithms }: SpecForm, known: readonly AlgorithmInfo[]): string[] =>
@@ -25,11 +25,11 @@ export function toSpec({ algorithms, orders, passes, budget }: SpecForm): { spec
   if (algorithms?.length === 0) return { problem: 'Choose at least one algorithm.' }
   if (passes === '' || !Number.isInteger(passes) || passes < 1 || passes > 64) return { problem: 'The number of processes must be a whole number from 1 to 64.' }
   if (budget === '' || !(budget > 0 && budget <= 86_400)) return { problem: 'The budget must be above 0 and at most 86,400 seconds.' }
-  return { spec: { algorithms: algorithms ?? [], tracks: orders === 'both' ? ['shuffled', 'recorded'] : [orders], passes, budget_seconds: budget } }
+  return { spec: { algorithms: algorithms ?? [], tracks: orders === 'both' ? ['shuffled', 'recorded'] : [orders], passes, budget_seconds: budget, seed: null } }
 }
 
 /** The form that would ask for a replay again, as far as its algorithms are still installed. */
-export function fromSpec(spec: WorkloadSpec, known: readonly AlgorithmInfo[]): SpecForm {
+export function fromSpec(spec: Partial<WorkloadSpec>, known: readonly AlgorithmInfo[]): SpecForm {
   const form = usualForm()
   const wanted = (spec.algorithms ?? []).flatMap((name) => (name === 'all' ? known.map(({ id }) => id) : [name]))
   const there = wanted.filter((name) => known.some(({ id }) => id === plainId(name)))
@@ -43,7 +43,7 @@ export function fromSpec(spec: WorkloadSpec, known: readonly AlgorithmInfo[]): S
 }
 
 /** The same replay on the command line, with the seed that was used. */
-export function commandLine(file: string, spec: WorkloadSpec, result: Pick<WorkloadResult, 'seed'> | null): string {
+export function commandLine(file: string, spec: Partial<WorkloadSpec>, result: Pick<WorkloadResult, 'seed'> | null): string {
   const { algorithms = [], tracks = [], passes, budget_seconds: budget } = spec
   const seed = result?.seed ?? spec.seed
   return [
