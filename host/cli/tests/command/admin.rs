@@ -15,8 +15,8 @@ fn an_account_is_made_and_deleted_and_its_name_is_given_to_nobody() {
     let Ended { code, stdout, stderr } = desk.run(&["admin", "delete", "ada"]);
     assert_eq!((code, stdout.as_str()), (2, ""), "{stderr}");
     assert!(stderr.contains("runs: 0") && stderr.contains("Nothing was deleted; add --yes"), "{stderr}");
-    let nothing =
-        serde_json::json!({ "runs": 0, "objects": 0, "configurations": 0, "advice": 0, "stability": 0, "plugins": 0 });
+    let nothing = serde_json::json!({ "runs": 0, "objects": 0, "configurations": 0, "advice": 0, "stability": 0,
+                            "workloads": 0, "plugins": 0 });
     let gone = desk.json(&["admin", "delete", "ADA", "--yes"]);
     assert_eq!((&gone["goes"], &gone["stays"], &gone["blocked_by"]), (&nothing, &nothing, &serde_json::Value::Null));
     assert!(desk.refused(&["admin", "delete", "ada", "--yes"]).contains("There is no account"));

@@ -23,7 +23,8 @@ async fn publish(by: &Guest, path: &str) {
 /// Of each kind so many; saved configurations and stability runs as many as pieces of advice.
 fn counts(runs: u32, objects: u32, advice: u32, plugins: u32) -> Value {
     json!({
-        "runs": runs, "objects": objects, "configurations": advice, "advice": advice, "stability": advice, "plugins": plugins,
+        "runs": runs, "objects": objects, "configurations": advice, "advice": advice, "stability": advice,
+        "workloads": advice, "plugins": plugins,
     })
 }
 

@@ -2,7 +2,7 @@
 
 use crate::mesh::Mesh;
 
-/// The mesh as binary little-endian PLY with positions of double precision; [`read`](crate::mesh::read) gives back the same mesh,
+/// The mesh as binary little-endian PLY with positions of double precision; [`read`](crate::mesh::read()) gives back the same mesh,
 /// bit for bit. The same mesh gives the same bytes.
 pub fn write(mesh: &Mesh) -> Vec<u8> {
     let (positions, triangles) = (mesh.positions(), mesh.triangles());
