@@ -22,7 +22,7 @@ pub const STEPS: [&str; 6] =
 pub struct Order {
     /// CPUs to work on.
     pub threads: usize,
-    /// What is to be done.
+    /// The task.
     pub task: Task,
 }
 

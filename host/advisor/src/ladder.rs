@@ -18,7 +18,7 @@ const MOST_SHARE: f64 = 0.8;
 pub struct Level {
     /// The mesh; level 0 is the object.
     pub mesh: Arc<Mesh>,
-    /// What is known of it; nothing has to be known of the object.
+    /// Its certificate; the object itself has none.
     pub certificate: Option<Certificate>,
     /// Both, made ready for queries.
     pub lod: Lod,

@@ -79,7 +79,7 @@ async fn run(args: &RecordArgs, recorders: &Recorders, spool: &Path, json: bool)
     if json {
         program.stdout(Stdio::from(std::io::stderr()));
     }
-    // Ctrl-C reaches the program by itself; what is sent to us alone is passed on.
+    // Ctrl-C reaches the program by itself; signals sent to `ocb` alone are passed on.
     let listen = |kind| signal(kind).map_err(|e| Failure::Fault(format!("cannot listen for signals: {e}.")));
     let (mut interrupt, mut terminate) = (listen(SignalKind::interrupt())?, listen(SignalKind::terminate())?);
     let mut child = program.spawn().map_err(|e| Failure::file("run", Path::new(name), &e))?;

@@ -1,4 +1,4 @@
-//! What is said of a wrong answer: the truth, and what was answered instead.
+//! The report of a wrong answer: the truth, and the answer that was given.
 
 use ocb_core::configuration::Truth;
 use ocb_core::query::Answer;

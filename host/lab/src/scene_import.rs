@@ -32,7 +32,7 @@ const MOST_BYTES: u64 = 64 << 20;
 /// The value of something that a file holds, or the reason that it cannot be used: a sentence without its full stop.
 type Found<T> = std::result::Result<T, String>;
 
-/// What is imported, beside the file.
+/// An imported scene, with notes about its source.
 #[derive(Clone, Debug, Default)]
 pub struct Wanted {
     /// The SRDF file with the pairs that are not asked; only with URDF.

@@ -12,7 +12,7 @@ QUERIES = re.compile(r"(?P<done>\d+) of (?P<total>\d+) (?P<name>queries)")
 
 
 class Progress(Protocol):
-    """Shows what is being done."""
+    """Shows the progress of the command."""
 
     def stage(self, name: str, done: int, total: int, note: str) -> None:
         """So much of a stage is done; `total` is 0 while it is unknown."""

@@ -18,7 +18,7 @@ struct ocb_recording {
 
 namespace {
 
-// A spool has no limit where the program itself says what is recorded.
+// A spool has no limit when the program chooses its queries itself.
 constexpr std::uint64_t NO_LIMIT = ~std::uint64_t{0};
 
 // What `act` gives on the spool, or `otherwise` when it fails.

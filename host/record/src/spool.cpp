@@ -73,7 +73,7 @@ void write_whole(const std::string &path, const void *bytes, std::size_t count) 
 
 template <typename T> void put(std::string &bytes, const T &value) { bytes.append(reinterpret_cast<const char *>(&value), sizeof value); }
 
-// A mesh as binary PLY; throws `Unusable` for what is none.
+// A mesh as binary PLY; throws `Unusable` if it is not one.
 std::string ply(const Triangles &mesh) {
   const std::size_t vertices = mesh.vertices.size() / 3, triangles = mesh.corners.size() / 3;
   if (triangles == 0)

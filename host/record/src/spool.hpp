@@ -58,7 +58,7 @@ public:
 
   // The number of a library in rows.
   std::uint32_t library(const std::string &name, const std::string &version);
-  // The number of an object; what is the same in the same library is one object. Throws `Unusable`.
+  // The number of an object; equal objects of one library are one object. Throws `Unusable`.
   std::uint32_t mesh(const std::string &name, const Triangles &mesh, const std::string &source, std::uint32_t library);
   // The kinds of primitives are "box" (three edges), "sphere" (radius), "cylinder" and "capsule" (radius, length).
   std::uint32_t primitive(const std::string &kind, const std::vector<double> &sizes, std::uint32_t library);

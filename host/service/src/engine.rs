@@ -78,7 +78,7 @@ pub struct Inner {
     pub charts: Cache<ocb_chart::Chart>,
     pub advices: Advices,
     pub closing: AtomicBool,
-    /// Whether this service does what is done once for all on the database.
+    /// Whether this service does the work that one service does for all on the database.
     pub house: House,
     /// Rung when there is a mail to bring.
     pub posting: Notify,

@@ -1,4 +1,4 @@
-//! The housekeeper: the one of the services on a database that does what is done once for all of them. It sends mails, deletes
+//! The housekeeper: the one service on a database that does the work which is done once for all of them. It sends mails, deletes
 //! what has expired, completes campaigns, plans the suite and idle work, and takes back the attempts of lost workers.
 //!
 //! With PostgreSQL it holds an advisory lock on a connection of its own, which it uses every second. The lock ends with the

@@ -16,7 +16,7 @@ use tokio::sync::{Mutex, OwnedMutexGuard, OwnedRwLockReadGuard, OwnedRwLockWrite
 
 use crate::Result;
 
-/// What is done by one at a time.
+/// Work that only one service does at a time.
 #[derive(Clone, Copy, Debug)]
 pub enum Lock {
     /// Finding out what is missing of the suite, of a campaign or for an idle service, until that is in the queue.

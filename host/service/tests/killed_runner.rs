@@ -1,4 +1,4 @@
-//! A runner that dies costs its algorithm the rest of its stage, and nobody else anything.
+//! A runner that dies costs its algorithm the rest of its stage, and the other algorithms nothing.
 //!
 //! Alone in its binary: it kills whatever runner this process has.
 

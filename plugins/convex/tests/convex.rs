@@ -73,7 +73,7 @@ fn what_is_not_convex_is_refused_with_the_reason() {
     support::convex::refuses_what_is_not_convex::<Convex>();
 }
 
-/// Coordinates in single precision dent what is round; then the error is the dent's.
+/// Coordinates in single precision dent round shapes; then the error is the dent's.
 #[test]
 fn a_shallow_dent_may_be_taken_for_none() {
     support::convex::takes_a_shallow_dent_for_none::<Convex>();

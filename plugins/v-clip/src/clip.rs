@@ -2,7 +2,7 @@
 
 use crate::polyhedron::Feature;
 
-/// What is left of a segment after cutting it by planes.
+/// The rest of a segment after cutting it by planes.
 pub struct Clip {
     /// Parameters: 0 at the tail, 1 at the head.
     pub span: [f64; 2],

@@ -130,7 +130,7 @@ fn one_inside_the_other_has_its_distance_from_within() {
     }
 }
 
-/// The walk needs rotations; what is none is answered as it is given all the same.
+/// The walk needs rotations; other matrices are answered as given.
 #[test]
 fn poses_that_are_not_quite_rotations_are_left_to_gjk() {
     let soup = cut_box(2, [0.6, 0.5, 0.9]);

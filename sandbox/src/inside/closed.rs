@@ -40,7 +40,7 @@ pub struct Closed {
     pub tighter: Vec<BpfProgram>,
 }
 
-/// What is written for one command.
+/// The bytes written for one command.
 pub type Slot = [u64; SLOT_WORDS];
 
 /// Closes this process off and tells the supervisor. A step that fails ends the process, and the supervisor learns which.

@@ -203,7 +203,7 @@ fn inside(
     Ok(Report::RunnerEnded { status })
 }
 
-/// Gives up what is left and becomes `PROGRAM run`.
+/// Gives up its remaining privileges and becomes `PROGRAM run`.
 fn become_runner(
     order: &Order,
     control: &Control,

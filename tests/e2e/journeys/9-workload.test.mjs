@@ -54,7 +54,7 @@ test('a recording is replayed, read and explored', async (t) => {
   await v.accessible('the page of a replay')
   await v.picture('workload')
 
-  // A stretch is brushed, is in the link, and narrows the matrix; what is shown is what the service says.
+  // A stretch is brushed, is in the link, and narrows the matrix; the page shows the values of the service.
   await v.at('timeline').scrollIntoViewIfNeeded()
   const box = await v.at('timeline').boundingBox()
   await v.page.mouse.move(box.x + 0.3 * box.width, box.y + 80)
@@ -132,7 +132,7 @@ test('a replay is cancelled and leaves no result', async (t) => {
   await v.at('workloads').locator(`[data-workload="${id}"]`).getByText('cancelled').waitFor()
 })
 
-test('what is no recording is refused with the reason', async (t) => {
+test('a file that is not a recording is refused with the reason', async (t) => {
   const v = await visitor(t)
   v.expectRefusal('/api/v1/workloads')
   v.expectRefusal('status of 4')

@@ -118,7 +118,7 @@ pub(crate) struct Upload {
     pub name: String,
     /// Its content.
     pub file: Spooled,
-    /// The part `spec` before it: what is asked about the file.
+    /// The part `spec` before it, which says how to use the file.
     pub spec: Option<Vec<u8>>,
 }
 

@@ -77,7 +77,7 @@ fn floats(bytes: &[u8]) -> Vec<f32> {
     bytes.chunks_exact(4).map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect()
 }
 
-/// What is read back is the object, up to the rounding of its own size and not of its place.
+/// The object read back is the same, up to the rounding of its own size and not of its place.
 #[test]
 fn a_small_object_far_from_the_origin_keeps_its_detail() {
     let far = mesh().positions().iter().map(|p| (p * 1e-3) + Vector3::new(1e6, -1e6, 1e6)).collect();

@@ -126,7 +126,7 @@ fn cylinder(radius: f64, length: f64, bound: f64, side: Side) -> Result<Mesh, Te
 /// A ball, or a capsule: its halves are that far apart along z.
 fn ball(radius: f64, length: f64, bound: f64, side: Side) -> Result<Mesh, TessellateError> {
     for rings in 2..=MOST_RINGS {
-        // So many that a facet at the equator is about a square; the estimate spares making what is far too coarse.
+        // So many that a facet at the equator is about a square; the estimate avoids tessellations that are far too coarse.
         if side.scale(1.0 - 0.1 / f64::from(rings * rings))[1] * radius > bound {
             continue;
         }

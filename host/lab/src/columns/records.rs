@@ -174,8 +174,8 @@ impl RecordColumns {
         self.bv_tests.extend(column::<UInt64Array>(batch, "bv_tests")?.iter());
         self.primitive_tests.extend(column::<UInt64Array>(batch, "primitive_tests")?.iter());
         for name in column::<StringArray>(batch, "verdict")?.iter() {
-            let known = Verdict::NAMES.iter().find(|(_, known)| Some(*known) == name);
-            self.verdict.push(known.ok_or_else(|| format!("{name:?} is not a verdict"))?.0);
+            let known = name.and_then(Verdict::named);
+            self.verdict.push(known.ok_or_else(|| format!("{name:?} is not a verdict"))?);
         }
         let hits = column::<BooleanArray>(batch, "hit")?.iter();
         let distances = column::<Float64Array>(batch, "distance")?.iter();

@@ -1,4 +1,4 @@
-//! Stopping what is measured, from another thread.
+//! Stopping a measurement from another thread.
 
 use std::sync::{Arc, Mutex, PoisonError};
 

@@ -148,7 +148,7 @@ impl Assembly {
     /// The scene of this name, without these pairs.
     pub fn finish(self, name: &str, disabled: Vec<DisabledPair>) -> Found<Imported> {
         if self.objects.is_empty() {
-            return Err("it has no collision geometry (what is only shown is not imported)".to_owned());
+            return Err("it has no collision geometry (visual geometry is not imported)".to_owned());
         }
         let scene = Scene { name: name.to_owned(), objects: self.objects, disabled };
         scene.check().map_err(|why| why.to_string())?;

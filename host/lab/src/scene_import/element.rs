@@ -11,7 +11,7 @@ use super::{Found, shown};
 /// Deepest nesting: the tree is walked by functions that call themselves.
 pub const MOST_DEPTH: usize = 256;
 
-/// An element with what is in it.
+/// An element with its content.
 #[derive(Clone, Debug)]
 pub struct Element {
     /// Its name, without its namespace.

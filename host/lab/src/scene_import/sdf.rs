@@ -1,6 +1,6 @@
 //! SDF, the format of Gazebo: models with links where the file puts them, and the collision geometry of these.
 //!
-//! Joints only say which links are adjacent. Poses are read where they are relative to what is around them or to another link.
+//! Joints only say which links are adjacent. Poses are read where they are relative to the enclosing element or to another link.
 
 use std::collections::{BTreeMap, HashMap};
 

@@ -55,7 +55,7 @@ fn every_robot_is_imported_or_refused_with_a_sentence() {
             }
         }
     }
-    let none = "it has no collision geometry (what is only shown is not imported).";
+    let none = "it has no collision geometry (visual geometry is not imported).";
     let expected = [
         ("TwoDofs.urdf", none),
         ("alexander_v1.lowerBodyOnly.urdf", none),

@@ -74,7 +74,7 @@ def stop():
 
 @contextmanager
 def record(folder, *, limit=250_000, program=None):
-    """Records what is asked inside of the `with` block; see `start`."""
+    """Records the queries inside of the `with` block; see `start`."""
     start(folder, limit=limit, program=program)
     try:
         yield

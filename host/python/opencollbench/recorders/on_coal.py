@@ -1,4 +1,4 @@
-"""Records what is asked of Coal from Python: `coal.collide` and `coal.distance`, of objects and of geometries.
+"""Records queries to Coal from Python: `coal.collide` and `coal.distance`, of objects and of geometries.
 
 Not seen: what managers with callbacks in C++, `ComputeCollision` and `ComputeDistance` ask. Not recorded, and counted: bodies with a
 swept sphere, negative security margins, and objects that are not a mesh, convex body, box, sphere, cylinder or capsule.
@@ -25,7 +25,7 @@ def patch(coal):
 
 
 class _Coal:
-    """What is asked of Coal."""
+    """The recorded functions of Coal."""
 
     def __init__(self, coal):
         self.coal, self.shapes = coal, Shapes(("coal", coal.__version__))

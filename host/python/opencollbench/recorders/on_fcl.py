@@ -1,4 +1,4 @@
-"""Records what is asked of python-fcl, directly or through trimesh: `fcl.collide`, `fcl.distance`, and what managers call.
+"""Records queries to python-fcl, directly or through trimesh: `fcl.collide`, `fcl.distance`, and what managers call.
 
 Not recorded, and counted: continuous collision, and objects that are not a mesh, convex body, box, sphere, cylinder or capsule.
 """
@@ -52,7 +52,7 @@ def _given(args, kwargs):
 
 
 class _Fcl:
-    """What is asked of python-fcl."""
+    """The recorded functions of python-fcl."""
 
     def __init__(self, fcl, library):
         self.fcl, self.shapes = fcl, Shapes(library)

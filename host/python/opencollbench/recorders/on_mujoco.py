@@ -22,7 +22,7 @@ def patch(mujoco):
 
 
 class _Mujoco:
-    """What is asked of MuJoCo."""
+    """The recorded functions of MuJoCo."""
 
     def __init__(self, mujoco):
         self.types = mujoco.mjtGeom

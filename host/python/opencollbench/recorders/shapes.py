@@ -6,7 +6,7 @@ from . import session
 
 #: The fields of primitives in a spool.
 _FIELDS = {"box": ["size"], "sphere": ["radius"], "cylinder": ["radius", "length"], "capsule": ["radius", "length"]}
-#: What is said of convex bodies: an object may be inside of them, and their surface does not tell.
+#: The reason for convex bodies: an object may be inside of them, which their surface does not tell.
 _SURFACE = "its surface; the program's answers where it collides are left out"
 
 

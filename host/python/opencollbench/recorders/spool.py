@@ -58,7 +58,7 @@ class Spool:
         self.lock = threading.RLock()
 
     def object(self, name, geometry, library, source=""):
-        """The number of an object; what is the same in the same library is one object.
+        """The number of an object; equal objects of one library are one object.
 
         `geometry` is a pair of vertices (n, 3) and triangles (m, 3), or a dictionary of a primitive. Raises `Unusable`.
         """

@@ -35,7 +35,7 @@ typedef enum ocb_primitive {
   OCB_CAPSULE   /* radius, length along z without the caps */
 } ocb_primitive;
 
-/* What is asked. */
+/* Kinds of queries. */
 typedef enum ocb_kind {
   OCB_COLLIDE,  /* do they collide? */
   OCB_CONTACTS, /* where do they collide? `limit` is the most contacts asked for */
@@ -43,7 +43,7 @@ typedef enum ocb_kind {
   OCB_TOLERANCE /* are they closer than `limit`? */
 } ocb_kind;
 
-/* What is known of the answer, added up. */
+/* Known parts of the answer, added up. */
 enum {
   OCB_ANSWERED = 1, /* whether they collide (OCB_TOLERANCE: are closer) was answered */
   OCB_HIT = 2,      /* and they do */
@@ -66,7 +66,7 @@ typedef struct ocb_query {
 ocb_recording *ocb_recording_open(const char *folder, const char *program, const char *library, const char *version);
 
 /* The number of a mesh: `vertices` has three coordinates each, `corners` three numbers of vertices, from 0, for each triangle.
- * Negative for what is no mesh (no triangle with area, a number out of range); queries about it are counted as not recorded. */
+ * Negative if it is not a mesh (no triangle with area, a number out of range); queries about it are counted as not recorded. */
 int32_t ocb_recording_mesh(ocb_recording *recording, const char *name, const double *vertices, size_t num_vertices,
                            const uint32_t *corners, size_t num_triangles);
 

@@ -46,7 +46,7 @@ pub struct Advisor {
     wait: bool,
 }
 
-/// What is asked about two objects; B may be the same as A.
+/// A question about two objects; B may be the same as A.
 #[derive(Clone, Debug)]
 pub struct Request {
     /// Their names.
@@ -77,7 +77,7 @@ pub struct Advised {
 pub struct Level {
     /// Its mesh.
     pub mesh: Arc<Mesh>,
-    /// What is known of it; nothing has to be known of the object.
+    /// Its certificate; the object itself has none.
     pub certificate: Option<Certificate>,
 }
 
@@ -229,7 +229,7 @@ fn nonsense(what: &str) -> EngineError {
     EngineError::Ended("The advisor failed: its reply makes no sense.".to_owned())
 }
 
-/// How the program ended, in words that accuse nobody.
+/// How the program ended, as a fact without a cause that is not known.
 fn ended(ending: Ending) -> EngineError {
     let Ending { outcome, stderr, .. } = ending;
     if let Outcome::SandboxFault { step, reason } = &outcome {

@@ -15,7 +15,7 @@ impl Shelf {
         Self(folder.to_owned())
     }
 
-    /// What is known of the levels of an object. What cannot be read is not known.
+    /// Known certificates of the levels of an object; unreadable ones are ignored.
     pub fn get(&self, object: &str) -> Vec<Certificate> {
         let read = || serde_json::from_slice::<Vec<Certificate>>(&fs::read(self.file(object)).ok()?).ok();
         let fits = |known: &Certificate| known.version == VERSION && known.object == object;

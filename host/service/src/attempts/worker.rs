@@ -45,7 +45,7 @@ fn name_of(mut lock: &File) -> std::io::Result<String> {
     Ok(format!("{name}-{}", lock.metadata()?.ino()))
 }
 
-/// What is done when an attempt turns out to be lost.
+/// Called when an attempt turns out to be lost.
 type WhenLost = Box<dyn Fn() + Send>;
 
 /// The attempts that this process works on.

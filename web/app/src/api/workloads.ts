@@ -3,7 +3,7 @@ import type { PosedGroup, Stretch, StretchResult, WorkloadInfo, WorkloadSpec } f
 
 const of = (id: string) => ({ params: { path: { id } } })
 
-/** Sends a recording to be replayed; the service reads it before it answers. What is asked comes before the file. */
+/** Sends a recording to be replayed; the service reads it before it answers. The spec comes before the file. */
 export const startWorkload = (spec: WorkloadSpec, file: File): Promise<WorkloadInfo> => {
   const form = new FormData()
   form.append('spec', JSON.stringify(spec))

@@ -130,7 +130,7 @@ it('walks the matrix with the arrow keys, over places without a pair', async () 
   expect(stop()).toContain('c against d')
 })
 
-it('sends the recording with what is asked of it, and shows why it was refused', async () => {
+it('sends the recording with its spec, and shows why it was refused', async () => {
   vi.mocked(startWorkload).mockRejectedValue(new ApiError('It is a scene without queries.', 422))
   await mount(WorkloadForm, {}, '/workloads')
   const button = at('workload-start') as HTMLButtonElement

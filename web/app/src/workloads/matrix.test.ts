@@ -34,7 +34,7 @@ describe('the matrix of pairs', () => {
     expect(matrix([pair([0, 1], 9)], 'wrong').cell(0, 1)?.position).toBe(0)
   })
 
-  it('keeps the most expensive objects and says what is left', () => {
+  it('keeps the most expensive objects and states the remainder', () => {
     const many = Array.from({ length: 60 }, (_, i) => pair([0, i + 1], 60 - i))
     const { rows, columns, cell, remainder } = matrix(many, 'time')
     expect([rows, columns.length, columns.at(-1)]).toEqual([[0], MOST_OBJECTS - 1, MOST_OBJECTS - 1])

@@ -4,7 +4,7 @@ import { chosenNames, commandLine, fromSpec, toSpec, usualForm } from './spec'
 
 const known = [{ id: 'box-tree', usual: true }, { id: 'fcl', usual: true }, { id: 'brute', usual: false }] as AlgorithmInfo[]
 
-describe('what is asked of a replay', () => {
+describe('the spec of a replay', () => {
   it('names no algorithms when the usual ones are meant', () => {
     expect(toSpec(usualForm())).toEqual({ spec: { algorithms: [], tracks: ['shuffled', 'recorded'], passes: 3, budget_seconds: 10, seed: null } })
     expect(chosenNames(usualForm(), known)).toEqual(['box-tree', 'fcl'])
@@ -16,7 +16,7 @@ describe('what is asked of a replay', () => {
     for (const change of refused) expect(toSpec({ ...usualForm(), ...change })).toHaveProperty('problem')
   })
 
-  it('is taken over from an earlier replay, without what is not installed any more', () => {
+  it('is taken over from an earlier replay, without algorithms that are no longer installed', () => {
     const before = { algorithms: ['fcl', 'box-tree:leaf_size=4', 'gone'], tracks: ['recorded' as const], passes: 5, budget_seconds: 9 }
     const form = fromSpec(before, known)
     expect(form).toEqual({ algorithms: ['fcl', 'box-tree:leaf_size=4'], orders: 'recorded', passes: 5, budget: 9 })

@@ -33,7 +33,7 @@ describe('the timeline', () => {
   })
 })
 
-it('keeps a stretch in the link, and ignores what is none', () => {
+it('keeps a stretch in the link, and ignores invalid ones', () => {
   for (const stretch of [{ from: 50, to: 100 }, { from: 50 }, { to: 100 }]) expect(readStretch(writeStretch(stretch))).toEqual(stretch)
   expect(writeStretch(null)).toEqual({})
   expect([{}, { from: 'x' }, { from: '-1' }, { from: '9', to: '9' }, { from: ['1', '2'] }].map(readStretch)).toEqual([null, null, null, null, null])

@@ -38,7 +38,7 @@ export function stretchBetween(timeline: Timeline, a: number, b: number): Stretc
   }
 }
 
-/** What is typed as first and last query, as a stretch; or why it is none. */
+/** The typed first and last query as a stretch, or why they are not one. */
 export function stretchTyped(timeline: Timeline, first: number | '', last: number | ''): { stretch: Stretch } | { problem: string } {
   const given = [first, last].filter((value) => value !== '')
   if (given.length === 0) return { problem: 'Give the first or the last query of the stretch.' }
@@ -48,7 +48,7 @@ export function stretchTyped(timeline: Timeline, first: number | '', last: numbe
   return { stretch: { ...(first !== '' && { from: first }), ...(last !== '' && { to: last + 1 }) } }
 }
 
-/** The stretch in a link; null where there is none. What is no number is left out. */
+/** The stretch in a link; null where there is none. Text that is not a number is left out. */
 export function readStretch(query: Record<string, unknown>): Stretch | null {
   const number = (raw: unknown) => (typeof raw === 'string' && /^\d{1,15}$/.test(raw) ? Number(raw) : undefined)
   const [from, to] = [number(query['from']), number(query['to'])]

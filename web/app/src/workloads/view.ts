@@ -21,7 +21,7 @@ export interface View {
   at: number | null
 }
 
-/** Reads a link; what it does not say, or what is not in the result, is the usual. */
+/** Reads a link; missing values, and values that are not in the result, take their defaults. */
 export function readView(query: Record<string, unknown>, result: WorkloadResult): View {
   const order = result.tracks.find(({ track }) => track === query['order'])?.track ?? result.tracks[0]?.track ?? 'shuffled'
   const algorithms = listed(inOrder(result, order))
@@ -37,7 +37,7 @@ export function readView(query: Record<string, unknown>, result: WorkloadResult)
   }
 }
 
-/** The link with these keys changed; what is undefined is taken out. */
+/** The link with these keys changed; undefined ones are removed. */
 export function changed(query: Record<string, unknown>, part: Record<string, string | undefined>): Record<string, string> {
   const strings = Object.entries({ ...query, ...part }).filter((pair): pair is [string, string] => typeof pair[1] === 'string')
   return Object.fromEntries(strings)

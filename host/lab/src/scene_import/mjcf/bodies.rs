@@ -36,7 +36,7 @@ pub struct Geom {
     pub frame: Pose,
 }
 
-/// What is in `<worldbody>`.
+/// The content of `<worldbody>`.
 pub struct Bodies {
     /// The world first, each before those in it.
     pub bodies: Vec<Body>,
@@ -44,7 +44,7 @@ pub struct Bodies {
     pub geoms: Vec<Geom>,
 }
 
-/// What is around an element.
+/// The surroundings of an element: its parents and defaults.
 #[derive(Clone, Copy)]
 struct Around<'a> {
     body: usize,

@@ -12,7 +12,7 @@ use crate::scene_import::{Found, MOST_BYTES, shown};
 /// Most files.
 const MOST_FILES: usize = 100;
 
-/// What is left to include, and what was included: MuJoCo includes a file once.
+/// The budget of includes, and the files included so far: MuJoCo includes a file once.
 pub struct Including<'a> {
     packages: &'a mut Packages,
     done: HashSet<PathBuf>,
@@ -25,7 +25,7 @@ impl<'a> Including<'a> {
         Self { packages, done: HashSet::new(), left: MOST_BYTES }
     }
 
-    /// Replaces each `<include>` by what is in its file; `depth` elements are around this one.
+    /// Replaces each `<include>` by the content of its file; `depth` elements are around this one.
     pub fn expand(&mut self, element: &mut Element, depth: usize) -> Found<()> {
         if depth > MOST_DEPTH {
             return Err(element.fault(&format!("elements are nested more than {MOST_DEPTH} deep")));

@@ -1,4 +1,4 @@
-//! What one service changes, the other knows, and what is done by one at a time is so at both.
+//! Each service knows the changes of the other, and exclusive work is exclusive across both.
 
 use futures::future::join_all;
 
@@ -97,7 +97,7 @@ async fn requests_for_advice_have_one_quota_at_all_services() {
         let added = first.inner.store.add_advice(&info, "another", "address:203.0.113.7", &worker("third")).await;
         assert!(added.unwrap().is_some());
     }
-    // What is asked for waits, so that none of it ends meanwhile.
+    // New requests wait, so that none of them ends meanwhile.
     let turns = [first, second].map(|service| service.inner.advices.turn.try_acquire().unwrap());
     let asked = (0..6).map(|i| [first, second][i % 2].ask_advice(spec.clone(), &guest, None));
     assert_eq!(admitted(&join_all(asked).await), [1, 5]);

@@ -4,7 +4,7 @@ use opencollbench_plugin::{Algorithm, Collision, Contacts, Counts, Distance, Par
 
 use super::{Dice, Loaded, Scene, Soup, TRANSLATION, Truth, known_set};
 
-/// What is asked of an algorithm.
+/// The query that an algorithm is asked.
 pub struct Terms<A> {
     /// It in all settings worth a test, the default first.
     pub variants: fn() -> Vec<A>,

@@ -156,7 +156,7 @@ pub fn refuses_what_is_not_convex<A: Algorithm>() {
     assert!(matches!(A::default().load_mesh(flat.view()), Err(Refusal::Error(sentence)) if sentence.contains("flat")));
 }
 
-/// Coordinates in single precision dent what is round; then the error is the dent's.
+/// Coordinates in single precision dent round shapes; then the error is the dent's.
 pub fn takes_a_shallow_dent_for_none<A: Distance + Parameters>() {
     let mut soup = cut_box(6, [0.5, 0.4, 0.3]);
     let (s, c) = 0.3f64.sin_cos();
