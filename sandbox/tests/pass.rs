@@ -133,21 +133,22 @@ fn a_wait_for_the_cpu_is_taken_off_the_question_that_it_fell_into() {
     let cpu = 0;
     let policy = Policy { runner_cpu: Some(cpu), supervisor_cpu: Some(1), ..common::policy() };
     let busy = Busy::on(cpu);
-    let mut session = start(&launcher_with(policy), &fixture(&["WORK=1000000"])).unwrap();
+    let mut session = start(&launcher_with(policy), &fixture(&["WORK=250000"])).unwrap();
     let mut samples = Vec::new();
-    let mut median = f64::INFINITY;
+    // The time of a question that waited for nothing. Some kernels let most questions wait, so the median does not show it.
+    let mut alone_ns = f64::INFINITY;
     // A question of half a millisecond meets a slice of some milliseconds now and then.
-    let waited = |samples: &[Sample], median: f64| -> Vec<Sample> {
-        samples.iter().filter(|s| !s.disturbed && s.raw_ns > 4.0 * median).cloned().collect()
+    let waited = |samples: &[Sample], alone_ns: f64| -> Vec<Sample> {
+        samples.iter().filter(|s| !s.disturbed && s.raw_ns > 4.0 * alone_ns).cloned().collect()
     };
-    while samples.len() < 100 || waited(&samples, median).len() < 10 && samples.len() < 20_000 {
+    while samples.len() < 100 || waited(&samples, alone_ns).len() < 10 && samples.len() < 20_000 {
         samples.push(session.query(Query::CollisionFirst, &apart(0.5)).unwrap());
         let mut raw: Vec<f64> = samples.iter().map(|s| s.raw_ns).collect();
         raw.sort_by(f64::total_cmp);
-        median = raw[raw.len() / 2];
+        alone_ns = raw[raw.len() / 20];
     }
     drop(busy);
-    let waited = waited(&samples, median);
+    let waited = waited(&samples, alone_ns);
     let mended = waited.iter().filter(|sample| sample.time_ns < 0.5 * sample.raw_ns).count();
     assert!(waited.len() >= 10, "nothing else had its CPU in {} questions", samples.len());
     assert!(2 * mended > waited.len(), "{mended} of {}: {waited:?}", waited.len());
