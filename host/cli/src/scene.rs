@@ -134,7 +134,7 @@ fn kind(geometry: &Geometry) -> &'static str {
 
 /// Of a mesh.
 fn triangles(file: &SceneFile, geometry: &Geometry) -> Option<usize> {
-    let Geometry::Mesh { sha256 } = geometry else { return None };
+    let Geometry::Mesh { sha256, .. } = geometry else { return None };
     file.meshes.get(sha256).map(|mesh| mesh.triangles().len())
 }
 

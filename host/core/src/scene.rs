@@ -6,6 +6,7 @@
 //! The types say what a scene consists of; [`Scene::check`] says whether it is one. Files are checked when they are read and
 //! written, so that later code may rely on it.
 
+pub mod around;
 mod check;
 mod row_major;
 pub mod tessellate;
@@ -23,6 +24,9 @@ pub enum Geometry {
     Mesh {
         /// SHA-256 (lower-case hex) of the bytes of its PLY file, in which the scene file keeps it.
         sha256: String,
+        /// Is it a solid body, which another object inside it collides with? It must be closed. Otherwise only its surface counts.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        solid: bool,
     },
     /// A box around the origin, its faces perpendicular to the axes.
     Box {

@@ -44,7 +44,7 @@ impl SceneFile {
     pub fn keep(meshes: &mut HashMap<String, Arc<Mesh>>, mesh: Mesh) -> Geometry {
         let sha256 = sha256_hex(&write_ply(&mesh));
         meshes.entry(sha256.clone()).or_insert_with(|| Arc::new(mesh));
-        Geometry::Mesh { sha256 }
+        Geometry::Mesh { sha256, solid: false }
     }
 
     /// Reads the scene in this file, also of a recording.
@@ -138,7 +138,7 @@ impl Reader {
         let mut left = MOST_MESHES;
         let mut meshes = HashMap::new();
         for object in &scene.objects {
-            if let Geometry::Mesh { sha256 } = &object.geometry
+            if let Geometry::Mesh { sha256, .. } = &object.geometry
                 && !meshes.contains_key(sha256)
             {
                 let bad = |why: String| format!("the mesh of {:?} {why}", object.name);
@@ -229,7 +229,7 @@ mod tests {
         let head = |format: &str| serde_json::to_vec(&Head { format: format.into(), scene: scene().scene }).unwrap();
         assert!(told(&[(SCENE, &head("other/2"))]).contains("only \"opencollbench-scene/1\" can be read"));
         assert!(told(&[(SCENE, &head(FORMAT))]).contains("the mesh of \"knot\" is missing"));
-        let Geometry::Mesh { sha256 } = &scene().scene.objects[0].geometry else { panic!("a mesh") };
+        let Geometry::Mesh { sha256, .. } = &scene().scene.objects[0].geometry else { panic!("a mesh") };
         let mesh = place(sha256);
         assert!(told(&[(SCENE, &head(FORMAT)), (&mesh, b"ply")]).contains("its SHA-256 differs"));
         let nothing = NamedTempFile::new().unwrap();

@@ -161,7 +161,7 @@ fn check_object(index: usize, object: &SceneObject) -> Result<(), SceneError> {
         text("licence", LONGEST_SOURCE, licence, of)?;
     }
     let lengths: &[(&'static str, f64)] = match &object.geometry {
-        Geometry::Mesh { sha256 } => {
+        Geometry::Mesh { sha256, .. } => {
             if sha256.len() != 64 || !sha256.bytes().all(|b| matches!(b, b'0'..=b'9' | b'a'..=b'f')) {
                 return Err(SceneError::Hash(index));
             }

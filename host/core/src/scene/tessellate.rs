@@ -289,7 +289,7 @@ mod tests {
     fn what_cannot_be_made_is_refused() {
         let ball = Geometry::Sphere { radius: 1.0 };
         assert_eq!(inside(&ball, 1e-9), Err(TessellateError::TooFine(1e-9)));
-        assert!(inside(&Geometry::Mesh { sha256: String::new() }, 0.1).is_err());
+        assert!(inside(&Geometry::Mesh { sha256: String::new(), solid: false }, 0.1).is_err());
         assert!(inside(&Geometry::Box { size: [0.0; 3] }, 0.1).is_err());
     }
 }

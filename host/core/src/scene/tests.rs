@@ -22,7 +22,7 @@ fn scene() -> Scene {
             object("ball", Geometry::Sphere { radius: 0.5 }),
             object("rod", Geometry::Cylinder { radius: 0.5, length: 2.0 }),
             object("pill", Geometry::Capsule { radius: 0.5, length: 0.0 }),
-            object("mesh", Geometry::Mesh { sha256: "0f".repeat(32) }),
+            object("mesh", Geometry::Mesh { sha256: "0f".repeat(32), solid: false }),
         ],
         disabled: vec![DisabledPair { a: 0, b: 3, reason: "same link".to_owned() }],
     }
@@ -80,8 +80,11 @@ fn each_fault_is_named() {
     refused(|s| s.objects[2].link = Some(String::new()), "the link of object 2");
     refused(|s| s.objects[2].source = "\u{1b}[2J".to_owned(), "the source of object 2");
     refused(|s| s.objects[2].licence = Some(String::new()), "the licence of object 2");
-    refused(|s| s.objects[4].geometry = Geometry::Mesh { sha256: "0F".repeat(32) }, "64 lower-case");
-    refused(|s| s.objects[4].geometry = Geometry::Mesh { sha256: "../../etc/passwd".to_owned() }, "64 lower-case");
+    refused(|s| s.objects[4].geometry = Geometry::Mesh { sha256: "0F".repeat(32), solid: false }, "64 lower-case");
+    refused(
+        |s| s.objects[4].geometry = Geometry::Mesh { sha256: "../../etc/passwd".to_owned(), solid: true },
+        "64 lower-case",
+    );
 }
 
 #[test]

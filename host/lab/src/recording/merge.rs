@@ -94,7 +94,7 @@ impl Merged {
         // A recorder may write its PLY files in its own way.
         let mut read: HashMap<String, Geometry> = HashMap::new();
         for (id, mut line) in objects.into_iter().enumerate() {
-            if let Geometry::Mesh { sha256 } = &line.geometry {
+            if let Geometry::Mesh { sha256, .. } = &line.geometry {
                 let kept = match read.get(sha256) {
                     Some(kept) => kept.clone(),
                     None => {

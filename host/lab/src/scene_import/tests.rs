@@ -65,7 +65,7 @@ fn object<'a>(imported: &'a Imported, name: &str) -> &'a SceneObject {
 }
 
 fn mesh<'a>(imported: &'a Imported, name: &str) -> &'a Mesh {
-    let Geometry::Mesh { sha256 } = &object(imported, name).geometry else { panic!("{name} is no mesh") };
+    let Geometry::Mesh { sha256, .. } = &object(imported, name).geometry else { panic!("{name} is no mesh") };
     &imported.file.meshes[sha256]
 }
 

@@ -13,7 +13,7 @@ use crate::{LabError, Result};
 pub struct Solid {
     /// The mesh, or a polyhedron around the primitive. It is what algorithms get.
     pub outer: Arc<Mesh>,
-    /// A polyhedron inside the primitive; absent for a mesh.
+    /// A polyhedron inside the primitive, or the solid mesh itself; absent for a mesh of which only the surface counts.
     pub inner: Option<Arc<Mesh>>,
     /// How far a point of both polyhedra may be from the primitive.
     pub bound: Option<f64>,
@@ -38,10 +38,10 @@ pub fn solids(file: &SceneFile) -> Result<Vec<Solid>> {
 
 /// One object.
 pub fn solid(file: &SceneFile, geometry: &Geometry) -> Result<Solid> {
-    if let Geometry::Mesh { sha256 } = geometry {
+    if let Geometry::Mesh { sha256, solid } = geometry {
         let mesh = file.meshes.get(sha256);
         let mesh = mesh.ok_or_else(|| LabError::Invalid(format!("The scene has no mesh {sha256}.")))?;
-        return Ok(Solid { outer: mesh.clone(), inner: None, bound: None });
+        return Ok(Solid { outer: mesh.clone(), inner: solid.then(|| mesh.clone()), bound: solid.then_some(0.0) });
     }
     let bad = |why| LabError::Invalid(format!("A primitive of the scene cannot be tessellated: {why}."));
     let bound = tessellate::default_bound(geometry);

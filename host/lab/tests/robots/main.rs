@@ -141,7 +141,7 @@ fn kind(geometry: &Geometry) -> &'static str {
 /// As `placed.py` prints them.
 fn sizes(file: &SceneFile, geometry: &Geometry) -> Vec<f64> {
     match geometry {
-        Geometry::Mesh { sha256 } => mesh_sizes(&file.meshes[sha256]),
+        Geometry::Mesh { sha256, .. } => mesh_sizes(&file.meshes[sha256]),
         Geometry::Box { size } => size.to_vec(),
         Geometry::Sphere { radius } => vec![*radius],
         Geometry::Cylinder { radius, length } | Geometry::Capsule { radius, length } => vec![*radius, *length],
