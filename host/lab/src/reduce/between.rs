@@ -1,0 +1,103 @@
+//! The distance of two bodies as an interval that certainly holds, and when an answer is kept.
+
+use ocb_core::configuration::Configuration;
+use ocb_core::oracle::{Pair, Shape};
+
+use super::Terms;
+use super::body::{Body, Contains, ROUNDING};
+
+/// A distance certainly not below `lo` and not above `hi`; 0 of bodies that collide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// Lower bound.
+    pub lo: f64,
+    /// Upper bound.
+    pub hi: f64,
+}
+
+/// The distance of two bodies.
+pub fn between([a, b]: [&Body; 2], configuration: &Configuration) -> Interval {
+    let Configuration { pose_a, pose_b } = configuration;
+    let outer = distance([&a.outer, &b.outer], configuration);
+    let contained = [a.contains(pose_a, b, pose_b), b.contains(pose_b, a, pose_a)];
+    let lo = if contained == [Contains::No; 2] { outer.lo } else { 0.0 };
+    let hi = if contained.contains(&Contains::Yes) {
+        0.0
+    } else if a.is_between() || b.is_between() {
+        distance([a.inner(), b.inner()], configuration).hi
+    } else {
+        outer.hi
+    };
+    // What stands for an object is placed by a product of poses elsewhere, and rounded again.
+    let size = a.radius + a.centre.coords.norm() + b.radius + b.centre.coords.norm();
+    let rounding = ROUNDING * (size + pose_a.translation.norm() + pose_b.translation.norm());
+    Interval { lo: (lo - rounding).max(0.0), hi: if hi > 0.0 { hi + rounding } else { 0.0 } }
+}
+
+fn distance([a, b]: [&Shape; 2], configuration: &Configuration) -> Interval {
+    let truth = Pair::new(a, b).truth(configuration);
+    Interval { lo: truth.distance_lo, hi: truth.distance_hi }
+}
+
+/// The distance of the balls around two bodies: a lower bound that costs nothing.
+pub fn of_balls([a, b]: [&Body; 2], configuration: &Configuration) -> f64 {
+    let [p, q] = [configuration.pose_a.apply(&a.centre), configuration.pose_b.apply(&b.centre)];
+    ((p - q).norm() * (1.0 - ROUNDING) - a.radius - b.radius).max(0.0)
+}
+
+impl Terms {
+    /// Is the answer about what stands for the objects (`reduced`) the right one for a distance within the tolerance of the
+    /// objects' own (`truth`), here and wherever no point of them is moved by more than `near`? `limit` is the distance up to which
+    /// the answer to a yes-or-no query is yes; absent where the distance itself is asked.
+    pub fn keep(&self, limit: Option<f64>, truth: Interval, reduced: Interval) -> bool {
+        let Self { tolerance, near, outside_only } = *self;
+        if let Some(limit) = limit {
+            let no = truth.lo - near > limit && reduced.lo - near > limit;
+            // What contains the objects is never farther apart than they are.
+            let yes = truth.hi + near <= limit && (outside_only || reduced.hi + near <= limit);
+            if no || yes {
+                return true;
+            }
+        }
+        // Moving both pairs by the same changes either distance by no more than that.
+        let under = truth.hi - reduced.lo + 2.0 * near <= tolerance;
+        under && (outside_only || reduced.hi - truth.lo + 2.0 * near <= tolerance)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(lo: f64, hi: f64) -> Interval {
+        Interval { lo, hi }
+    }
+
+    #[test]
+    fn an_answer_is_kept_within_the_tolerance_or_on_the_same_side() {
+        let both = Terms { tolerance: 1.0, near: 0.0, outside_only: false };
+        // Distances.
+        assert!(both.keep(None, at(5.0, 5.0), at(4.5, 5.5)));
+        assert!(!both.keep(None, at(5.0, 5.0), at(3.5, 3.5)) && !both.keep(None, at(5.0, 5.0), at(6.5, 6.5)));
+        // Collisions: a far pair may come nearer by anything, and a hit may become a gap within the tolerance.
+        assert!(both.keep(Some(0.0), at(5.0, 5.0), at(0.1, 0.1)));
+        assert!(!both.keep(Some(0.0), at(5.0, 5.0), at(0.0, 0.0)));
+        assert!(both.keep(Some(0.0), at(0.0, 0.0), at(0.9, 0.9)) && !both.keep(Some(0.0), at(0.0, 0.0), at(1.1, 1.1)));
+        assert!(both.keep(Some(0.0), at(0.9, 0.9), at(0.0, 0.0)));
+        // A limit.
+        assert!(both.keep(Some(3.0), at(1.0, 1.0), at(2.9, 2.9)) && !both.keep(Some(3.0), at(1.0, 1.0), at(3.1, 3.1)));
+        let outside = Terms { outside_only: true, ..both };
+        assert!(!outside.keep(Some(0.0), at(5.0, 5.0), at(0.0, 0.0)));
+        // An interval of what contains the objects may be wider than what is known of them.
+        assert!(outside.keep(Some(0.0), at(0.0, 0.0), at(0.0, 9.0)));
+    }
+
+    #[test]
+    fn a_neighbourhood_asks_for_more_room() {
+        let terms = Terms { tolerance: 1.0, near: 0.2, outside_only: false };
+        assert!(terms.keep(None, at(5.0, 5.0), at(4.5, 4.5)) && !terms.keep(None, at(5.0, 5.0), at(4.3, 4.3)));
+        assert!(
+            terms.keep(Some(0.0), at(5.0, 5.0), at(0.3, 0.3)) && !terms.keep(Some(0.0), at(5.0, 5.0), at(0.1, 0.1))
+        );
+    }
+}
