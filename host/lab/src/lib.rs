@@ -12,6 +12,7 @@ pub mod machine;
 pub mod measure;
 pub mod pairing;
 pub mod recording;
+pub mod reduce;
 pub mod replay;
 mod repro;
 pub mod scene_file;

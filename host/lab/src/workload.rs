@@ -32,6 +32,7 @@ use crate::pairing::Pairing;
 use crate::recording::Recording;
 use crate::truth::on_all_cpus;
 use crate::{LabError, Result};
+pub(crate) use parts::{Part as PairPart, parts};
 pub use posed::{mesh_of, posed_group};
 use recorded::Truths;
 use shapes::{Solid, solids};
@@ -86,7 +87,7 @@ pub fn replay(
     stop: &Stop,
     tell: &dyn Fn(Progress),
 ) -> Result<Replayed> {
-    let (parts, bent) = parts::parts(&recording.queries);
+    let (parts, bent) = parts(&recording.queries);
     let solids = solids(&recording.scene)?;
     let mut judged = Truths::new(recording);
     let mut tallies: Vec<Vec<Tally>> = wanted
@@ -163,7 +164,7 @@ struct Certified {
 
 impl Certified {
     /// Nothing where the objects are always specks to each other.
-    fn of(part: &parts::Part, solids: &[Solid], stop: &Stop) -> Result<Option<Self>> {
+    fn of(part: &PairPart, solids: &[Solid], stop: &Stop) -> Result<Option<Self>> {
         let [a, b] = part.objects.map(|place| &solids[place as usize]);
         let pairing = paired(&a.outer, &b.outer);
         let speck = specks(&pairing.exact.a, &pairing.exact.b);
@@ -210,7 +211,7 @@ fn paired(a: &Arc<ocb_core::mesh::Mesh>, b: &Arc<ocb_core::mesh::Mesh>) -> Pairi
 
 /// One part in one order.
 struct Measuring<'a> {
-    part: &'a parts::Part,
+    part: &'a PairPart,
     certified: &'a Certified,
     wanted: &'a Wanted<'a>,
     track: Track,

@@ -152,7 +152,7 @@ fn a_crate_depends_only_on_what_is_listed_for_it() {
         ("ocb-sandbox", &["ocb-core", PLUGIN_API]),
         ("ocb-stability", &["ocb-core"]),
         ("ocb-model", &["ocb-advice", "ocb-chart", "ocb-core", "ocb-stability"]),
-        ("ocb-lab", &["ocb-core", "ocb-model", "ocb-sandbox", "ocb-stability"]),
+        ("ocb-lab", &["ocb-advice", "ocb-core", "ocb-model", "ocb-sandbox", "ocb-stability"]),
         (
             "ocb-service",
             &["ocb-advice", "ocb-chart", "ocb-citation", "ocb-core", "ocb-lab", "ocb-model", "ocb-sandbox"],

@@ -1,0 +1,180 @@
+//! No more model than a scene needs: for each object of a recording the simplest body that changes no recorded answer by more than
+//! a tolerance.
+//!
+//! What may stand for an object: a ball, a capsule, a box, its convex hull, a level of detail with fewer triangles. The choice is
+//! made for all objects together, because the errors of both objects of a pair add up. Every recorded query is then certified by
+//! the oracle, about the objects and about what stands for them. The same is done with the last fifth of the recording left out,
+//! which shows what the choice is worth for queries that it has not seen.
+
+mod between;
+mod body;
+mod choose;
+mod report;
+mod stand_in;
+
+use std::sync::Arc;
+
+use ocb_advice::Watch;
+use ocb_core::configuration::Configuration;
+use ocb_core::mesh::Mesh;
+use ocb_core::pose::Pose;
+use ocb_core::workload::{Answered, Kind, Recorded};
+
+use crate::recording::{About, Recording};
+use crate::scene_file::SceneFile;
+use crate::workload::{PairPart, parts};
+use crate::{LabError, Result};
+use between::Interval;
+use choose::{Asked, Problem};
+pub use report::{Changed, HeldOut, ReducedObject, Reduction};
+pub use stand_in::{Body as BodyKind, StandIn};
+
+/// What the reduced scene may do to answers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Terms {
+    /// An answer may be the right one for a distance that differs from the true one by this, in the unit of the scene.
+    pub tolerance: f64,
+    /// The same holds for every query whose objects are moved by less than this, in the unit of the scene.
+    pub near: f64,
+    /// Whatever stands for an object contains it, so that no collision is ever missed.
+    pub outside_only: bool,
+}
+
+/// What foreign libraries make of an object.
+#[derive(Clone, Debug, Default)]
+pub struct Simplified {
+    /// Meshes with fewer and fewer triangles.
+    pub levels: Vec<Arc<Mesh>>,
+    /// The convex hull; absent for a flat object.
+    pub hull: Option<Arc<Mesh>>,
+}
+
+/// Makes levels and hull of an object with this name; nothing when it was stopped. Nothing of what it makes is believed.
+pub type Make<'a> = &'a dyn Fn(&str, &Arc<Mesh>) -> Result<Option<Simplified>>;
+
+/// A reduced scene.
+pub struct Reduced {
+    /// What was replaced, and what that does to answers.
+    pub reduction: Reduction,
+    /// The same queries about the reduced scene, without answers.
+    pub recording: Recording,
+    /// What stands for each object, in the order of the scene.
+    pub stand_ins: Vec<StandIn>,
+}
+
+/// Reduces the scene of a recording; nothing when it was stopped.
+///
+/// # Errors
+/// `Invalid` for terms that make no sense and for a recording of which no query can be used.
+pub fn reduce(recording: &Recording, terms: Terms, make: Make, watch: &dyn Watch) -> Result<Option<Reduced>> {
+    if !(terms.tolerance > 0.0 && terms.tolerance.is_finite()) {
+        return Err(LabError::Invalid("The tolerance must be a positive length.".into()));
+    }
+    if !(terms.near >= 0.0 && 2.0 * terms.near < terms.tolerance) {
+        return Err(LabError::Invalid(
+            "The neighbourhood must be 0 or more, and less than half of the tolerance.".into(),
+        ));
+    }
+    let Some(stand_ins) = stand_ins(recording, terms, make, watch)? else { return Ok(None) };
+    let (asked, left_out) = asked(recording, &stand_ins);
+    if asked.is_empty() {
+        return Err(LabError::Invalid("None of the recorded queries can be used.".into()));
+    }
+    let Some(problem) = Problem::certify(asked, stand_ins, terms, watch) else { return Ok(None) };
+    let (seen, later) = problem.split();
+    let held_out = match later.is_empty() {
+        true => None,
+        false => {
+            let Some(chosen) = problem.choose(&seen, watch) else { return Ok(None) };
+            Some(problem.hold(&chosen, &later))
+        }
+    };
+    let Some(chosen) = problem.choose(&problem.all(), watch) else { return Ok(None) };
+    watch.step("checking", 0, 1);
+    let reduction = report::reduction(recording, &problem, &chosen, held_out, left_out)?;
+    let recording = reduced(recording, &problem, &chosen);
+    let stand_ins = problem.stand_ins.into_iter().zip(chosen).map(|(mut all, at)| all.swap_remove(at)).collect();
+    Ok(Some(Reduced { reduction, recording, stand_ins }))
+}
+
+/// Of each object itself and what may stand for it, the simplest first.
+fn stand_ins(recording: &Recording, terms: Terms, make: Make, watch: &dyn Watch) -> Result<Option<Vec<Vec<StandIn>>>> {
+    let SceneFile { scene, .. } = &recording.scene;
+    let mut all = Vec::new();
+    let total = scene.objects.len() as u64;
+    let mut before: Vec<(&ocb_core::scene::Geometry, usize)> = Vec::new();
+    for (done, object) in scene.objects.iter().enumerate() {
+        watch.step("objects", done as u64, total);
+        // Objects of the same shape share their work.
+        if let Some((_, same)) = before.iter().find(|(geometry, _)| **geometry == object.geometry) {
+            let same: Vec<StandIn> = Vec::clone(&all[*same]);
+            all.push(same);
+            continue;
+        }
+        before.push((&object.geometry, done));
+        let own = stand_in::of(&recording.scene, &object.geometry, &object.name, terms, make)?;
+        let Some(own) = own.filter(|_| !watch.stopped()) else { return Ok(None) };
+        all.push(own);
+    }
+    Ok(Some(all))
+}
+
+/// The queries that can be used, and how many cannot because a pose is no rotation.
+fn asked(recording: &Recording, stand_ins: &[Vec<StandIn>]) -> (Vec<Asked>, u64) {
+    let (parts, bent) = parts(&recording.queries);
+    let unknown = Interval { lo: 0.0, hi: f64::INFINITY };
+    let of_part = |part: PairPart| {
+        let objects = part.objects;
+        part.rows.into_iter().zip(part.configurations).map(move |(row, configuration)| (objects, row, configuration))
+    };
+    let mut asked: Vec<Asked> = parts
+        .into_iter()
+        .flat_map(of_part)
+        .map(|(objects, row, configuration)| {
+            let Recorded { kind, limit, group, .. } = recording.queries[row as usize];
+            let limit = match kind {
+                Kind::Distance => None,
+                Kind::Tolerance => Some(limit.max(0.0)),
+                Kind::Collide | Kind::Contacts => Some(0.0),
+            };
+            Asked { objects, configuration, limit, group, row, truth: unknown }
+        })
+        .collect();
+    asked.sort_by_key(|asked| asked.row);
+    debug_assert!(asked.iter().all(|asked| asked.objects.iter().all(|it| (*it as usize) < stand_ins.len())));
+    (asked, bent)
+}
+
+/// The recording with other objects: each query places what stands for an object where the object was.
+fn reduced(recording: &Recording, problem: &Problem, chosen: &[usize]) -> Recording {
+    let of = |object: usize| &problem.stand_ins[object][chosen[object]];
+    let mut scene = recording.scene.clone();
+    scene.meshes.clear();
+    for (object, at) in scene.scene.objects.iter_mut().zip(0..) {
+        let stand_in = of(at);
+        object.geometry = stand_in.geometry.clone();
+        object.pose = within(&object.pose, &stand_in.place);
+        if let (ocb_core::scene::Geometry::Mesh { sha256, .. }, Some(mesh)) = (&object.geometry, &stand_in.mesh) {
+            scene.meshes.insert(sha256.clone(), mesh.clone());
+        }
+    }
+    let query = |query: &Recorded| {
+        let [a, b] = query.objects.map(|object| &of(object as usize).place);
+        let Configuration { pose_a, pose_b } = &query.configuration;
+        let configuration = Configuration { pose_a: within(pose_a, a), pose_b: within(pose_b, b) };
+        Recorded { configuration, answered: Answered::default(), seconds: None, ..*query }
+    };
+    let about = About { recorder: "ocb advise --workload".into(), ..recording.about.clone() };
+    Recording { scene, about, queries: recording.queries.iter().map(query).collect() }
+}
+
+/// A place in the frame of an object, seen from outside; the object's own frame leaves its numbers as they are.
+fn within(pose: &Pose, place: &Pose) -> Pose {
+    if *place == Pose::identity() {
+        return *pose;
+    }
+    Pose { linear: pose.linear * place.linear, translation: pose.linear * place.translation + pose.translation }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,193 @@
+//! What the choice promises, asked of the oracle again.
+
+use std::collections::HashMap;
+
+use nalgebra::{Rotation3, Vector3};
+use ocb_advice::Unwatched;
+use ocb_core::oracle::{Pair, Shape};
+use ocb_core::scene::{Geometry, Scene, SceneObject, tessellate};
+use ocb_core::stock;
+
+use super::*;
+use crate::workload::mesh_of;
+
+fn knot(triangles: u32) -> Mesh {
+    stock::generate("torus-knot", triangles).expect("a knot")
+}
+
+fn object(name: &str, geometry: Geometry) -> SceneObject {
+    SceneObject {
+        name: name.to_owned(),
+        link: None,
+        geometry,
+        pose: Pose::identity(),
+        source: String::new(),
+        scale: [1.0; 3],
+        licence: None,
+    }
+}
+
+/// Three knots and a ball, of unit size: the first two come near each other, the third stays far away.
+fn recording(queries: Vec<Recorded>) -> Recording {
+    let mut meshes = HashMap::new();
+    let geometry = SceneFile::keep(&mut meshes, knot(2000));
+    let objects = ["a", "b", "far"].map(|name| object(name, geometry.clone()));
+    let ball = object("ball", Geometry::Sphere { radius: 0.3 });
+    let scene =
+        Scene { name: "knots".into(), objects: objects.into_iter().chain([ball]).collect(), disabled: Vec::new() };
+    Recording { scene: SceneFile { scene, meshes }, about: About::default(), queries }
+}
+
+fn turned(x: f64, angle: f64) -> Pose {
+    let linear = *Rotation3::from_euler_angles(angle, 2.0 * angle, 0.3).matrix();
+    Pose { linear, translation: Vector3::new(x, 0.1, -0.2) }
+}
+
+/// Every kind of query about every pair, at many places; each step is a group.
+fn queries(kinds: &[Kind]) -> Vec<Recorded> {
+    let side = knot(2000).longest_side();
+    let mut queries = Vec::new();
+    for step in 0..40 {
+        for &kind in kinds {
+            for objects in [[0, 1], [0, 2], [1, 2], [0, 3]] {
+                let near = if objects[1] == 2 { 9.0 } else { 0.5 + 0.03 * f64::from(step) };
+                let configuration =
+                    Configuration { pose_a: Pose::identity(), pose_b: turned(near * side, 0.2 * f64::from(step)) };
+                queries.push(Recorded {
+                    sequence: queries.len() as u64,
+                    group: u64::from(step as u32),
+                    objects,
+                    configuration,
+                    kind,
+                    limit: if kind == Kind::Tolerance { 0.1 * side } else { 0.0 },
+                    answered: Answered { hit: Some(true), distance: None },
+                    seconds: Some(1.0),
+                    library: 0,
+                });
+            }
+        }
+    }
+    queries
+}
+
+/// The same knot with fewer triangles, and the box as its hull.
+fn make(_: &str, object: &Arc<Mesh>) -> Result<Option<Simplified>> {
+    let bounds = object.bounds();
+    let cuboid = tessellate::outside(&Geometry::Box { size: bounds.sides().into() }, 0.0).expect("a box");
+    let moved = cuboid.positions().iter().map(|p| p + bounds.center().coords).collect();
+    let hull = Mesh::new(moved, cuboid.triangles().to_vec()).expect("a box");
+    let levels = [1400, 1000, 700].map(|triangles| Arc::new(knot(triangles)));
+    Ok(Some(Simplified { levels: levels.into(), hull: Some(Arc::new(hull)) }))
+}
+
+fn done(recording: &Recording, terms: Terms, make: Make) -> Reduced {
+    reduce(recording, terms, make, &Unwatched).expect("a reduction").expect("nothing stops it")
+}
+
+/// The surface distances of the objects of all queries, lower and upper bounds, with polyhedra around curved bodies.
+fn distances(recording: &Recording) -> Vec<[f64; 2]> {
+    let shapes: Vec<Shape> = (0..4).map(|object| Shape::new(mesh_of(recording, object).expect("a mesh"))).collect();
+    let distance = |query: &Recorded| {
+        let [a, b] = query.objects.map(|object| &shapes[object as usize]);
+        let truth = Pair::new(a, b).truth(&query.configuration);
+        [truth.distance_lo, truth.distance_hi]
+    };
+    recording.queries.iter().map(distance).collect()
+}
+
+#[test]
+fn outside_only_misses_no_collision_and_keeps_what_is_far_apart() {
+    let before = recording(queries(&[Kind::Collide]));
+    let side = knot(2000).longest_side();
+    let terms = Terms { tolerance: 0.02 * side, near: 0.0, outside_only: true };
+    let after = done(&before, terms, &make);
+    let bodies: Vec<BodyKind> = after.reduction.objects.iter().map(|it| it.body).collect();
+    assert_eq!(bodies[2], BodyKind::Sphere, "an object that nothing comes near is a ball: {bodies:?}");
+    assert_eq!(bodies[3], BodyKind::Object, "a ball stays what it is");
+    assert_eq!((after.reduction.queries, after.reduction.grazing), (160, 0));
+    let mut hits = 0;
+    for (row, (truth, reduced)) in distances(&before).into_iter().zip(distances(&after.recording)).enumerate() {
+        hits += u64::from(truth[1] == 0.0);
+        // The surfaces of what contains the objects are nearer, unless one body is inside the other.
+        assert!(reduced[0] <= truth[1] + 1e-9 || reduced[0] < side, "{row}: {truth:?} {reduced:?}");
+        assert!(truth[0] <= terms.tolerance || reduced[0] > 0.0, "{row}: {truth:?} became a collision");
+    }
+    assert!(hits > 5 && after.reduction.hits >= hits - 2, "{hits} {:?}", after.reduction.hits);
+    assert!(after.recording.queries.iter().all(|query| query.answered == Answered::default()));
+}
+
+#[test]
+fn distances_change_by_no_more_than_the_tolerance_also_where_objects_are_moved() {
+    let before = recording(queries(&[Kind::Distance, Kind::Tolerance]));
+    let side = knot(2000).longest_side();
+    let terms = Terms { tolerance: 0.05 * side, near: 0.01 * side, outside_only: false };
+    let mut after = done(&before, terms, &make);
+    let bodies: Vec<BodyKind> = after.reduction.objects.iter().map(|it| it.body).collect();
+    assert!(bodies[..3].contains(&BodyKind::Level), "{bodies:?}");
+    assert!(after.reduction.objects.iter().map(|it| it.after).sum::<u64>() < 4_500);
+    let largest = after.reduction.largest_change.expect("distances were asked for");
+    assert!(largest > 0.0 && largest + 2.0 * terms.near <= terms.tolerance);
+    let mut moved = recording(before.queries.clone());
+    for step in [0.0, 0.99] {
+        for (row, query) in moved.queries.iter_mut().enumerate() {
+            let along = Vector3::new(1.0, (row % 5) as f64 - 2.0, (row % 3) as f64).normalize() * (step * terms.near);
+            query.configuration.pose_b.translation += along;
+            after.recording.queries[row].configuration.pose_b.translation += along;
+        }
+        let both = distances(&moved).into_iter().zip(distances(&after.recording));
+        for (row, ([lo, hi], [below, above])) in both.enumerate() {
+            let off = (above - lo).max(hi - below);
+            // A far pair may change by anything where only a limit is asked.
+            let free = moved.queries[row].kind == Kind::Tolerance && lo.min(below) > moved.queries[row].limit;
+            // Of the ball this looks at the polyhedron around it.
+            let ball = if moved.queries[row].objects[1] == 3 { 0.005 * 0.3 } else { 0.0 };
+            assert!(free || off <= terms.tolerance + ball, "{row}: {lo} to {hi} became {below} to {above}");
+        }
+    }
+}
+
+#[test]
+fn what_a_foreign_library_makes_is_not_believed() {
+    let before = recording(queries(&[Kind::Collide, Kind::Distance]));
+    let side = knot(2000).longest_side();
+    let lies = |_: &str, object: &Arc<Mesh>| {
+        let smaller = object.positions().iter().map(|p| p * 0.5).collect();
+        let smaller = Arc::new(Mesh::new(smaller, object.triangles()[..700].to_vec()).expect("a mesh"));
+        Ok(Some(Simplified { levels: vec![smaller.clone()], hull: Some(smaller) }))
+    };
+    for outside_only in [true, false] {
+        let after = done(&before, Terms { tolerance: 0.01 * side, near: 0.0, outside_only }, &lies);
+        let bodies: Vec<BodyKind> = after.reduction.objects.iter().map(|it| it.body).collect();
+        assert!(!bodies.contains(&BodyKind::Hull), "a hull that contains nothing is none: {bodies:?}");
+        assert!(!bodies[..2].contains(&BodyKind::Level), "{bodies:?}");
+    }
+}
+
+#[test]
+fn a_choice_that_does_not_hold_later_says_so() {
+    // The last fifth comes much nearer than anything before.
+    let mut asked = queries(&[Kind::Collide]);
+    let side = knot(2000).longest_side();
+    for query in &mut asked {
+        let near = if query.group < 32 { 5.0 } else { 0.72 + 0.01 * (query.group - 32) as f64 };
+        query.configuration.pose_b.translation.x = near * side;
+    }
+    let terms = Terms { tolerance: 0.01 * side, near: 0.0, outside_only: true };
+    let after = done(&recording(asked), terms, &make);
+    let held_out = after.reduction.held_out.expect("a fifth is held out");
+    assert_eq!((held_out.queries, held_out.missed), (32, 0));
+    assert!(held_out.changed.seen > 0 && held_out.examples.len() == held_out.changed.seen as usize);
+    // The certificate is about the choice that has seen them all.
+    assert!(after.reduction.objects[..2].iter().any(|it| it.body != BodyKind::Sphere), "{:?}", after.reduction.objects);
+}
+
+#[test]
+fn terms_without_sense_are_refused() {
+    let before = recording(queries(&[Kind::Collide]));
+    let refused = |tolerance, near| {
+        let terms = Terms { tolerance, near, outside_only: false };
+        reduce(&before, terms, &make, &Unwatched).err().map(|e| e.to_string()).unwrap_or_default()
+    };
+    assert!(refused(0.0, 0.0).contains("tolerance") && refused(f64::NAN, 0.0).contains("tolerance"));
+    assert!(refused(1.0, 0.5).contains("half") && refused(1.0, -1.0).contains("0 or more"));
+}
