@@ -11,6 +11,7 @@ mod body;
 mod choose;
 mod report;
 mod stand_in;
+mod urdf;
 
 use std::sync::Arc;
 
@@ -28,6 +29,7 @@ use between::Interval;
 use choose::{Asked, Problem};
 pub use report::{Changed, HeldOut, ReducedObject, Reduction};
 pub use stand_in::{Body as BodyKind, StandIn};
+pub use urdf::{Urdf, urdf};
 
 /// What the reduced scene may do to answers.
 #[derive(Clone, Copy, Debug, PartialEq)]

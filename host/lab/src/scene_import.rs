@@ -7,7 +7,7 @@
 
 mod assembly;
 mod element;
-mod kinematics;
+pub(crate) mod kinematics;
 mod mjcf;
 mod packages;
 mod pairs;

@@ -1,5 +1,7 @@
 //! What the choice promises, asked of the oracle again.
 
+mod robot;
+
 use std::collections::HashMap;
 
 use nalgebra::{Rotation3, Vector3};
