@@ -37,6 +37,8 @@ pub enum Task {
         /// Certificates of its levels that were found before.
         known: Vec<Certificate>,
     },
+    /// What may stand for an object, without certificates: [`Reply::Simpler`].
+    Simplify(Parts),
     /// Advice about a scene: [`Reply::Advice`].
     Advise(Box<Scene>),
 }
@@ -72,12 +74,23 @@ pub struct Object {
 pub enum Reply {
     /// The levels of an object, the finest first.
     Ladder(Vec<Rung>),
+    /// What may stand for an object.
+    Simpler(Simpler),
     /// Advice about a scene.
     Advice(Box<Advice>),
     /// The second object never comes that close.
     NeverThatClose,
     /// There are no such configurations, and why.
     Impossible(String),
+}
+
+/// What may stand for an object. Nothing is known of how well it does.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Simpler {
+    /// Levels with fewer and fewer triangles.
+    pub levels: Vec<Parts>,
+    /// The convex hull; absent for a flat object.
+    pub hull: Option<Parts>,
 }
 
 /// A level of an object.

@@ -62,7 +62,7 @@ pub fn ladder(object: &Arc<Mesh>, known: &[Certificate], watch: &dyn Watch) -> O
 }
 
 /// Half of the object's triangles, a quarter, and so on, as far as that goes.
-fn meshes(object: &Mesh) -> Vec<Mesh> {
+pub(crate) fn meshes(object: &Mesh) -> Vec<Mesh> {
     let mut meshes: Vec<Mesh> = Vec::new();
     let mut target = object.triangles().len() / 2;
     while target >= FEWEST {

@@ -32,21 +32,15 @@ impl Proxy {
         // Pairs of triangles, seen from outside.
         let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
-        Self::convex((0..8).map(corner).collect(), triangles)
+        Self::convex(Mesh::new((0..8).map(corner).collect(), triangles).ok()?)
     }
 
     /// The convex hull; `None` where there is none (a flat object).
     pub fn hull(mesh: &Mesh) -> Option<Self> {
-        let used = mesh.triangles().as_flattened().iter().map(|&v| mesh.positions()[v as usize]);
-        let mut points: Vec<Vector> = used.map(|p| Vector::new(p.x, p.y, p.z)).collect();
-        points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
-        points.dedup();
-        let (corners, triangles) = try_convex_hull(&points).ok()?;
-        Self::convex(corners.iter().map(|p| Point3::new(p.x, p.y, p.z)).collect(), triangles)
+        Self::convex(hull(mesh)?)
     }
 
-    fn convex(corners: Vec<Point3<f64>>, triangles: Vec<[u32; 3]>) -> Option<Self> {
-        let mesh = Mesh::new(corners, triangles).ok()?;
+    fn convex(mesh: Mesh) -> Option<Self> {
         let plane = |t: u32| {
             let [a, b, c] = mesh.corners(t);
             Some(((b - a).cross(&(c - a)).try_normalize(0.0)?, a))
@@ -63,6 +57,16 @@ impl Proxy {
     fn contains(&self, point: &Point3<f64>) -> bool {
         self.planes.iter().all(|(normal, on)| normal.dot(&(point - on)) <= 0.0)
     }
+}
+
+/// The convex hull of a mesh; `None` where there is none.
+pub fn hull(mesh: &Mesh) -> Option<Mesh> {
+    let used = mesh.triangles().as_flattened().iter().map(|&v| mesh.positions()[v as usize]);
+    let mut points: Vec<Vector> = used.map(|p| Vector::new(p.x, p.y, p.z)).collect();
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
+    points.dedup();
+    let (corners, triangles) = try_convex_hull(&points).ok()?;
+    Mesh::new(corners.iter().map(|p| Point3::new(p.x, p.y, p.z)).collect(), triangles).ok()
 }
 
 /// The distance of two proxies as solid bodies, as f64 computes it.

@@ -2,14 +2,15 @@
 
 use std::sync::Arc;
 
-use ocb_advice::work::{Object, Order, Parts, Reply, Rung, STEPS, Scene as Asked, Task};
+use ocb_advice::work::{Object, Order, Parts, Reply, Rung, STEPS, Scene as Asked, Simpler, Task};
 use ocb_advice::{Certificate, Watch};
 use ocb_core::mesh::Mesh;
 use ocb_core::sampling::SamplingError;
 use ocb_sandbox::inside::task::Desk;
 
 use crate::advice::{Scene, advise};
-use crate::ladder::{Level, ladder};
+use crate::ladder::{Level, ladder, meshes};
+use crate::proxy::hull;
 use crate::scene::sample;
 
 /// Steps go to the supervisor; who wants no more of it ends the process.
@@ -40,6 +41,11 @@ pub fn work(order: &[u8], may_start_threads: bool, desk: &Desk<'_>) -> Vec<u8> {
     let told = Told(desk);
     let reply = match task {
         Task::Ladder { object, known } => Reply::Ladder(rungs(&whole(object), &known, &told)),
+        Task::Simplify(object) => {
+            let object = whole(object);
+            let levels = meshes(&object).iter().map(Parts::of).collect();
+            Reply::Simpler(Simpler { levels, hull: hull(&object).as_ref().map(Parts::of) })
+        }
         Task::Advise(scene) => advice(*scene, &told, desk),
     };
     serde_json::to_vec(&reply).expect("plain data is always JSON")

@@ -62,7 +62,7 @@ pub use ocb_lab::measure::Stop;
 pub use ocb_lab::recording::{self, Recording};
 pub use ocb_lab::replay::Unpacked;
 pub use ocb_lab::stability::Selection as StabilitySelection;
-pub use ocb_lab::{scene_file, scene_import, truth, workload};
+pub use ocb_lab::{reduce, scene_file, scene_import, truth, workload};
 pub use ocb_model as model;
 pub use ocb_sandbox::{doctor, given};
 pub use owned::archive::Contents;

@@ -7,13 +7,16 @@ mod common;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::sync::Arc;
 use std::time::Duration;
 
 use ocb_advice::work::{Order, Parts, Reply, Rung, Task};
-use ocb_advice::{Certificate, Question, VERSION};
+use ocb_advice::{Certificate, Question, Unwatched, VERSION};
 use ocb_core::mesh::Mesh;
 use ocb_sandbox::inside::task;
+use ocb_service::advising::Advisor;
 use ocb_service::model::{AdviceInfo, AdviceSpec, Asked, State};
+use ocb_service::truth::Machine;
 use ocb_service::{Engine, EngineConfig, Visitor};
 
 /// Objects of some 1200 triangles and of fewer.
@@ -43,6 +46,10 @@ fn misbehave(order: &[u8]) -> Vec<u8> {
             let object = object.mesh().unwrap();
             let levels = if object.triangles().len() < 800 { vec![lie(&object)] } else { Vec::new() };
             return serde_json::to_vec(&Reply::Ladder(levels)).unwrap();
+        }
+        // A hull without corners that are there.
+        Task::Simplify(_) => {
+            return br#"{"Simpler": {"levels": [], "hull": {"positions": [], "triangles": [[0, 1, 2]]}}}"#.to_vec();
         }
         Task::Advise(scene) => scene,
     };
@@ -116,6 +123,13 @@ async fn what_an_advisor_does_wrong_costs_its_advice_alone() {
         let told = format!("The advisor failed: {told}.");
         assert_eq!((info.state, info.message), (State::Failed, Some(told)), "{object}, {tolerance}");
     }
+    let simplified = || {
+        let knot = Arc::new(ocb_core::stock::generate("torus-knot", 2000).unwrap());
+        let advisor = Advisor::new(&data.join("failing-advisor"), &Machine::observe().unwrap(), data);
+        // A thread of its own, which lives as long as the work.
+        std::thread::scope(|scope| scope.spawn(|| advisor.simplify("knot", &knot, &Unwatched)).join().unwrap())
+    };
+    assert!(simplified().unwrap_err().to_string().contains("its reply makes no sense"));
     // One that never ends is stopped.
     let id = ask(&engine, KNOT, 0.05).await;
     while engine.advice(&id).await.expect("it is there").state == State::Queued || processes().is_empty() {
@@ -126,6 +140,9 @@ async fn what_an_advisor_does_wrong_costs_its_advice_alone() {
     assert_eq!(processes(), Vec::<i32>::new());
     // The next advice is as good as ever.
     advisor(data, &common::built().join("ocb-advisor"));
+    let made = simplified().unwrap().unwrap();
+    let triangles: Vec<usize> = made.levels.iter().map(|level| level.triangles().len()).collect();
+    assert!(triangles.len() > 2 && triangles.is_sorted_by(|a, b| a > b) && made.hull.is_some(), "{triangles:?}");
     let info = ended(&engine, &ask(&engine, KNOT, 0.05).await).await;
     assert_eq!(info.state, State::Done, "{:?}", info.message);
     assert!(info.advice.is_some_and(|advice| advice.triangles_after < advice.triangles_before));

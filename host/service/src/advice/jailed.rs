@@ -8,9 +8,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use ocb_advice::work::{Object, Order, Parts, Reply, Rung, STEPS, Scene, Task};
+use ocb_advice::work::{Object, Order, Parts, Reply, Rung, STEPS, Scene, Simpler, Task};
 use ocb_advice::{Advice, Certificate, Question, Watch};
 use ocb_core::mesh::Mesh;
+use ocb_lab::reduce::Simplified;
 use ocb_sandbox::text::one_line;
 use ocb_sandbox::work::{Seen, Work};
 use ocb_sandbox::{Ending, Outcome, Policy};
@@ -32,6 +33,8 @@ const LONGEST: Duration = Duration::from_secs(3600);
 const MEMORY: u64 = 8 << 30;
 /// The longest reply.
 const ROOM: usize = 1 << 30;
+/// Levels in one at most: each has at most 80 % of the triangles of the one before.
+const MOST_LEVELS: usize = 100;
 /// The longest text in one.
 const TEXT: usize = 500;
 
@@ -131,7 +134,7 @@ impl Advisor {
                 let why = one_line(&why, TEXT);
                 return Err(EngineError::Invalid(format!("These configurations are not possible: {why}.")));
             }
-            Reply::Ladder(_) => return Err(nonsense("it sent something else than advice")),
+            Reply::Ladder(_) | Reply::Simpler(_) => return Err(nonsense("it sent something else than advice")),
         };
         let triangles = [&of_a, &of_b].map(|levels| sizes(levels));
         let vertices = [a, b].map(|mesh| mesh.positions().len());
@@ -158,6 +161,21 @@ impl Advisor {
         let known: Vec<Certificate> = levels.iter().filter_map(|level| level.certificate.clone()).collect();
         self.shelf.put(&hash, &known);
         Ok(Some(levels))
+    }
+
+    /// What may stand for an object with this name, without certificates; `None` when it was stopped.
+    ///
+    /// # Errors
+    /// As for [`Advisor::advise`].
+    pub fn simplify(&self, name: &str, object: &Mesh, watch: &dyn Watch) -> Result<Option<Simplified>> {
+        let Simpler { levels, hull } = match self.run(Task::Simplify(Parts::of(object)), name, watch)? {
+            Some(Reply::Simpler(simpler)) => simpler,
+            Some(_) => return Err(nonsense("it sent something else than bodies")),
+            None => return Ok(None),
+        };
+        let mesh = |parts: Parts| parts.mesh().map(Arc::new).map_err(|e| nonsense(&e.to_string()));
+        let levels = levels.into_iter().take(MOST_LEVELS).map(mesh).collect::<Result<_>>()?;
+        Ok(Some(Simplified { levels, hull: hull.map(mesh).transpose()? }))
     }
 
     /// Does one piece of work in a jail; `None` when it was stopped. `name` belongs to the object whose levels are made.
