@@ -1,10 +1,10 @@
 //! `ocb advise`: how much of the models a question needs.
 
 mod files;
-mod lengths;
+pub mod lengths;
 mod text;
 mod verify;
-mod work;
+pub mod work;
 
 use std::process::ExitCode;
 

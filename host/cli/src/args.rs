@@ -26,7 +26,7 @@ pub use mail::MailArgs;
 pub use plugins::{AdminCommand, PluginCommand, SubmitArgs};
 pub use record::RecordArgs;
 pub use runs::{ReplayArgs, RunCommand};
-pub use scene::{ImportArgs, SceneCommand};
+pub use scene::{ImportArgs, ReduceArgs, SceneCommand};
 pub use services::{CiteArgs, CiteAs, Cited, LookArgs, ServiceArgs, Shown, VisibilityArgs};
 pub use suite::{SuiteCommand, SuiteRunArgs};
 

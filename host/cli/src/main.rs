@@ -79,7 +79,7 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Plugin { command } => plugin::plugin(&store, &command, json).await,
         Command::Object { command } => object::object(&store, &command, json).await,
         Command::Run { command } => run::run(&store, &command, json).await,
-        Command::Scene { command } => scene::scene(&command, json),
+        Command::Scene { command } => scene::scene(&store, &command, json).await,
         Command::Record(args) => record::record(&args, json).await,
         Command::Replay(args) => replay::replay(&store, &args, json).await,
         Command::Submit(args) => submit::submit(&args, json).await,

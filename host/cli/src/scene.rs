@@ -1,5 +1,7 @@
 //! `ocb scene`: robots as scenes, and what a scene consists of.
 
+mod reduce;
+
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::ExitCode;
@@ -9,13 +11,14 @@ use ocb_service::scene_file::SceneFile;
 use ocb_service::scene_import::{self, Wanted};
 use serde::Serialize;
 
-use crate::args::{ImportArgs, SceneCommand};
+use crate::args::{ImportArgs, SceneCommand, Store};
 use crate::failure::Result;
 use crate::output;
 
-/// Imports or shows.
-pub fn scene(command: &SceneCommand, json: bool) -> Result<ExitCode> {
+/// Imports, reduces or shows.
+pub async fn scene(store: &Store, command: &SceneCommand, json: bool) -> Result<ExitCode> {
     match command {
+        SceneCommand::Reduce(args) => reduce::reduce(store, args, json).await,
         SceneCommand::Import(args) => import(args, json),
         SceneCommand::Show { file } => show(file, json),
     }

@@ -59,7 +59,7 @@ fn spec(args: &BenchArgs) -> Result<WorkloadSpec> {
 }
 
 /// Nothing when interrupted.
-async fn replay(engine: &Engine, recording: Arc<Recording>, spec: WorkloadSpec) -> Result<Option<Replayed>> {
+pub async fn replay(engine: &Engine, recording: Arc<Recording>, spec: WorkloadSpec) -> Result<Option<Replayed>> {
     let interrupted = serve::stop_signal()?;
     let stop = Stop::default();
     let said = AtomicU64::new(u64::MAX);

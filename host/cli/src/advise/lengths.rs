@@ -61,6 +61,14 @@ impl Wanted {
     }
 }
 
+/// A length of a scene, in its unit.
+pub fn of_scene(what: &str, given: &str, unit: Unit, zero: bool) -> Result<f64> {
+    match length(what, given, unit, zero)? {
+        Length::Units(units) => Ok(units),
+        Length::Share(_) => Err(Failure::Input(format!("{what} must be a length such as 1mm, not a share."))),
+    }
+}
+
 fn length(what: &str, given: &str, unit: Unit, zero: bool) -> Result<Length> {
     let metres = |unit| match unit {
         Unit::Mm => 0.001,

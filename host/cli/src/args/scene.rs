@@ -4,11 +4,16 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
+use super::Unit;
+
 /// `ocb scene`
 #[derive(Debug, Subcommand)]
 pub enum SceneCommand {
     /// Import the collision geometry of a robot, placed by its joints, with the pairs that are not asked.
     Import(ImportArgs),
+    /// Replace each object of a recording by the simplest body that keeps every recorded answer within a tolerance, certified for
+    /// each recorded query, and measure what that saves.
+    Reduce(ReduceArgs),
     /// List the objects of a scene or a recording.
     Show {
         /// A scene (.ocbscene) or a recording (.ocbrec).
@@ -34,6 +39,44 @@ pub struct ImportArgs {
     /// File to write (.ocbscene).
     #[arg(short, long, value_name = "FILE")]
     pub out: PathBuf,
+}
+
+/// `ocb scene reduce`
+#[derive(Debug, Args)]
+pub struct ReduceArgs {
+    /// The recording (.ocbrec).
+    pub recording: PathBuf,
+    /// Largest change: of a distance that was asked for, or of the distance at which an answer turns from no to yes; a length such
+    /// as 1mm or 0.001 (units of the scene).
+    #[arg(long, value_name = "LENGTH")]
+    pub tolerance: String,
+    /// The same shall hold where the objects are moved by less than this length.
+    #[arg(long, value_name = "LENGTH", default_value = "0")]
+    pub near: String,
+    /// Every body contains the object that it stands for, so that no collision is missed, anywhere.
+    #[arg(long)]
+    pub outside_only: bool,
+    /// Unit of the scene, for lengths such as 1mm.
+    #[arg(long, value_enum, default_value_t = Unit::M)]
+    pub unit: Unit,
+    /// Algorithms that replay the queries about both scenes [default: no replay].
+    #[arg(long, value_delimiter = ',', value_name = "ID")]
+    pub algorithm: Vec<String>,
+    /// Processes per algorithm and pair of objects in each replay.
+    #[arg(long, default_value_t = 1)]
+    pub passes: u32,
+    /// Measuring time per algorithm in each replay.
+    #[arg(long, default_value_t = 60.0, value_name = "SECONDS")]
+    pub budget: f64,
+    /// Also write this robot with the simpler bodies as collision geometry. Its objects must have the names of `ocb scene import`.
+    #[arg(long, value_name = "FILE")]
+    pub urdf: Option<PathBuf>,
+    /// Folder of a package that `package://NAME/` names, as for `ocb scene import`.
+    #[arg(long, value_name = "NAME=DIR", value_parser = package, requires = "urdf")]
+    pub package: Vec<(String, PathBuf)>,
+    /// Folder for the reduced recording (reduced.ocbrec), the report (reduction.json) and the robot.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 fn package(text: &str) -> Result<(String, PathBuf), String> {

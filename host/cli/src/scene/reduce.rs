@@ -1,0 +1,159 @@
+//! `ocb scene reduce`: no more model than a recorded program needs.
+
+mod text;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+
+use ocb_service::advising::{Advisor, SHELF};
+use ocb_service::model::{Track, WorkloadResult, WorkloadSpec};
+use ocb_service::reduce::{self, Reduced, Reduction, Terms};
+use ocb_service::scene_import::Wanted;
+use ocb_service::truth::Machine;
+use ocb_service::{LabError, Recording};
+use serde::Serialize;
+
+use crate::advise::{lengths, work};
+use crate::args::{ReduceArgs, Store};
+use crate::failure::{Failure, INTERRUPTED, NOT_ALL_WELL, Result};
+use crate::open::{self, Purpose};
+use crate::{output, workload};
+
+/// What is printed and written.
+#[derive(Serialize)]
+struct Report {
+    #[serde(flatten)]
+    reduction: Reduction,
+    /// What the reduced scene saves.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    speed: Vec<Speed>,
+}
+
+/// An algorithm on both scenes. Each was replayed twice, in the order objects, bodies, bodies, objects.
+#[derive(Serialize)]
+struct Speed {
+    algorithm: String,
+    /// Mean time of a query about the objects, nanoseconds.
+    before_ns: f64,
+    /// Mean time of a query about what stands for them, nanoseconds.
+    after_ns: f64,
+    /// How many times faster, of either half of the replays.
+    faster: [f64; 2],
+    /// Wrong answers about what stands for them.
+    wrong: u64,
+}
+
+/// Reduces, replays, prints, writes.
+pub async fn reduce(store: &Store, args: &ReduceArgs, json: bool) -> Result<ExitCode> {
+    let recording = Arc::new(Recording::read(&args.recording)?);
+    let terms = Terms {
+        tolerance: lengths::of_scene("The tolerance", &args.tolerance, args.unit, false)?,
+        near: lengths::of_scene("The neighbourhood", &args.near, args.unit, true)?,
+        outside_only: args.outside_only,
+    };
+    let spec = WorkloadSpec {
+        algorithms: args.algorithm.clone(),
+        tracks: vec![Track::Shuffled],
+        passes: args.passes,
+        budget_seconds: args.budget,
+        seed: None,
+    };
+    spec.check().map_err(Failure::Input)?;
+    if let Some(folder) = &args.out {
+        std::fs::create_dir_all(folder).map_err(|e| Failure::file("create the folder", folder, &e))?;
+    }
+    let advisor = Advisor::new(&open::advisor(store), &Machine::observe()?, &open::data(store)?.join(SHELF));
+    let of = recording.clone();
+    let reduced = work::watch(move |watch| {
+        let make = |name: &str, object: &Arc<_>| {
+            advisor.simplify(name, object, watch).map_err(|e| LabError::Invalid(e.to_string()))
+        };
+        reduce::reduce(&of, terms, &make, watch)
+    });
+    let Some(Reduced { reduction, recording: after, stand_ins }) = reduced.await?? else { return Ok(stopped()) };
+    let reduced = Reduced { reduction: reduction.clone(), recording: after, stand_ins };
+    let mut written = Vec::new();
+    if let Some(robot) = &args.urdf {
+        let wanted = Wanted { packages: args.package.clone(), ..Wanted::default() };
+        let made = reduce::urdf(robot, &wanted, &recording, &reduced)?;
+        if let Some(folder) = &args.out {
+            let name = robot.file_name().unwrap_or_default().to_string_lossy();
+            written.push(write(folder, &name, made.text.as_bytes())?);
+            for (name, bytes) in &made.meshes {
+                written.push(write(folder, name, bytes)?);
+            }
+        }
+    }
+    let after = Arc::new(reduced.recording);
+    let speed = match args.algorithm.is_empty() {
+        true => Some(Vec::new()),
+        false => speed(store, &spec, &recording, &after).await?,
+    };
+    let Some(speed) = speed else { return Ok(stopped()) };
+    let report = Report { reduction, speed };
+    if let Some(folder) = &args.out {
+        let path = folder.join("reduced.ocbrec");
+        after.write(&path)?;
+        written.push(path);
+        written.push(write(folder, "reduction.json", output::to_json(&report)?.as_bytes())?);
+    }
+    if json {
+        output::print_json(&report)?;
+    } else {
+        let names = recording.scene.scene.objects.iter().map(|object| object.name.as_str());
+        output::print(&text::text(&report, &names.collect::<Vec<_>>(), &written))?;
+    }
+    let wrong = report.speed.iter().any(|speed| speed.wrong > 0);
+    Ok(ExitCode::from(if wrong { NOT_ALL_WELL } else { 0 }))
+}
+
+fn stopped() -> ExitCode {
+    eprintln!("ocb: Stopped; nothing was kept.");
+    ExitCode::from(INTERRUPTED)
+}
+
+fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf> {
+    let path = folder.join(name);
+    let parent = path.parent().unwrap_or(folder);
+    std::fs::create_dir_all(parent).map_err(|e| Failure::file("create the folder", parent, &e))?;
+    std::fs::write(&path, bytes).map_err(|e| Failure::file("write", &path, &e))?;
+    Ok(path)
+}
+
+/// Replays both scenes in turn; nothing when interrupted.
+async fn speed(
+    store: &Store,
+    spec: &WorkloadSpec,
+    before: &Arc<Recording>,
+    after: &Arc<Recording>,
+) -> Result<Option<Vec<Speed>>> {
+    let engine = open::open(store, Purpose::Look).await?;
+    let mut results: Vec<WorkloadResult> = Vec::new();
+    for recording in [before, after, after, before] {
+        match workload::replay(&engine, recording.clone(), spec.clone()).await {
+            Ok(Some(replayed)) => results.push(replayed.result),
+            other => {
+                engine.shutdown().await;
+                return other.map(|_| None);
+            }
+        }
+    }
+    engine.shutdown().await;
+    let found = |result: &WorkloadResult, at: usize| {
+        let it = &result.tracks[0].algorithms[at];
+        it.total.filter(|_| it.n > 0).map_or(f64::NAN, |total| total.ns / it.n as f64)
+    };
+    let one = |(at, it): (usize, &ocb_service::model::AlgorithmOnWorkload)| {
+        let [first, second, third, last] = [0, 1, 2, 3].map(|replay| found(&results[replay], at));
+        let wrong = results[1..3].iter().map(|result| result.tracks[0].algorithms[at].wrong).max();
+        Speed {
+            algorithm: it.algorithm.clone(),
+            before_ns: f64::midpoint(first, last),
+            after_ns: f64::midpoint(second, third),
+            faster: [first / second, last / third],
+            wrong: wrong.unwrap_or_default(),
+        }
+    };
+    Ok(Some(results[0].tracks[0].algorithms.iter().enumerate().map(one).collect()))
+}
