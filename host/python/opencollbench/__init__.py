@@ -18,6 +18,7 @@ from .errors import Error, MissingPackage, Notice
 from .loading import load_run
 from .positions import Positions
 from .recorders import record
+from .reduction import Reduction, reduce_scene
 from .run import Run
 from .service import Service
 from .tables import Parquet, Rows, Table
@@ -33,6 +34,7 @@ __all__ = [
     "Notice",
     "Parquet",
     "Positions",
+    "Reduction",
     "Rows",
     "Run",
     "Service",
@@ -43,6 +45,7 @@ __all__ = [
     "generate",
     "load_run",
     "record",
+    "reduce_scene",
     "replay",
     "truth",
 ]

@@ -11,7 +11,7 @@ import numpy
 import recording
 import support
 import trimesh
-from opencollbench import Command, Error, Positions, advise, bench, generate, load_run, replay, truth
+from opencollbench import Command, Error, Positions, advise, bench, generate, load_run, reduce_scene, replay, truth
 from opencollbench.command import command
 from opencollbench.progress import Silent
 
@@ -142,6 +142,24 @@ class Others(unittest.TestCase):
         self.assertEqual([each["claim"] for each in workload.false_answers()], ["distance_over"])
         one = replay(path, "box-tree", order="recorded", passes=1, **QUIET)
         self.assertEqual([row["order"] for row in one.summary()], ["recorded"])
+
+    def test_a_scene_is_reduced_and_replayed(self) -> None:
+        path = support.FOLDER / "robot.ocbrec"
+        recording.write(path)
+        reduction = reduce_scene(path, 0.01, algorithms="box-tree", **QUIET)
+        # A box is exact, and a ball or a capsule is not.
+        self.assertEqual([(row["body"], row["before"], row["after"]) for row in reduction.objects()], [("box", 12, 6)] * 2)
+        self.assertEqual((reduction.data["queries"], reduction.data["held_out"]["queries"]), (20, 4))
+        self.assertLess(reduction.data["largest_change"], 1e-6)
+        self.assertEqual([(row["algorithm"], row["wrong"]) for row in reduction.speed()], [("box-tree", 0)])
+        again = support.FOLDER / "reduced.ocbrec"
+        again.write_bytes(reduction.recording())
+        workload = replay(again, "box-tree", order="recorded", passes=1, **QUIET)
+        self.assertTrue(workload.ok, workload.data)
+        balls = reduce_scene(path, "1m", outside_only=True, **QUIET)
+        self.assertEqual([row["body"] for row in balls.objects()], ["sphere"] * 2)
+        with self.assertRaisesRegex(Error, "half of the tolerance"):
+            reduce_scene(path, 0.01, near=0.005, **QUIET)
 
     def test_a_data_folder_of_its_own(self) -> None:
         mine = Command(data=support.FOLDER / "mine")
