@@ -9,7 +9,7 @@ import sys
 import numpy as np
 
 from .patching import replace
-from .shapes import Shapes, recording
+from .shapes import Shapes, named, recording
 from .spool import ANSWERED, COLLIDE, CONTACTS, DISTANCE, HIT, MEASURED, TOLERANCE, Unusable
 
 #: What a result has as distance before anything was asked.
@@ -69,24 +69,24 @@ class _Coal:
 
     def number(self, spool, geometry):
         """The number of a geometry in the spool."""
-        coal, shapes = self.coal, self.shapes
+        coal, shapes, name = self.coal, self.shapes, named(geometry)
         if isinstance(geometry, coal.BVHModelBase):
             vertices = geometry.vertices()
             mark = geometry.id(), geometry.num_tris, len(vertices), vertices[[0, len(vertices) // 2]].tobytes(), _bounds(geometry)
-            return shapes.mesh(spool, mark, lambda: (vertices.copy(), _corners(geometry.tri_indices, geometry.num_tris)))
+            return shapes.mesh(spool, mark, lambda: (vertices.copy(), _corners(geometry.tri_indices, geometry.num_tris)), name)
         if isinstance(geometry, coal.ShapeBase) and geometry.getSweptSphereRadius() > 0:
             raise Unusable("a body with a swept sphere is not recorded")
         if isinstance(geometry, coal.Convex):
             points = geometry.points()
             mark = geometry.id(), geometry.num_polygons, len(points), points[[0, len(points) // 2]].tobytes(), _bounds(geometry)
-            return shapes.convex(spool, mark, lambda: (points.copy(), _corners(geometry.polygons, geometry.num_polygons)))
+            return shapes.convex(spool, mark, lambda: (points.copy(), _corners(geometry.polygons, geometry.num_polygons)), name)
         if isinstance(geometry, coal.Box):
-            return shapes.primitive(spool, "box", *(2 * geometry.halfSide).tolist())
+            return shapes.primitive(spool, "box", *(2 * geometry.halfSide).tolist(), name=name)
         if isinstance(geometry, coal.Sphere):
-            return shapes.primitive(spool, "sphere", geometry.radius)
+            return shapes.primitive(spool, "sphere", geometry.radius, name=name)
         for kind, of in [("cylinder", coal.Cylinder), ("capsule", coal.Capsule)]:
             if isinstance(geometry, of):
-                return shapes.primitive(spool, kind, geometry.radius, 2 * geometry.halfLength)
+                return shapes.primitive(spool, kind, geometry.radius, 2 * geometry.halfLength, name=name)
         raise Unusable(f"{type(geometry).__name__} is not a recorded kind of object")
 
 

@@ -7,7 +7,7 @@ import sys
 
 from . import fcl_memory, session
 from .patching import leave, replace
-from .shapes import Shapes, recording
+from .shapes import Shapes, named, recording
 from .spool import ANSWERED, COLLIDE, CONTACTS, DISTANCE, HIT, MEASURED, Unusable
 
 #: What FCL gives as distance where it has no algorithm for a pair.
@@ -91,17 +91,17 @@ class _Fcl:
 
     def number(self, spool, geometry):
         """The number of a geometry in the spool."""
-        fcl, shapes = self.fcl, self.shapes
+        fcl, shapes, name = self.fcl, self.shapes, named(geometry)
         if isinstance(geometry, fcl.BVHModel):
-            return shapes.mesh(spool, fcl_memory.fingerprint(geometry), lambda: fcl_memory.model(geometry))
+            return shapes.mesh(spool, fcl_memory.fingerprint(geometry), lambda: fcl_memory.model(geometry), name)
         if isinstance(geometry, fcl.Convex):
             mark = fcl_memory.convex_fingerprint(geometry)
-            return shapes.convex(spool, mark, lambda: fcl_memory.convex(geometry))
+            return shapes.convex(spool, mark, lambda: fcl_memory.convex(geometry), name)
         if isinstance(geometry, fcl.Box):
-            return shapes.primitive(spool, "box", *geometry.side.tolist())
+            return shapes.primitive(spool, "box", *geometry.side.tolist(), name=name)
         if isinstance(geometry, fcl.Sphere):
-            return shapes.primitive(spool, "sphere", geometry.radius)
+            return shapes.primitive(spool, "sphere", geometry.radius, name=name)
         for kind, of in [("cylinder", fcl.Cylinder), ("capsule", fcl.Capsule)]:
             if isinstance(geometry, of):
-                return shapes.primitive(spool, kind, geometry.radius, geometry.lz)
+                return shapes.primitive(spool, kind, geometry.radius, geometry.lz, name=name)
         raise Unusable(f"{type(geometry).__name__} is not a recorded kind of object")

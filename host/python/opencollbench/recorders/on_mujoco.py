@@ -52,7 +52,7 @@ class _Mujoco:
             mesh = int(model.geom_dataid[geom])
             if model not in self.models:
                 self.models[model] = next(self.numbers)
-            return self.shapes.convex(spool, (self.models[model], mesh), lambda: _hull(model, mesh))
+            return self.shapes.convex(spool, (self.models[model], mesh), lambda: _hull(model, mesh), model.mesh(mesh).name)
         if kind == types.mjGEOM_BOX:
             return self.shapes.primitive(spool, "box", *(2 * x for x in size))
         if kind == types.mjGEOM_SPHERE:

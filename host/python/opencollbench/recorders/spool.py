@@ -58,12 +58,12 @@ class Spool:
         self.lock = threading.RLock()
 
     def object(self, name, geometry, library, source=""):
-        """The number of an object; equal objects of one library are one object.
+        """The number of an object; equal objects of one library and name are one object.
 
         `geometry` is a pair of vertices (n, 3) and triangles (m, 3), or a dictionary of a primitive. Raises `Unusable`.
         """
         shape = geometry if isinstance(geometry, dict) else self._mesh(*geometry)
-        key = (json.dumps(shape), library, source)
+        key = (name, json.dumps(shape), library, source)
         if key not in self._objects:
             if len(self._objects) >= MOST_OBJECTS:
                 raise Unusable(f"an object is beyond the first {MOST_OBJECTS}")
