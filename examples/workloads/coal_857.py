@@ -1,4 +1,4 @@
-"""What contacts cost: the scene of issue #857 of Coal, asked of python-fcl and of Coal, with and without contacts.
+"""The scene of issue #857 of Coal, asked of python-fcl and of Coal, with and without contacts.
 
     ocb record --out coal.ocbrec -- python coal_857.py
 

@@ -44,9 +44,9 @@ summary() { # summary LOGS STEP_THAT_FAILED...
   local logs=$1 passed failed reasons
   shift
   reasons=$(not_run "$logs/rust.log" 2>/dev/null)
-  # A check of the dependencies or of a package that lacks something only says so, and fails nothing.
+  # A check of the dependencies or of a package, or a test in Python, that lacks something only says so, and fails nothing.
   printf '%s\n' "$reasons" | sed '/^$/d'
-  sed -n 's/^not run: /1 not run: /p' "$logs"/{check,dist}.log 2>/dev/null
+  sed -n 's/^not run: /1 not run: /p' "$logs"/{check,dist,python}.log 2>/dev/null
   read -r passed failed < <({ cat "$logs"/{rust,vitest,browser,dist,python}.log; grep '^deny: ' "$logs/check.log"; } 2>/dev/null | counts)
   failed=$((failed - $(awk '{ n += $1 } END { print n + 0 }' <<< "$reasons") + $(uncounted "$logs/rust.log" 2>/dev/null)))
   if [ $# -gt 0 ]; then

@@ -137,10 +137,10 @@ if [ "$purpose" = test ] && ! cmp -s tests/setup/robots.txt .tools/robots/comple
 fi
 
 # Without them the tests that record Python programs are not run.
-if [ "$purpose" = test ] && [ ! -e .tools/record/complete ]; then
-  say "installing the collision libraries of Python (python-fcl, coal, mujoco, trimesh; 600 MB) from PyPI into .tools/record"
+if [ "$purpose" = test ] && ! cmp -s tests/setup/record.txt .tools/record/complete; then
+  say "installing the collision libraries of Python and a planner (python-fcl, coal, mujoco, trimesh, pin, ompl; 700 MB) from PyPI into .tools/record"
   rm -rf .tools/record
   { python3 -m venv .tools/record &&
     .tools/record/bin/pip install --quiet --disable-pip-version-check --no-deps -r tests/setup/record.txt &&
-    touch .tools/record/complete; } || say "these could not be installed; programs in Python are not recorded"
+    cp tests/setup/record.txt .tools/record/complete; } || say "these could not be installed; programs in Python are not recorded"
 fi

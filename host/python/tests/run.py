@@ -16,7 +16,9 @@ def main() -> int:
     suite = loader.loadTestsFromNames(names) if names else loader.discover(str(HERE))
     result = unittest.TextTestRunner(verbosity=2).run(suite)
     failed = len(result.failures) + len(result.errors) + len(result.unexpectedSuccesses)
-    passed = max(0, result.testsRun - failed)
+    passed = max(0, result.testsRun - failed - len(result.skipped))
+    for _, reason in result.skipped:
+        print(f"not run: {reason}")
     word = "ok" if result.wasSuccessful() and passed else "FAILED"
     print(f"test result: {word}. {passed} passed; {failed} failed")
     return 0 if word == "ok" else 1

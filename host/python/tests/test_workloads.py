@@ -1,0 +1,113 @@
+"""The recipes of examples/workloads: a short slice of each is recorded, and replayed with box-tree."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import re
+import subprocess
+import unittest
+import zipfile
+from pathlib import Path
+from typing import Any, Dict, List, Set
+
+import pandas
+import support
+from opencollbench import Workload, replay
+
+TOOLS = support.ROOT / ".tools"
+RECIPES = support.ROOT / "examples" / "workloads"
+
+
+def setUpModule() -> None:
+    support.use_built()
+
+
+class Recording:
+    """What a recipe printed, what was recorded of it, and what came of the replay."""
+
+    def __init__(self, name: str, *arguments: str) -> None:
+        program = [str(TOOLS / "record/bin/python"), str(RECIPES / name), *arguments]
+        path = support.FOLDER / f"{name}.ocbrec"
+        environment = {**os.environ, "PYTHONPATH": str(support.ROOT / "host" / "python")}
+        record = [os.environ["OCB"], "record", "--out", str(path), "--", *program]
+        done = subprocess.run(record, env=environment, capture_output=True, text=True, timeout=120)
+        assert done.returncode == 0, done.stderr
+        self.printed = done.stdout
+        with zipfile.ZipFile(path) as archive:
+            self.queries = pandas.read_parquet(io.BytesIO(archive.read("queries.parquet")))
+            self.about: Dict[str, Any] = json.loads(archive.read("about.json"))
+            scene = json.loads(archive.read("scene.json"))["scene"]
+        self.names: Set[str] = {each["name"] for each in scene["objects"]}
+        self.replayed: Workload = replay(path, "box-tree", order="recorded", passes=1, budget=600, progress=False)
+
+    def numbers(self, pattern: str) -> List[int]:
+        """The numbers in the line that the pattern finds."""
+        found = re.search(pattern, self.printed)
+        assert found, f"{pattern!r} is not in {self.printed!r}"
+        return [int(number) for number in found.groups()]
+
+
+class Recipes(unittest.TestCase):
+    def recorded(self, *arguments: str) -> Recording:
+        """Records and replays a recipe; nothing is missing, box-tree is right, and so were the answers that were recorded."""
+        if not (TOOLS / "record/complete").is_file():
+            self.skipTest("the collision libraries of Python are not installed")
+        recording = Recording(*arguments)
+        [result] = recording.replayed.summary()
+        self.assertEqual(recording.about["dropped"], [])
+        [algorithm] = recording.replayed.data["tracks"][0]["algorithms"]
+        self.assertEqual(algorithm["ended"], [])
+        self.assertEqual((result["n"], result["of"]), (len(recording.queries), recording.about["seen"]))
+        self.assertEqual((result["wrong"], result["missed"], result["silent"]), (0, 0, 0))
+        judged = {claim["claim"]: claim["count"] for claim in recording.replayed.data["recorded"]["claims"]}
+        self.assertLessEqual(set(judged), {"right", "undecided"}, recording.replayed.false_answers())
+        told = recording.queries["hit"].notna() | recording.queries["distance"].notna()
+        self.assertEqual(sum(judged.values()), told.sum())
+        self.assertLessEqual(judged.get("undecided", 0), 0.01 * len(recording.queries))
+        return recording
+
+    def test_the_planner_has_a_group_for_each_state_of_the_robot(self) -> None:
+        share = next(iter(TOOLS.glob("robots/lib/python*/site-packages/cmeel.prefix/share")), None)
+        if share is None:
+            self.skipTest("the robots are not installed")
+        recording = self.recorded("planner.py", "--states", "25", "--share", str(share))
+        states, free = recording.numbers(r"(\d+) states, (\d+) of them free")
+        groups = recording.queries.groupby("group", sort=False)
+        self.assertEqual((states, len(groups)), (25, 25))
+        # The checker stops at the first collision, so that this is the last query of its state.
+        hits = groups["hit"].agg(["sum", "last"])
+        self.assertEqual(list(hits["sum"]), list(hits["last"]))
+        self.assertEqual(hits["sum"].sum(), states - free)
+        self.assertTrue(0 < free < states, recording.printed)
+        self.assertLessEqual({"panda_link0", "panda_link5", "panda_hand", "carton", "board"}, recording.names)
+        self.assertEqual(recording.about["libraries"], ["python-fcl 0.7.0.11"])
+
+    def test_coal_and_fcl_are_asked_the_same(self) -> None:
+        recording = self.recorded("coal_857.py", "--steps", "60")
+        pairs, collide = recording.numbers(r"(\d+) pairs in 60 steps, (\d+) of them collide")
+        queries = recording.queries
+        self.assertEqual((len(queries), queries["hit"].sum(), queries["group"].nunique()), (3 * pairs, 3 * collide, 60))
+        self.assertTrue(0 < collide < pairs, recording.printed)
+        self.assertEqual(recording.about["libraries"], ["python-fcl 0.7.0.11", "coal 3.0.3"])
+        self.assertEqual(list(queries["library"].value_counts().sort_index()), [pairs, 2 * pairs])
+        self.assertLessEqual({"gripper", "gripper (Coal)", "product", "link 1"}, recording.names)
+        self.assertEqual(recording.printed.count("times that of FCL"), 3)
+        self.assertNotIn("do not agree", recording.printed)
+
+    def test_the_episode_has_a_group_for_each_step(self) -> None:
+        recording = self.recorded("episode.py", "--bodies", "8", "--steps", "300")
+        asked, close, touching = recording.numbers(r"(\d+) distances asked, (\d+) below 0.02 m, (\d+) of them touch")
+        queries = recording.queries
+        self.assertEqual((len(queries), queries["group"].nunique()), (asked, 30))
+        self.assertEqual((set(queries["kind"]), set(queries["limit"])), ({"tolerance"}, {0.02}))
+        # Where a hull touches something, the answer is left out.
+        left_out = queries["hit"].isna().sum()
+        self.assertEqual((queries["hit"] == True).sum() + left_out, close)  # noqa: E712
+        self.assertTrue(0 < left_out < touching < close, recording.printed)
+        self.assertLessEqual({"bottle", "bowl", "capsule"}, recording.names)
+
+
+if __name__ == "__main__":
+    unittest.main()
