@@ -173,7 +173,7 @@ fn coal_and_mujoco_are_recorded_in_python() {
     for ((_, line), query) in kept.zip(&mujoco.queries) {
         let distance: f64 = line.strip_prefix("tolerance ").expect("a distance").parse().expect("a number");
         assert_eq!((query.kind, query.limit), (Kind::Tolerance, 0.5));
-        let of_hull = mujoco.scene.scene.objects[query.objects[1] as usize].name.starts_with("convex body");
+        let of_hull = mujoco.scene.scene.objects[query.objects[1] as usize].name == "part";
         let told = (!of_hull || distance > 0.0).then_some(distance < 0.5);
         assert_eq!(query.answered.hit, told, "{line}");
         closer += usize::from(told == Some(true));
