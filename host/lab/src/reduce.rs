@@ -29,7 +29,7 @@ use between::Interval;
 use choose::{Asked, Problem};
 pub use report::{Changed, HeldOut, ReducedObject, Reduction};
 pub use stand_in::{Body as BodyKind, StandIn};
-pub use urdf::{Urdf, urdf};
+pub use urdf::{Robot, Urdf};
 
 /// What the reduced scene may do to answers.
 #[derive(Clone, Copy, Debug, PartialEq)]

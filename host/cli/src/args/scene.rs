@@ -69,7 +69,7 @@ pub struct ReduceArgs {
     #[arg(long, default_value_t = 60.0, value_name = "SECONDS")]
     pub budget: f64,
     /// Also write this robot with the simpler bodies as collision geometry. Its objects must have the names of `ocb scene import`.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", requires = "out")]
     pub urdf: Option<PathBuf>,
     /// Folder of a package that `package://NAME/` names, as for `ocb scene import`.
     #[arg(long, value_name = "NAME=DIR", value_parser = package, requires = "urdf")]

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use ocb_service::advising::{Advisor, SHELF};
 use ocb_service::model::{Track, WorkloadResult, WorkloadSpec};
-use ocb_service::reduce::{self, Reduced, Reduction, Terms};
+use ocb_service::reduce::{self, Reduction, Robot, Terms};
 use ocb_service::scene_import::Wanted;
 use ocb_service::truth::Machine;
 use ocb_service::{LabError, Recording};
@@ -60,6 +60,8 @@ pub async fn reduce(store: &Store, args: &ReduceArgs, json: bool) -> Result<Exit
         seed: None,
     };
     spec.check().map_err(Failure::Input)?;
+    let wanted = Wanted { packages: args.package.clone(), ..Wanted::default() };
+    let robot = args.urdf.as_ref().map(|robot| Robot::read(robot, &wanted, &recording)).transpose()?;
     if let Some(folder) = &args.out {
         std::fs::create_dir_all(folder).map_err(|e| Failure::file("create the folder", folder, &e))?;
     }
@@ -71,20 +73,17 @@ pub async fn reduce(store: &Store, args: &ReduceArgs, json: bool) -> Result<Exit
         };
         reduce::reduce(&of, terms, &make, watch)
     });
-    let Some(Reduced { reduction, recording: after, stand_ins }) = reduced.await?? else { return Ok(stopped()) };
-    let reduced = Reduced { reduction: reduction.clone(), recording: after, stand_ins };
+    let Some(reduced) = reduced.await?? else { return Ok(stopped()) };
     let mut written = Vec::new();
-    if let Some(robot) = &args.urdf {
-        let wanted = Wanted { packages: args.package.clone(), ..Wanted::default() };
-        let made = reduce::urdf(robot, &wanted, &recording, &reduced)?;
-        if let Some(folder) = &args.out {
-            let name = robot.file_name().unwrap_or_default().to_string_lossy();
-            written.push(write(folder, &name, made.text.as_bytes())?);
-            for (name, bytes) in &made.meshes {
-                written.push(write(folder, name, bytes)?);
-            }
+    if let (Some(robot), Some(file), Some(folder)) = (robot, &args.urdf, &args.out) {
+        let robot = robot.with(&reduced);
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        written.push(write(folder, &name, robot.text.as_bytes())?);
+        for (name, bytes) in &robot.meshes {
+            written.push(write(folder, name, bytes)?);
         }
     }
+    let reduction = reduced.reduction;
     let after = Arc::new(reduced.recording);
     let speed = match args.algorithm.is_empty() {
         true => Some(Vec::new()),

@@ -3,19 +3,20 @@
 //! URDF has no capsule, so that one becomes a cylinder and two balls, which together are the same body.
 
 use std::collections::HashMap;
+use std::ops::Range;
 use std::path::Path;
-use std::sync::Arc;
 
-use nalgebra::{Matrix3, Vector3};
-use ocb_core::mesh::{Mesh, obj};
+use nalgebra::{Matrix3, Point3, Vector3};
+use ocb_core::mesh::obj;
 use ocb_core::pose::Pose;
-use ocb_core::scene::Geometry;
+use ocb_core::scene::{Geometry, SceneObject};
 use ocb_core::xml;
 use ocb_sandbox::given;
 use roxmltree::Node;
 
 use super::{Reduced, within};
 use crate::recording::Recording;
+use crate::scene_file::SceneFile;
 use crate::scene_import::{self, Wanted, kinematics};
 use crate::{LabError, Result};
 
@@ -23,6 +24,26 @@ use crate::{LabError, Result};
 const MOST_BYTES: u64 = 64 << 20;
 /// Two readers of one mesh may round each number to single precision.
 const SINGLE: f64 = 1e-6;
+
+/// A robot whose collision geometry is in a recording.
+pub struct Robot {
+    text: String,
+    parts: Vec<Part>,
+}
+
+/// A collision element that was recorded.
+struct Part {
+    /// Where it is in the text.
+    range: Range<usize>,
+    /// The object, by its place in the recording.
+    object: usize,
+    /// As `ocb scene import` names it.
+    name: String,
+    /// As the file names it.
+    shown: String,
+    /// Its frame in that of its link.
+    origin: Pose,
+}
 
 /// A robot with simpler collision geometry.
 pub struct Urdf {
@@ -34,66 +55,66 @@ pub struct Urdf {
     pub replaced: u64,
 }
 
-/// Replaces the collision geometry of a robot by what stands for it. An object of the recording is the robot's when it has the name
-/// that `ocb scene import` gives it (link, underscore, number) and the same shape.
-///
-/// # Errors
-/// `Invalid` for a file that cannot be read, when an object of that name has another shape, and when no object is the robot's.
-pub fn urdf(robot: &Path, wanted: &Wanted, recording: &Recording, reduced: &Reduced) -> Result<Urdf> {
-    let name = robot.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let bad = |why: String| LabError::Invalid(format!("{name:?} cannot be rewritten: {why}."));
-    let imported = scene_import::import(robot, wanted)?.file;
-    let bytes = given::read(robot, MOST_BYTES).map_err(|e| bad(e.to_string()))?;
-    let text = String::from_utf8(bytes).map_err(|_| bad("it is not UTF-8".into()))?;
-    let document = xml::parse(&text).map_err(|e| bad(e.to_string()))?;
-    let recorded: HashMap<&str, usize> =
-        recording.scene.scene.objects.iter().enumerate().map(|(at, object)| (object.name.as_str(), at)).collect();
-    let (mut cuts, mut meshes, mut known) = (Vec::new(), Vec::new(), false);
-    for link in document.root_element().children().filter(|node| node.has_tag_name("link")) {
-        let collisions = link.children().filter(|node| node.has_tag_name("collision"));
-        for (number, collision) in collisions.enumerate() {
-            let name = format!("{}_{number}", link.attribute("name").unwrap_or_default());
-            let own = imported.scene.objects.iter().find(|object| object.name == name);
-            let (Some(&at), Some(own)) = (recorded.get(name.as_str()), own) else { continue };
-            known = true;
-            let object = &recording.scene.scene.objects[at];
-            let mesh = |of: &crate::scene_file::SceneFile, geometry: &Geometry| match geometry {
-                Geometry::Mesh { sha256, .. } => of.meshes.get(sha256).cloned(),
-                _ => None,
-            };
-            let same = match (mesh(&imported, &own.geometry), mesh(&recording.scene, &object.geometry)) {
-                (Some(own), Some(recorded)) => alike(&own, &recorded),
-                (None, None) => own.geometry == object.geometry,
-                _ => false,
-            };
-            if !same {
-                return Err(bad(format!("its collision geometry {name:?} has another shape than the recorded object")));
-            }
-            let stand_in = &reduced.stand_ins[at];
-            if stand_in.kind != super::BodyKind::Object {
-                let place = within(&origin(collision), &stand_in.place);
-                let shown = collision.attribute("name").unwrap_or(&name);
-                let body = written(shown, &stand_in.geometry, &place, &name);
-                if let Some(mesh) = &stand_in.mesh {
-                    meshes.push((file(&name), obj::write(mesh).into_bytes()));
+impl Robot {
+    /// Reads a robot. An object of the recording is one of its parts when it has the name that `ocb scene import` gives the part (link,
+    /// underscore, number) and the same shape.
+    ///
+    /// # Errors
+    /// `Invalid` for a file that cannot be read, when an object of that name has another shape, and when no object is the robot's.
+    pub fn read(robot: &Path, wanted: &Wanted, recording: &Recording) -> Result<Self> {
+        let name = robot.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let bad = |why: String| LabError::Invalid(format!("{name:?} cannot be rewritten: {why}."));
+        let imported = scene_import::import(robot, wanted)?.file;
+        let bytes = given::read(robot, MOST_BYTES).map_err(|e| bad(e.to_string()))?;
+        let text = String::from_utf8(bytes).map_err(|_| bad("it is not UTF-8".into()))?;
+        let document = xml::parse(&text).map_err(|e| bad(e.to_string()))?;
+        let own: HashMap<&str, &SceneObject> =
+            imported.scene.objects.iter().map(|object| (object.name.as_str(), object)).collect();
+        let objects = &recording.scene.scene.objects;
+        let recorded: HashMap<&str, usize> =
+            objects.iter().enumerate().map(|(at, object)| (object.name.as_str(), at)).collect();
+        let mut parts = Vec::new();
+        for link in document.root_element().children().filter(|node| node.has_tag_name("link")) {
+            let collisions = link.children().filter(|node| node.has_tag_name("collision"));
+            for (number, collision) in collisions.enumerate() {
+                let name = format!("{}_{number}", link.attribute("name").unwrap_or_default());
+                let (Some(own), Some(&object)) = (own.get(name.as_str()), recorded.get(name.as_str())) else {
+                    continue;
+                };
+                if !alike((&imported, &own.geometry), (&recording.scene, &objects[object].geometry)) {
+                    return Err(bad(format!(
+                        "its collision geometry {name:?} has another shape than the recorded object"
+                    )));
                 }
-                cuts.push((collision.range(), body));
+                let shown = collision.attribute("name").unwrap_or(&name).to_owned();
+                parts.push(Part { range: collision.range(), object, shown, origin: origin(collision), name });
             }
         }
+        if parts.is_empty() {
+            let why = "no object of the recording has the name of one of its links, an underscore and a number";
+            return Err(bad(why.into()));
+        }
+        Ok(Self { text, parts })
     }
-    if !known {
-        return Err(bad(
-            "no object of the recording has the name of one of its links, an underscore and a number".into()
-        ));
+
+    /// The robot with what stands for its collision geometry.
+    pub fn with(&self, reduced: &Reduced) -> Urdf {
+        let (mut text, mut from) = (String::with_capacity(self.text.len()), 0);
+        let (mut meshes, mut replaced) = (Vec::new(), 0);
+        for Part { range, object, name, shown, origin } in &self.parts {
+            let stand_in = &reduced.stand_ins[*object];
+            if stand_in.kind == super::BodyKind::Object {
+                continue;
+            }
+            text.push_str(&self.text[from..range.start]);
+            text.push_str(&written(shown, &stand_in.geometry, &within(origin, &stand_in.place), name));
+            from = range.end;
+            replaced += 1;
+            meshes.extend(stand_in.mesh.as_ref().map(|mesh| (file(name), obj::write(mesh).into_bytes())));
+        }
+        text.push_str(&self.text[from..]);
+        Urdf { text, meshes, replaced }
     }
-    let (mut out, mut from) = (String::with_capacity(text.len()), 0);
-    for (range, body) in &cuts {
-        out.push_str(&text[from..range.start]);
-        out.push_str(body);
-        from = range.end;
-    }
-    out.push_str(&text[from..]);
-    Ok(Urdf { text: out, meshes, replaced: cuts.len() as u64 })
 }
 
 fn file(name: &str) -> String {
@@ -101,12 +122,21 @@ fn file(name: &str) -> String {
     format!("collision/{}.obj", name.chars().map(plain).collect::<String>())
 }
 
-/// The same triangles, but for rounding to single precision.
-fn alike(a: &Arc<Mesh>, b: &Arc<Mesh>) -> bool {
-    let near = |[p, q]: [nalgebra::Point3<f64>; 2]| (p - q).amax() <= SINGLE * a.longest_side();
-    a.triangles().len() == b.triangles().len()
-        && near([a.bounds().min, b.bounds().min])
-        && near([a.bounds().max, b.bounds().max])
+/// The same shape; meshes but for rounding to single precision, which is seen in their boxes.
+fn alike(a: (&SceneFile, &Geometry), b: (&SceneFile, &Geometry)) -> bool {
+    let mesh = |(file, geometry): (&SceneFile, &Geometry)| match geometry {
+        Geometry::Mesh { sha256, .. } => file.meshes.get(sha256).cloned(),
+        _ => None,
+    };
+    match (mesh(a), mesh(b)) {
+        (Some(a), Some(b)) => {
+            let near = |p: Point3<f64>, q: Point3<f64>| (p - q).amax() <= SINGLE * a.longest_side();
+            let [own, other] = [a.bounds(), b.bounds()];
+            a.triangles().len() == b.triangles().len() && near(own.min, other.min) && near(own.max, other.max)
+        }
+        (None, None) => a.1 == b.1,
+        _ => false,
+    }
 }
 
 /// The import has read the file, so that its numbers are some.

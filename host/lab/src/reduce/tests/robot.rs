@@ -54,7 +54,7 @@ fn a_rewritten_robot_has_the_bodies_where_the_reduced_scene_has_them() {
         let (path, before) = robot(folder.path(), kind);
         let terms = Terms { tolerance: 0.01, near: 0.0, outside_only };
         let after = done(&before, terms, &make);
-        let written = urdf(&path, &Wanted::default(), &before, &after).expect("a robot");
+        let written = Robot::read(&path, &Wanted::default(), &before).expect("a robot").with(&after);
         assert!(written.text.contains("<!-- This stays. -->") && written.text.contains("the &lt;base>"));
         assert!(written.replaced > 0 && written.text.contains("<visual><geometry><mesh filename=\"knot.obj\"/>"));
         let out = folder.path().join("out.urdf");
@@ -96,10 +96,9 @@ fn a_rewritten_robot_has_the_bodies_where_the_reduced_scene_has_them() {
 fn a_robot_that_was_not_recorded_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let (path, mut before) = robot(folder.path(), Kind::Collide);
-    let after = done(&before, Terms { tolerance: 0.01, near: 0.0, outside_only: true }, &make);
     std::fs::write(folder.path().join("knot.obj"), ocb_core::mesh::obj::write(&knot(700))).expect("a file");
     let refused = |before: &Recording| {
-        urdf(&path, &Wanted::default(), before, &after).err().map(|e| e.to_string()).unwrap_or_default()
+        Robot::read(&path, &Wanted::default(), before).err().map(|e| e.to_string()).unwrap_or_default()
     };
     assert!(refused(&before).contains("another shape"), "{}", refused(&before));
     for object in &mut before.scene.scene.objects {
