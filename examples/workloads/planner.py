@@ -87,8 +87,8 @@ class Robot:
         self.hand = self.model.getFrameId("panda_hand")
 
     def link(self, part):
-        """The geometry of a part of a link, under the name of the link."""
-        name, shape = self.model.frames[part.parentFrame].name, part.geometry
+        """The geometry of a part of a link. Pinocchio names it as `ocb scene import` does: the link and a number."""
+        name, shape = part.name, part.geometry
         if isinstance(shape, coal.Box):
             return named(fcl.Box, name, *(2 * shape.halfSide))
         corners = [[shape.tri_indices(i)[k] for k in range(3)] for i in range(shape.num_tris)]

@@ -14,7 +14,7 @@ from typing import Any, Dict, List, Set
 
 import pandas
 import support
-from opencollbench import Workload, replay
+from opencollbench import Workload, reduce_scene, replay
 
 TOOLS = support.ROOT / ".tools"
 RECIPES = support.ROOT / "examples" / "workloads"
@@ -34,7 +34,7 @@ class Recording:
         record = [os.environ["OCB"], "record", "--out", str(path), "--", *program]
         done = subprocess.run(record, env=environment, capture_output=True, text=True, timeout=120)
         assert done.returncode == 0, done.stderr
-        self.printed = done.stdout
+        self.printed, self.path = done.stdout, path
         with zipfile.ZipFile(path) as archive:
             self.queries = pandas.read_parquet(io.BytesIO(archive.read("queries.parquet")))
             self.about: Dict[str, Any] = json.loads(archive.read("about.json"))
@@ -81,8 +81,30 @@ class Recipes(unittest.TestCase):
         self.assertEqual(list(hits["sum"]), list(hits["last"]))
         self.assertEqual(hits["sum"].sum(), states - free)
         self.assertTrue(0 < free < states, recording.printed)
-        self.assertLessEqual({"panda_link0", "panda_link5", "panda_hand", "carton", "board"}, recording.names)
+        self.assertLessEqual({"panda_link0_0", "panda_link5_0", "panda_hand_0", "carton", "board"}, recording.names)
         self.assertEqual(recording.about["libraries"], ["python-fcl 0.7.0.11"])
+        self.reduced(recording, share)
+
+    def reduced(self, recording: Recording, share: Path) -> None:
+        """The Panda with the bodies that are enough for its plan is read by Pinocchio and MuJoCo."""
+        folder = support.FOLDER / "panda"
+        urdf = share / "example-robot-data/robots/panda_description/urdf/panda.urdf"
+        packages = {"example-robot-data": share / "example-robot-data"}
+        reduction = reduce_scene(recording.path, "1mm", urdf=urdf, packages=packages, out=folder, progress=False)
+        objects = {row["name"]: row for row in reduction.objects()}
+        self.assertEqual(reduction.data["queries"], len(recording.queries))
+        self.assertLess(2 * sum(row["after"] for row in objects.values()), sum(row["before"] for row in objects.values()))
+        # Link 3 comes near nothing else of the robot.
+        self.assertIn(objects.get("panda_link3_0", {"body": "sphere"})["body"], {"sphere", "capsule", "box"})
+        changed = [name for name, row in objects.items() if name.startswith("panda") and row["body"] != "object"]
+        self.assertGreater(len(changed), 4)
+        load = [str(TOOLS / "record/bin/python"), str(Path(__file__).with_name("load_robot.py")), str(folder / urdf.name), str(share)]
+        loaded = subprocess.run(load, capture_output=True, text=True, timeout=120)
+        self.assertEqual(loaded.returncode, 0, loaded.stderr)
+        parts = json.loads(loaded.stdout)
+        # A capsule is three parts.
+        more = 2 * sum(objects[name]["body"] == "capsule" for name in changed)
+        self.assertEqual(parts, {"pinocchio": 17 + more, "mujoco": 17 + more})
 
     def test_coal_and_fcl_are_asked_the_same(self) -> None:
         recording = self.recorded("coal_857.py", "--steps", "60")
