@@ -78,6 +78,9 @@ print('ready', file=sys.stderr, flush=True)
 time.sleep(60)
 """
         ocb = support.stand_in(body)
+        # A shell that starts this program in the background has it ignore interrupts.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
 
         class Interrupting(Silent):
             def say(self, text: str) -> None:
