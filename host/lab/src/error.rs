@@ -25,4 +25,4 @@ impl LabError {
 }
 
 /// Shorthand of this crate.
-pub type Result<T> = std::result::Result<T, LabError>;
+pub type Result<T, E = LabError> = std::result::Result<T, E>;

@@ -13,22 +13,24 @@ mod report;
 mod stand_in;
 mod urdf;
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use ocb_advice::Watch;
 use ocb_core::configuration::Configuration;
+use ocb_core::lod::Interval;
 use ocb_core::mesh::Mesh;
 use ocb_core::pose::Pose;
+use ocb_core::scene::Geometry;
 use ocb_core::workload::{Answered, Kind, Recorded};
 
 use crate::recording::{About, Recording};
 use crate::scene_file::SceneFile;
 use crate::workload::{PairPart, parts};
 use crate::{LabError, Result};
-use between::Interval;
 use choose::{Asked, Problem};
 pub use report::{Changed, HeldOut, ReducedObject, Reduction};
-pub use stand_in::{Body as BodyKind, StandIn};
+pub use stand_in::{BodyKind, StandIn};
 pub use urdf::{Robot, Urdf};
 
 /// What the reduced scene may do to answers.
@@ -36,7 +38,8 @@ pub use urdf::{Robot, Urdf};
 pub struct Terms {
     /// An answer may be the right one for a distance that differs from the true one by this, in the unit of the scene.
     pub tolerance: f64,
-    /// The same holds for every query whose objects are moved by less than this, in the unit of the scene.
+    /// The same holds for every query of which one object, with what stands for it, is moved relative to the other by less than
+    /// this, in the unit of the scene.
     pub near: f64,
     /// Whatever stands for an object contains it, so that no collision is ever missed.
     pub outside_only: bool,
@@ -52,7 +55,7 @@ pub struct Simplified {
 }
 
 /// Makes levels and hull of an object with this name; nothing when it was stopped. Nothing of what it makes is believed.
-pub type Make<'a> = &'a dyn Fn(&str, &Arc<Mesh>) -> Result<Option<Simplified>>;
+pub type Make<'a, E> = &'a dyn Fn(&str, &Arc<Mesh>) -> Result<Option<Simplified>, E>;
 
 /// A reduced scene.
 pub struct Reduced {
@@ -67,20 +70,24 @@ pub struct Reduced {
 /// Reduces the scene of a recording; nothing when it was stopped.
 ///
 /// # Errors
-/// `Invalid` for terms that make no sense and for a recording of which no query can be used.
-pub fn reduce(recording: &Recording, terms: Terms, make: Make, watch: &dyn Watch) -> Result<Option<Reduced>> {
+/// `Invalid` for terms that make no sense and for a recording of which no query can be used, and what `make` fails with.
+pub fn reduce<E: From<LabError>>(
+    recording: &Recording,
+    terms: Terms,
+    make: Make<E>,
+    watch: &dyn Watch,
+) -> Result<Option<Reduced>, E> {
+    let bad = |why: &str| Err(LabError::Invalid(why.into()).into());
     if !(terms.tolerance > 0.0 && terms.tolerance.is_finite()) {
-        return Err(LabError::Invalid("The tolerance must be a positive length.".into()));
+        return bad("The tolerance must be a positive length.");
     }
     if !(terms.near >= 0.0 && 2.0 * terms.near < terms.tolerance) {
-        return Err(LabError::Invalid(
-            "The neighbourhood must be 0 or more, and less than half of the tolerance.".into(),
-        ));
+        return bad("The neighbourhood must be 0 or more, and less than half of the tolerance.");
     }
     let Some(stand_ins) = stand_ins(recording, terms, make, watch)? else { return Ok(None) };
-    let (asked, left_out) = asked(recording, &stand_ins);
+    let (asked, left_out) = asked(recording);
     if asked.is_empty() {
-        return Err(LabError::Invalid("None of the recorded queries can be used.".into()));
+        return bad("None of the recorded queries can be used.");
     }
     let Some(problem) = Problem::certify(asked, stand_ins, terms, watch) else { return Ok(None) };
     let (seen, later) = problem.split();
@@ -88,32 +95,38 @@ pub fn reduce(recording: &Recording, terms: Terms, make: Make, watch: &dyn Watch
         true => None,
         false => {
             let Some(chosen) = problem.choose(&seen, watch) else { return Ok(None) };
-            Some(problem.hold(&chosen, &later))
+            let Some(held_out) = problem.hold(&chosen, &later, watch) else { return Ok(None) };
+            Some(held_out)
         }
     };
     let Some(chosen) = problem.choose(&problem.all(), watch) else { return Ok(None) };
-    watch.step("checking", 0, 1);
-    let reduction = report::reduction(recording, &problem, &chosen, held_out, left_out)?;
+    let reduction = report::reduction(recording, &problem, &chosen, held_out, left_out, watch)?;
+    let Some(reduction) = reduction else { return Ok(None) };
     let recording = reduced(recording, &problem, &chosen);
     let stand_ins = problem.stand_ins.into_iter().zip(chosen).map(|(mut all, at)| all.swap_remove(at)).collect();
     Ok(Some(Reduced { reduction, recording, stand_ins }))
 }
 
 /// Of each object itself and what may stand for it, the simplest first.
-fn stand_ins(recording: &Recording, terms: Terms, make: Make, watch: &dyn Watch) -> Result<Option<Vec<Vec<StandIn>>>> {
+fn stand_ins<E: From<LabError>>(
+    recording: &Recording,
+    terms: Terms,
+    make: Make<E>,
+    watch: &dyn Watch,
+) -> Result<Option<Vec<Vec<StandIn>>>, E> {
     let SceneFile { scene, .. } = &recording.scene;
-    let mut all = Vec::new();
-    let total = scene.objects.len() as u64;
-    let mut before: Vec<(&ocb_core::scene::Geometry, usize)> = Vec::new();
+    let mut all: Vec<Vec<StandIn>> = Vec::new();
+    let mut before: HashMap<(&str, bool), usize> = HashMap::new();
     for (done, object) in scene.objects.iter().enumerate() {
-        watch.step("objects", done as u64, total);
-        // Objects of the same shape share their work.
-        if let Some((_, same)) = before.iter().find(|(geometry, _)| **geometry == object.geometry) {
-            let same: Vec<StandIn> = Vec::clone(&all[*same]);
-            all.push(same);
-            continue;
+        watch.step("objects", done as u64, scene.objects.len() as u64);
+        // Objects with the same mesh share its work.
+        if let Geometry::Mesh { sha256, solid } = &object.geometry {
+            if let Some(same) = before.get(&(sha256.as_str(), *solid)) {
+                all.push(all[*same].clone());
+                continue;
+            }
+            before.insert((sha256, *solid), done);
         }
-        before.push((&object.geometry, done));
         let own = stand_in::of(&recording.scene, &object.geometry, &object.name, terms, make)?;
         let Some(own) = own.filter(|_| !watch.stopped()) else { return Ok(None) };
         all.push(own);
@@ -122,7 +135,7 @@ fn stand_ins(recording: &Recording, terms: Terms, make: Make, watch: &dyn Watch)
 }
 
 /// The queries that can be used, and how many cannot because a pose is no rotation.
-fn asked(recording: &Recording, stand_ins: &[Vec<StandIn>]) -> (Vec<Asked>, u64) {
+fn asked(recording: &Recording) -> (Vec<Asked>, u64) {
     let (parts, bent) = parts(&recording.queries);
     let unknown = Interval { lo: 0.0, hi: f64::INFINITY };
     let of_part = |part: PairPart| {
@@ -143,7 +156,6 @@ fn asked(recording: &Recording, stand_ins: &[Vec<StandIn>]) -> (Vec<Asked>, u64)
         })
         .collect();
     asked.sort_by_key(|asked| asked.row);
-    debug_assert!(asked.iter().all(|asked| asked.objects.iter().all(|it| (*it as usize) < stand_ins.len())));
     (asked, bent)
 }
 
@@ -156,7 +168,7 @@ fn reduced(recording: &Recording, problem: &Problem, chosen: &[usize]) -> Record
         let stand_in = of(at);
         object.geometry = stand_in.geometry.clone();
         object.pose = within(&object.pose, &stand_in.place);
-        if let (ocb_core::scene::Geometry::Mesh { sha256, .. }, Some(mesh)) = (&object.geometry, &stand_in.mesh) {
+        if let (Geometry::Mesh { sha256, .. }, Some(mesh)) = (&object.geometry, &stand_in.mesh) {
             scene.meshes.insert(sha256.clone(), mesh.clone());
         }
     }
@@ -166,7 +178,7 @@ fn reduced(recording: &Recording, problem: &Problem, chosen: &[usize]) -> Record
         let configuration = Configuration { pose_a: within(pose_a, a), pose_b: within(pose_b, b) };
         Recorded { configuration, answered: Answered::default(), seconds: None, ..*query }
     };
-    let about = About { recorder: "ocb advise --workload".into(), ..recording.about.clone() };
+    let about = About { recorder: "ocb scene reduce".into(), ..recording.about.clone() };
     Recording { scene, about, queries: recording.queries.iter().map(query).collect() }
 }
 

@@ -31,7 +31,8 @@ class Reduction:
         return Rows([dict(row) for row in self.data["objects"]])
 
     def speed(self) -> Rows:
-        """One row per algorithm that was asked for: the mean time of a query in nanoseconds, before and after."""
+        """One row per algorithm that was asked for: the mean time of a query in nanoseconds, before and after, or
+        nothing where a replay was not complete."""
         return Rows([dict(row) for row in self.data.get("speed", [])])
 
     def recording(self) -> bytes:
@@ -65,7 +66,7 @@ def reduce_scene(
     Args:
         file: a recording (`.ocbrec`).
         tolerance: the largest change of a distance, in the unit of the scene (metres for robots), or a text such as `"1mm"`.
-        near: the answers are also kept where the objects are moved by less than this length.
+        near: the answers are also kept where one object, with its body, is moved relative to the other by less than this length.
         outside_only: every body contains its object, so that no collision is missed.
         algorithms: ids of algorithms that replay the queries about both scenes; by default none.
         passes: number of processes per algorithm and pair of objects in each replay.

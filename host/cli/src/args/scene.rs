@@ -50,7 +50,7 @@ pub struct ReduceArgs {
     /// as 1mm or 0.001 (units of the scene).
     #[arg(long, value_name = "LENGTH")]
     pub tolerance: String,
-    /// The same shall hold where the objects are moved by less than this length.
+    /// The same shall hold where one object, with its body, is moved relative to the other by less than this length.
     #[arg(long, value_name = "LENGTH", default_value = "0")]
     pub near: String,
     /// Every body contains the object that it stands for, so that no collision is missed, anywhere.

@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
+use ocb_service::Recording;
 use ocb_service::advising::{Advisor, SHELF};
-use ocb_service::model::{Track, WorkloadResult, WorkloadSpec};
+use ocb_service::model::{AlgorithmOnWorkload, Track, WorkloadResult, WorkloadSpec};
 use ocb_service::reduce::{self, Reduction, Robot, Terms};
 use ocb_service::scene_import::Wanted;
 use ocb_service::truth::Machine;
-use ocb_service::{LabError, Recording};
 use serde::Serialize;
 
 use crate::advise::{lengths, work};
@@ -34,12 +34,12 @@ struct Report {
 #[derive(Serialize)]
 struct Speed {
     algorithm: String,
-    /// Mean time of a query about the objects, nanoseconds.
-    before_ns: f64,
+    /// Mean time of a query about the objects, nanoseconds; absent, as the next two, if not every replay was complete.
+    before_ns: Option<f64>,
     /// Mean time of a query about what stands for them, nanoseconds.
-    after_ns: f64,
+    after_ns: Option<f64>,
     /// How many times faster, of either half of the replays.
-    faster: [f64; 2],
+    faster: Option<[f64; 2]>,
     /// Wrong answers about what stands for them.
     wrong: u64,
 }
@@ -68,30 +68,27 @@ pub async fn reduce(store: &Store, args: &ReduceArgs, json: bool) -> Result<Exit
     let advisor = Advisor::new(&open::advisor(store), &Machine::observe()?, &open::data(store)?.join(SHELF));
     let of = recording.clone();
     let reduced = work::watch(move |watch| {
-        let make = |name: &str, object: &Arc<_>| {
-            advisor.simplify(name, object, watch).map_err(|e| LabError::Invalid(e.to_string()))
-        };
+        let make = |name: &str, object: &Arc<_>| advisor.simplify(name, object, watch);
         reduce::reduce(&of, terms, &make, watch)
     });
     let Some(reduced) = reduced.await?? else { return Ok(stopped()) };
-    let mut written = Vec::new();
-    if let (Some(robot), Some(file), Some(folder)) = (robot, &args.urdf, &args.out) {
-        let robot = robot.with(&reduced);
-        let name = file.file_name().unwrap_or_default().to_string_lossy();
-        written.push(write(folder, &name, robot.text.as_bytes())?);
-        for (name, bytes) in &robot.meshes {
-            written.push(write(folder, name, bytes)?);
-        }
-    }
-    let reduction = reduced.reduction;
+    let robot = robot.map(|robot| robot.with(&reduced));
     let after = Arc::new(reduced.recording);
     let speed = match args.algorithm.is_empty() {
         true => Some(Vec::new()),
         false => speed(store, &spec, &recording, &after).await?,
     };
     let Some(speed) = speed else { return Ok(stopped()) };
-    let report = Report { reduction, speed };
+    let report = Report { reduction: reduced.reduction, speed };
+    let mut written = Vec::new();
     if let Some(folder) = &args.out {
+        if let (Some(robot), Some(file)) = (robot, &args.urdf) {
+            let name = file.file_name().unwrap_or_default().to_string_lossy();
+            written.push(write(folder, &name, robot.text.as_bytes())?);
+            for (name, bytes) in &robot.meshes {
+                written.push(write(folder, name, bytes)?);
+            }
+        }
         let path = folder.join("reduced.ocbrec");
         after.write(&path)?;
         written.push(path);
@@ -139,20 +136,21 @@ async fn speed(
         }
     }
     engine.shutdown().await;
-    let found = |result: &WorkloadResult, at: usize| {
-        let it = &result.tracks[0].algorithms[at];
-        it.total.filter(|_| it.n > 0).map_or(f64::NAN, |total| total.ns / it.n as f64)
-    };
-    let one = |(at, it): (usize, &ocb_service::model::AlgorithmOnWorkload)| {
-        let [first, second, third, last] = [0, 1, 2, 3].map(|replay| found(&results[replay], at));
-        let wrong = results[1..3].iter().map(|result| result.tracks[0].algorithms[at].wrong).max();
-        Speed {
-            algorithm: it.algorithm.clone(),
-            before_ns: f64::midpoint(first, last),
-            after_ns: f64::midpoint(second, third),
-            faster: [first / second, last / third],
-            wrong: wrong.unwrap_or_default(),
-        }
-    };
-    Ok(Some(results[0].tracks[0].algorithms.iter().enumerate().map(one).collect()))
+    Ok(Some((0..results[0].tracks[0].algorithms.len()).map(|at| compared(&results, at)).collect()))
+}
+
+/// One algorithm in the four replays.
+fn compared(results: &[WorkloadResult], at: usize) -> Speed {
+    let all: Vec<&AlgorithmOnWorkload> = results.iter().map(|result| &result.tracks[0].algorithms[at]).collect();
+    // Means over different queries are not compared.
+    let complete = all.iter().all(|it| it.n == it.of);
+    let mean = |replay: usize| all[replay].total.filter(|_| complete).map(|total| total.ns / all[replay].n as f64);
+    let times = (|| Some([mean(0)?, mean(1)?, mean(2)?, mean(3)?]))();
+    Speed {
+        algorithm: all[0].algorithm.clone(),
+        before_ns: times.map(|[first, .., last]| f64::midpoint(first, last)),
+        after_ns: times.map(|[_, second, third, _]| f64::midpoint(second, third)),
+        faster: times.map(|[first, second, third, last]| [first / second, last / third]),
+        wrong: all[1].wrong.max(all[2].wrong),
+    }
 }

@@ -145,6 +145,11 @@ impl Shape {
         self.topology.closed
     }
 
+    /// A vertex of each part that hangs together. Corners with the same coordinates are one vertex.
+    pub fn part_vertices(&self) -> impl Iterator<Item = &Point3<f64>> {
+        self.topology.components.iter().map(|part| &self.positions()[part[0] as usize])
+    }
+
     pub(crate) fn tree(&self) -> &Tree {
         &self.tree
     }

@@ -1,21 +1,13 @@
 //! The distance of two bodies as an interval that certainly holds, and when an answer is kept.
 
 use ocb_core::configuration::Configuration;
+use ocb_core::lod::Interval;
 use ocb_core::oracle::{Pair, Shape};
 
 use super::Terms;
 use super::body::{Body, Contains, ROUNDING};
 
-/// A distance certainly not below `lo` and not above `hi`; 0 of bodies that collide.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval {
-    /// Lower bound.
-    pub lo: f64,
-    /// Upper bound.
-    pub hi: f64,
-}
-
-/// The distance of two bodies.
+/// The distance of two bodies; 0 of bodies that collide.
 pub fn between([a, b]: [&Body; 2], configuration: &Configuration) -> Interval {
     let Configuration { pose_a, pose_b } = configuration;
     let outer = distance([&a.outer, &b.outer], configuration);
@@ -47,7 +39,8 @@ pub fn of_balls([a, b]: [&Body; 2], configuration: &Configuration) -> f64 {
 
 impl Terms {
     /// Is the answer about what stands for the objects (`reduced`) the right one for a distance within the tolerance of the
-    /// objects' own (`truth`), here and wherever no point of them is moved by more than `near`? `limit` is the distance up to which
+    /// objects' own (`truth`), here and wherever one object is moved relative to the other so that no point of it, or of what stands
+    /// for it, moves by more than `near`? `limit` is the distance up to which
     /// the answer to a yes-or-no query is yes; absent where the distance itself is asked.
     pub fn keep(&self, limit: Option<f64>, truth: Interval, reduced: Interval) -> bool {
         let Self { tolerance, near, outside_only } = *self;
@@ -59,7 +52,7 @@ impl Terms {
                 return true;
             }
         }
-        // Moving both pairs by the same changes either distance by no more than that.
+        // Either distance changes by no more than the points move.
         let under = truth.hi - reduced.lo + 2.0 * near <= tolerance;
         under && (outside_only || reduced.hi - truth.lo + 2.0 * near <= tolerance)
     }

@@ -10,6 +10,8 @@ use ocb_core::pose::Pose;
 
 /// Lengths below this share of the size are rounding.
 pub const ROUNDING: f64 = 1e-11;
+/// Triangles of a mesh that is tried for being convex, at most: each is compared with each vertex.
+const MOST_PLANES: usize = 4096;
 
 /// Which points are in the body.
 #[derive(Debug)]
@@ -41,8 +43,6 @@ pub struct Body {
     /// It contains this polyhedron; absent where both are the same.
     inner: Option<Shape>,
     inside: Inside,
-    /// A vertex of each part that hangs together.
-    starts: Vec<Point3<f64>>,
     /// The body is in this ball.
     pub centre: Point3<f64>,
     /// Its radius.
@@ -55,30 +55,32 @@ impl Body {
         Self::of(mesh, None, Inside::Nothing)
     }
 
-    /// A solid body in one polyhedron and around another one; absent where both are the same.
-    pub fn solid(outer: Arc<Mesh>, inner: Option<Arc<Mesh>>) -> Self {
-        let planes: Vec<_> = (0..outer.triangles().len() as u32)
-            .filter_map(|triangle| {
-                let [a, b, c] = outer.corners(triangle);
-                let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
-                Some((normal, normal.dot(&a.coords)))
-            })
-            .collect();
-        let rounding = ROUNDING * outer.bounds().min.coords.amax().max(outer.bounds().max.coords.amax());
-        let is_convex =
-            outer.positions().iter().all(|p| planes.iter().all(|(normal, at)| normal.dot(&p.coords) - at <= rounding));
-        let mut body = Self::of(outer, inner, Inside::Unknown);
-        if is_convex && body.outer.is_closed() {
-            body.inside = Inside::Planes(planes);
+    /// A convex body in one polyhedron and around another one; absent where both are the same. Both are closed and convex.
+    pub fn convex(outer: Arc<Mesh>, inner: Option<Arc<Mesh>>) -> Self {
+        let planes = planes(&outer);
+        Self::of(outer, inner, Inside::Planes(planes))
+    }
+
+    /// A mesh that stands for a solid body. If it is not closed and convex, or has too many triangles to find that out, nothing is
+    /// known of what is inside.
+    pub fn solid(mesh: Arc<Mesh>) -> Self {
+        let body = Self::of(mesh.clone(), None, Inside::Unknown);
+        if mesh.triangles().len() > MOST_PLANES || !body.outer.is_closed() {
+            return body;
         }
-        body
+        let planes = planes(&mesh);
+        let rounding = ROUNDING * mesh.bounds().min.coords.amax().max(mesh.bounds().max.coords.amax());
+        let behind = |p: &Point3<f64>| beyond(&planes, &p.coords, rounding) <= rounding;
+        match mesh.positions().iter().all(behind) {
+            true => Self { inside: Inside::Planes(planes), ..body },
+            false => body,
+        }
     }
 
     fn of(outer: Arc<Mesh>, inner: Option<Arc<Mesh>>, inside: Inside) -> Self {
         let centre = outer.bounds().center();
         let radius = outer.positions().iter().map(|p| (p - centre).norm()).fold(0.0, f64::max) * (1.0 + ROUNDING);
-        let starts = starts(&outer);
-        Self { outer: Shape::new(outer), inner: inner.map(Shape::new), inside, starts, centre, radius }
+        Self { outer: Shape::new(outer), inner: inner.map(Shape::new), inside, centre, radius }
     }
 
     /// Does it certainly contain all of a mesh in the same frame? Its surface does not meet the mesh, and each part of the mesh has
@@ -87,7 +89,7 @@ impl Body {
         let Inside::Planes(planes) = &self.inside else { return false };
         let rounding = ROUNDING * (self.radius + self.centre.coords.norm());
         let here = Configuration { pose_a: Pose::identity(), pose_b: Pose::identity() };
-        mesh.starts.iter().all(|p| beyond(planes, &p.coords, rounding) < -rounding)
+        mesh.outer.part_vertices().all(|p| beyond(planes, &p.coords, rounding) < -rounding)
             && !Pair::new(&self.outer, &mesh.outer).hit(&here)
     }
 
@@ -111,7 +113,7 @@ impl Body {
         let size = self.radius + (its.translation - own.translation).norm() + other.radius + other.centre.coords.norm();
         let rounding = ROUNDING * (size + self.centre.coords.norm() + own.translation.amax() + its.translation.amax());
         let mut found = Contains::No;
-        for start in &other.starts {
+        for start in other.outer.part_vertices() {
             let p = own.linear.transpose() * (its.apply(start).coords - own.translation);
             match beyond(planes, &p, rounding) {
                 off if off > rounding => {}
@@ -124,6 +126,16 @@ impl Body {
     }
 }
 
+/// Of each triangle: its outward normal, and how far along that it is.
+fn planes(mesh: &Mesh) -> Vec<(Vector3<f64>, f64)> {
+    let plane = |triangle: u32| {
+        let [a, b, c] = mesh.corners(triangle);
+        let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
+        Some((normal, normal.dot(&a.coords)))
+    };
+    (0..mesh.triangles().len() as u32).filter_map(plane).collect()
+}
+
 /// How far a point is beyond the plane that it is farthest beyond of; the first by more than `enough` will do.
 fn beyond(planes: &[(Vector3<f64>, f64)], p: &Vector3<f64>, enough: f64) -> f64 {
     let mut most = f64::NEG_INFINITY;
@@ -134,29 +146,6 @@ fn beyond(planes: &[(Vector3<f64>, f64)], p: &Vector3<f64>, enough: f64) -> f64 
         }
     }
     most
-}
-
-/// A vertex of each part of the mesh whose triangles hang together by common vertices.
-fn starts(mesh: &Mesh) -> Vec<Point3<f64>> {
-    let mut parent: Vec<u32> = (0..mesh.positions().len() as u32).collect();
-    fn root(parent: &mut [u32], mut v: u32) -> u32 {
-        while parent[v as usize] != v {
-            parent[v as usize] = parent[parent[v as usize] as usize];
-            v = parent[v as usize];
-        }
-        v
-    }
-    for &[a, b, c] in mesh.triangles() {
-        let to = root(&mut parent, a);
-        for v in [b, c] {
-            let from = root(&mut parent, v);
-            parent[from as usize] = to;
-        }
-    }
-    let mut roots: Vec<u32> = mesh.triangles().iter().map(|t| root(&mut parent, t[0])).collect();
-    roots.sort_unstable();
-    roots.dedup();
-    roots.into_iter().map(|v| mesh.positions()[v as usize]).collect()
 }
 
 #[cfg(test)]
@@ -173,7 +162,7 @@ mod tests {
     #[test]
     fn a_body_in_another_is_found_also_where_one_of_several_parts_is() {
         let cuboid = |size: f64| Arc::new(tessellate::outside(&Geometry::Box { size: [size; 3] }, 0.0).expect("a box"));
-        let (large, small) = (Body::solid(cuboid(2.0), None), Body::surface(cuboid(0.5)));
+        let (large, small) = (Body::solid(cuboid(2.0)), Body::surface(cuboid(0.5)));
         assert_eq!(large.contains(&at(7.0), &small, &at(7.5)), Contains::Yes);
         assert_eq!(large.contains(&at(7.0), &small, &at(9.0)), Contains::No);
         assert_eq!(small.contains(&at(7.5), &large, &at(7.0)), Contains::No);
@@ -191,7 +180,7 @@ mod tests {
     #[test]
     fn of_a_solid_that_is_not_convex_nothing_is_known() {
         let knot = Arc::new(stock::generate("torus-knot", 600).expect("a knot"));
-        let (knot, ball) = (Body::solid(knot.clone(), None), Body::surface(knot));
+        let (knot, ball) = (Body::solid(knot.clone()), Body::surface(knot));
         assert_eq!(knot.contains(&at(0.0), &ball, &at(100.0)), Contains::Perhaps);
     }
 }

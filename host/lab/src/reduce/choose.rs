@@ -4,10 +4,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use ocb_advice::{Share, Watch};
 use ocb_core::configuration::Configuration;
+use ocb_core::lod::Interval;
 use rayon::prelude::*;
 
 use super::Terms;
-use super::between::{Interval, between, of_balls};
+use super::between::{between, of_balls};
 use super::report::{Changed, HeldOut};
 use super::stand_in::StandIn;
 
@@ -49,22 +50,31 @@ pub type Chosen = Vec<usize>;
 
 impl Problem {
     /// Finds the truth of each query; nothing when it was stopped.
-    pub fn certify(
-        mut asked: Vec<Asked>,
-        stand_ins: Vec<Vec<StandIn>>,
-        terms: Terms,
+    pub fn certify(asked: Vec<Asked>, stand_ins: Vec<Vec<StandIn>>, terms: Terms, watch: &dyn Watch) -> Option<Self> {
+        let own: Chosen = stand_ins.iter().map(|all| all.len() - 1).collect();
+        let mut problem = Self { asked, stand_ins, terms };
+        let all: Vec<&Asked> = problem.asked.iter().collect();
+        let truth = |asked: &Asked| between(problem.bodies(asked, &own), &asked.configuration);
+        let truths = problem.each(&all, watch, truth)?;
+        for (asked, truth) in problem.asked.iter_mut().zip(truths) {
+            asked.truth = truth;
+        }
+        Some(problem)
+    }
+
+    /// Something of each of these queries, on all CPUs; nothing when it was stopped.
+    pub fn each<T: Send>(
+        &self,
+        asked: &[&Asked],
         watch: &dyn Watch,
-    ) -> Option<Self> {
+        find: impl Fn(&Asked) -> T + Sync,
+    ) -> Option<Vec<T>> {
         let (done, total) = (AtomicU64::new(0), asked.len() as u64);
-        let find = |asked: &mut Asked| {
-            let bodies = asked.objects.map(|object| stand_ins[object as usize].last().map(|own| &*own.body));
-            let [Some(a), Some(b)] = bodies else { return Some(()) };
-            asked.truth = between([a, b], &asked.configuration);
-            watch.step("queries", done.fetch_add(1, Ordering::Relaxed) + 1, total);
-            (!watch.stopped()).then_some(())
+        let one = |asked: &&Asked| {
+            watch.step("queries", done.fetch_add(1, Ordering::Relaxed), total);
+            (!watch.stopped()).then(|| find(asked))
         };
-        asked.par_iter_mut().map(find).collect::<Option<()>>()?;
-        Some(Self { asked, stand_ins, terms })
+        asked.par_iter().map(one).collect()
     }
 
     /// All queries.
@@ -128,7 +138,8 @@ impl Problem {
                 for simpler in 0..chosen[object] {
                     let mut tried = chosen.clone();
                     tried[object] = simpler;
-                    let kept = of_object[object].par_iter().all(|asked| self.keeps(asked, &tried, &terms));
+                    let keeps = |asked: &&Asked| !watch.stopped() && self.keeps(asked, &tried, &terms);
+                    let kept = of_object[object].par_iter().all(keeps);
                     if watch.stopped() {
                         return None;
                     }
@@ -142,22 +153,20 @@ impl Problem {
         Some(chosen)
     }
 
-    /// What became of later queries.
-    pub fn hold(&self, chosen: &Chosen, rows: &[u32]) -> HeldOut {
-        let judge = |row: &u32| {
-            let asked = &self.asked[*row as usize];
-            (!self.keeps(asked, chosen, &self.terms)).then(|| self.changed(asked, chosen))
-        };
-        let mut changed: Vec<Changed> = rows.par_iter().filter_map(judge).collect();
+    /// What became of later queries; nothing when it was stopped.
+    pub fn hold(&self, chosen: &Chosen, rows: &[u32], watch: &dyn Watch) -> Option<HeldOut> {
+        let judge = |asked: &Asked| (!self.keeps(asked, chosen, &self.terms)).then(|| self.changed(asked, chosen));
+        let asked: Vec<&Asked> = rows.iter().map(|row| &self.asked[*row as usize]).collect();
+        let mut changed: Vec<Changed> = self.each(&asked, watch, judge)?.into_iter().flatten().collect();
         let missed = changed.iter().filter(|changed| changed.missed).count() as u64;
         let share = Share::of(changed.len() as u32, rows.len() as u32);
         changed.sort_by(|x, y| y.missed.cmp(&x.missed).then(y.off().total_cmp(&x.off())));
         changed.truncate(LISTED);
-        HeldOut { queries: rows.len() as u64, changed: share, missed, examples: changed }
+        Some(HeldOut { queries: rows.len() as u64, changed: share, missed, examples: changed })
     }
 
     /// Both intervals of a query whose answer changed.
-    pub fn changed(&self, asked: &Asked, chosen: &Chosen) -> Changed {
+    fn changed(&self, asked: &Asked, chosen: &Chosen) -> Changed {
         let reduced = self.reduced(asked, chosen);
         Changed {
             row: asked.row,

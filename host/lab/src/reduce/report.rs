@@ -1,11 +1,10 @@
 //! What a reduction did, as it is written to files.
 
-use ocb_advice::Share;
-use rayon::prelude::*;
+use ocb_advice::{Share, Watch};
 use serde::Serialize;
 
-use super::choose::{Chosen, Problem};
-use super::stand_in::Body;
+use super::choose::{Asked, Chosen, Problem};
+use super::stand_in::BodyKind;
 use crate::recording::Recording;
 use crate::{LabError, Result};
 
@@ -14,7 +13,7 @@ use crate::{LabError, Result};
 pub struct Reduction {
     /// Largest change of a distance, in the unit of the scene; a yes-or-no answer is right for such a distance.
     pub tolerance: f64,
-    /// The same holds where the objects are moved by less than this.
+    /// The same holds where one object, with what stands for it, is moved relative to the other by less than this.
     pub near: f64,
     /// Does everything contain the object that it stands for?
     pub outside_only: bool,
@@ -40,7 +39,7 @@ pub struct ReducedObject {
     /// Its name.
     pub name: String,
     /// What stands for it.
-    pub body: Body,
+    pub body: BodyKind,
     /// Elements of the object: triangles; 1 for a ball, 2 for a capsule, 6 for a box or a cylinder.
     pub before: u64,
     /// Elements of what stands for it.
@@ -84,14 +83,15 @@ impl Changed {
     }
 }
 
-/// Of the final choice, whose every query is certified again.
+/// Of the final choice, whose every query is certified again; nothing when it was stopped.
 pub fn reduction(
     recording: &Recording,
     problem: &Problem,
     chosen: &Chosen,
     held_out: Option<HeldOut>,
     left_out: u64,
-) -> Result<Reduction> {
+    watch: &dyn Watch,
+) -> Result<Option<Reduction>> {
     let terms = problem.terms();
     let mut queries = vec![0; chosen.len()];
     for asked in &problem.asked {
@@ -110,25 +110,34 @@ pub fn reduction(
             queries: queries[at],
         }
     });
-    let found: Vec<_> = problem.asked.par_iter().map(|asked| (asked, problem.reduced(asked, chosen))).collect();
-    let kept = |(asked, reduced): &(&super::Asked, _)| {
-        terms.keep(asked.limit, asked.truth, *reduced) || problem.is_unchanged(asked, chosen)
-    };
-    if !found.iter().all(kept) {
-        return Err(LabError::Fault("A reduced scene does not keep its answers.".into()));
+    let all: Vec<&Asked> = problem.asked.iter().collect();
+    let Some(found) = problem.each(&all, watch, |asked| problem.reduced(asked, chosen)) else { return Ok(None) };
+    let mut change = None;
+    let (mut hits, mut grazing) = (0, 0);
+    for (asked, reduced) in all.into_iter().zip(found) {
+        hits += u64::from(asked.truth.hi == 0.0);
+        grazing += u64::from(problem.misses(asked, reduced));
+        if problem.is_unchanged(asked, chosen) {
+            continue;
+        }
+        if !terms.keep(asked.limit, asked.truth, reduced) {
+            return Err(LabError::Fault("A reduced scene does not keep its answers.".into()));
+        }
+        if asked.limit.is_none() {
+            let by = (reduced.hi - asked.truth.lo).max(asked.truth.hi - reduced.lo);
+            change = Some(by.max(change.unwrap_or(0.0)));
+        }
     }
-    let change = found.iter().filter(|(asked, _)| asked.limit.is_none() && !problem.is_unchanged(asked, chosen));
-    let change = change.map(|(asked, reduced)| (reduced.hi - asked.truth.lo).max(asked.truth.hi - reduced.lo));
-    Ok(Reduction {
+    Ok(Some(Reduction {
         tolerance: terms.tolerance,
         near: terms.near,
         outside_only: terms.outside_only,
         objects: objects.collect(),
         queries: problem.asked.len() as u64,
         left_out,
-        hits: problem.asked.iter().filter(|asked| asked.truth.hi == 0.0).count() as u64,
-        grazing: found.iter().filter(|(asked, reduced)| problem.misses(asked, *reduced)).count() as u64,
-        largest_change: change.reduce(f64::max),
+        hits,
+        grazing,
+        largest_change: change,
         held_out,
-    })
+    }))
 }

@@ -9,22 +9,22 @@ use ocb_core::pose::Pose;
 use ocb_core::scene::{Geometry, around, tessellate};
 use serde::Serialize;
 
-use super::body::Body as Prepared;
+use super::body::Body;
 use super::{Make, Terms};
 use crate::scene_file::SceneFile;
 use crate::{LabError, Result};
 
 /// A curved body is known to this share of the tolerance.
 const PRECISION: f64 = 1.0 / 20.0;
-/// Triangles of its polyhedra at most: what needs more is known less precisely.
-const FINEST: f64 = 1e-4;
+/// But to this share of the usual bound at best, which limits the triangles of its polyhedra.
+const FINEST: f64 = 1.0 / 50.0;
 /// A hull is larger by this share, so that rounding leaves no vertex outside.
 const HULL: f64 = 1e-9;
 
 /// The kinds of bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Body {
+pub enum BodyKind {
     /// The object itself.
     Object,
     /// A ball around it.
@@ -43,7 +43,7 @@ pub enum Body {
 #[derive(Clone, Debug)]
 pub struct StandIn {
     /// Which kind.
-    pub kind: Body,
+    pub kind: BodyKind,
     /// Its geometry.
     pub geometry: Geometry,
     /// Where its own frame lies in the object's.
@@ -52,20 +52,20 @@ pub struct StandIn {
     pub mesh: Option<Arc<Mesh>>,
     /// What an algorithm has to do with, about: triangles; 1 for a ball, 2 for a capsule, 6 for a box or a cylinder.
     pub elements: u64,
-    pub(super) body: Arc<Prepared>,
+    pub(super) body: Arc<Body>,
 }
 
 /// All that may stand for a geometry, the simplest first and the object itself last; nothing when it was stopped.
-pub fn of(
+pub fn of<E: From<LabError>>(
     scene: &SceneFile,
     geometry: &Geometry,
     name: &str,
     terms: Terms,
-    make: Make,
-) -> Result<Option<Vec<StandIn>>> {
+    make: Make<E>,
+) -> Result<Option<Vec<StandIn>>, E> {
     let Geometry::Mesh { sha256, solid } = geometry else {
         // A primitive is as simple as an object can be.
-        return Ok(Some(vec![primitive(Body::Object, geometry, Pose::identity(), terms)?]));
+        return Ok(Some(vec![primitive(BodyKind::Object, geometry, Pose::identity(), terms)?]));
     };
     let object = scene.meshes.get(sha256).ok_or_else(|| LabError::fault("A scene lacks a mesh", sha256))?;
     let Some(made) = make(name, object)? else { return Ok(None) };
@@ -77,41 +77,40 @@ pub fn of(
         used.into_iter().map(|v| object.positions()[v as usize]).collect()
     };
     type Around = fn(&[Point3<f64>]) -> Option<around::Placed>;
-    let bodies: [(Body, Around); 3] =
-        [(Body::Sphere, around::ball), (Body::Capsule, around::capsule), (Body::Box, around::cuboid)];
+    let bodies: [(BodyKind, Around); 3] =
+        [(BodyKind::Sphere, around::ball), (BodyKind::Capsule, around::capsule), (BodyKind::Box, around::cuboid)];
     for (kind, around) in bodies {
         if let Some((geometry, place)) = around(&used) {
             all.push(primitive(kind, &geometry, place, terms)?);
         }
     }
-    let own = mesh(Body::Object, object.clone(), *solid);
+    let own = mesh(BodyKind::Object, object.clone(), *solid);
     all.extend(made.hull.and_then(|hull| enlarged(&hull, &own.body)));
     if !terms.outside_only {
         let levels = made.levels.into_iter().filter(|level| level.triangles().len() < object.triangles().len());
-        all.extend(levels.map(|level| mesh(Body::Level, level, *solid)));
+        all.extend(levels.map(|level| mesh(BodyKind::Level, level, *solid)));
     }
     all.retain(|stand_in| stand_in.elements < own.elements);
     all.sort_by_key(|stand_in| stand_in.elements);
-    all.push(StandIn { geometry: geometry.clone(), ..own });
+    all.push(own);
     Ok(Some(all))
 }
 
-fn mesh(kind: Body, mesh: Arc<Mesh>, solid: bool) -> StandIn {
+fn mesh(kind: BodyKind, mesh: Arc<Mesh>, solid: bool) -> StandIn {
     let mut kept = HashMap::new();
     let geometry = match SceneFile::keep(&mut kept, Mesh::clone(&mesh)) {
         Geometry::Mesh { sha256, .. } => Geometry::Mesh { sha256, solid },
         other => other,
     };
-    let body = if solid { Prepared::solid(mesh.clone(), None) } else { Prepared::surface(mesh.clone()) };
+    let body = if solid { Body::solid(mesh.clone()) } else { Body::surface(mesh.clone()) };
     let elements = mesh.triangles().len() as u64;
     StandIn { kind, geometry, place: Pose::identity(), mesh: Some(mesh), elements, body: Arc::new(body) }
 }
 
-fn primitive(kind: Body, geometry: &Geometry, place: Pose, terms: Terms) -> Result<StandIn> {
+fn primitive(kind: BodyKind, geometry: &Geometry, place: Pose, terms: Terms) -> Result<StandIn> {
     let bad = |why| LabError::Invalid(format!("A primitive of the scene cannot be tessellated: {why}."));
     let usual = tessellate::default_bound(geometry);
-    // `usual` is 0.5 % of the radius.
-    let bound = usual.min((PRECISION * terms.tolerance).max(FINEST * usual / 0.005));
+    let bound = usual.min((PRECISION * terms.tolerance).max(FINEST * usual));
     let placed = |mesh: Mesh| -> Result<Arc<Mesh>> {
         let positions = mesh.positions().iter().map(|p| place.apply(p)).collect();
         let moved = Mesh::new(positions, mesh.triangles().to_vec());
@@ -127,15 +126,15 @@ fn primitive(kind: Body, geometry: &Geometry, place: Pose, terms: Terms) -> Resu
         Geometry::Capsule { .. } => 2,
         _ => 6,
     };
-    let body = Arc::new(Prepared::solid(outer, inner));
+    let body = Arc::new(Body::convex(outer, inner));
     Ok(StandIn { kind, geometry: geometry.clone(), place, mesh: None, elements, body })
 }
 
 /// A hull that certainly contains the object; nothing where this one does not. A foreign library made it.
-fn enlarged(hull: &Mesh, object: &Prepared) -> Option<StandIn> {
+fn enlarged(hull: &Mesh, object: &Body) -> Option<StandIn> {
     let centre = hull.bounds().center();
     let larger = hull.positions().iter().map(|p| centre + (p - centre) * (1.0 + HULL)).collect();
     let larger = Mesh::new(larger, hull.triangles().to_vec()).ok()?;
-    let stand_in = mesh(Body::Hull, Arc::new(larger), true);
+    let stand_in = mesh(BodyKind::Hull, Arc::new(larger), true);
     stand_in.body.surrounds(object).then_some(stand_in)
 }

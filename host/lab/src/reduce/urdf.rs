@@ -51,8 +51,6 @@ pub struct Urdf {
     pub text: String,
     /// The files that it names, by their names relative to the description.
     pub meshes: Vec<(String, Vec<u8>)>,
-    /// How many collision elements were replaced.
-    pub replaced: u64,
 }
 
 impl Robot {
@@ -100,7 +98,7 @@ impl Robot {
     /// The robot with what stands for its collision geometry.
     pub fn with(&self, reduced: &Reduced) -> Urdf {
         let (mut text, mut from) = (String::with_capacity(self.text.len()), 0);
-        let (mut meshes, mut replaced) = (Vec::new(), 0);
+        let mut meshes = Vec::new();
         for Part { range, object, name, shown, origin } in &self.parts {
             let stand_in = &reduced.stand_ins[*object];
             if stand_in.kind == super::BodyKind::Object {
@@ -109,11 +107,10 @@ impl Robot {
             text.push_str(&self.text[from..range.start]);
             text.push_str(&written(shown, &stand_in.geometry, &within(origin, &stand_in.place), name));
             from = range.end;
-            replaced += 1;
             meshes.extend(stand_in.mesh.as_ref().map(|mesh| (file(name), obj::write(mesh).into_bytes())));
         }
         text.push_str(&self.text[from..]);
-        Urdf { text, meshes, replaced }
+        Urdf { text, meshes }
     }
 }
 

@@ -18,20 +18,21 @@ pub fn text(report: &Report, names: &[&str], written: &[PathBuf]) -> String {
     text.extend(reduction.held_out.as_ref().map(|held_out| held(held_out, reduction, names)));
     if !speed.is_empty() {
         let row = |it: &super::Speed| {
-            let [x, y] = it.faster;
+            let time = |ns: Option<f64>| ns.map_or_else(|| "incomplete".to_owned(), units::time);
+            let faster = it.faster.map(|[x, y]| format!("{:.2} to {:.2}", x.min(y), x.max(y)));
             vec![
                 it.algorithm.clone(),
-                units::time(it.before_ns),
-                units::time(it.after_ns),
-                format!("{:.2} to {:.2}", x.min(y), x.max(y)),
+                time(it.before_ns),
+                time(it.after_ns),
+                faster.unwrap_or_default(),
                 it.wrong.to_string(),
             ]
         };
         let headings = ["algorithm", "before", "after", "times faster", "wrong"];
         text.push(output::table(&headings, speed.iter().map(row).collect(), &[1, 2, 3, 4]));
         text.push(
-            "Means of a query, each scene replayed twice in turn. Curved bodies and boxes are given to the algorithms as \
-             triangles; a library that knows them directly is faster still."
+            "Means of a query, each scene replayed twice in turn. Algorithms know only triangles, so that curved bodies and boxes \
+             are given to them as polyhedra. Incomplete: not every query was answered within the budget."
                 .to_owned(),
         );
     }
@@ -58,8 +59,11 @@ fn objects(reduction: &Reduction) -> String {
 fn certified(reduction: &Reduction) -> Vec<String> {
     let Reduction { tolerance, near, outside_only, queries, left_out, hits, grazing, largest_change, .. } = reduction;
     let sum = |of: fn(&ocb_service::reduce::ReducedObject) -> u64| reduction.objects.iter().map(of).sum::<u64>();
-    let around =
-        if *near > 0.0 { format!(", and wherever the objects are moved by less than {near}") } else { String::new() };
+    let around = if *near > 0.0 {
+        format!(", and wherever one object, with its body, is moved relative to the other by less than {near}")
+    } else {
+        String::new()
+    };
     let mut text = vec![format!(
         "{} elements became {}. Certified for each of {queries} recorded queries{around}: the answer is right for a distance within \
          {tolerance} of the true one.",
@@ -92,9 +96,9 @@ fn held(held_out: &HeldOut, reduction: &Reduction, names: &[&str]) -> String {
         100.0 * changed.hi
     );
     if changed.seen > 0 {
-        text.push_str(" So the certificate does not hold for other queries than the recorded ones");
+        text.push_str(" So queries that were not recorded are not covered");
         text.push_str(if reduction.near > 0.0 {
-            " and their neighbourhoods."
+            " outside of the neighbourhoods."
         } else {
             "; --near asks for a neighbourhood."
         });
@@ -109,4 +113,55 @@ fn held(held_out: &HeldOut, reduction: &Reduction, names: &[&str]) -> String {
         ));
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use ocb_service::reduce::{Changed, ReducedObject};
+
+    use super::*;
+    use crate::scene::reduce::Speed;
+
+    fn report(changed: u32) -> Report {
+        let object =
+            |name: &str, body, after| ReducedObject { name: name.into(), body, before: 300, after, queries: 50 };
+        let example = Changed { row: 45, objects: [0, 1], distance: [0.0; 2], reduced: [0.25; 2], missed: true };
+        let held_out = HeldOut {
+            queries: 10,
+            changed: ocb_advice::Share::of(changed, 10),
+            missed: 1,
+            examples: vec![example; changed as usize],
+        };
+        let reduction = Reduction {
+            tolerance: 0.001,
+            near: 0.0,
+            outside_only: false,
+            objects: vec![object("arm", BodyKind::Capsule, 2), object("hand", BodyKind::Object, 300)],
+            queries: 50,
+            left_out: 0,
+            hits: 7,
+            grazing: 2,
+            largest_change: None,
+            held_out: Some(held_out),
+        };
+        let speed = Speed { algorithm: "box-tree".into(), before_ns: None, after_ns: None, faster: None, wrong: 0 };
+        Report { reduction, speed: vec![speed] }
+    }
+
+    #[test]
+    fn the_text_says_what_is_certified_and_what_is_not() {
+        let told = |report: &Report| text(report, &["arm", "hand"], &[]);
+        let both = told(&report(1));
+        assert!(both.contains("600 elements became 302. Certified for each of 50 recorded queries:"), "{both}");
+        assert!(both.contains("Of 7 recorded collisions, 2 became gaps") && both.contains("incomplete"), "{both}");
+        assert!(both.contains("change 1 of them") && both.contains("not covered; --near asks"), "{both}");
+        assert!(both.contains("query 45 of the recording, arm and hand"), "{both}");
+        let none = told(&report(0));
+        assert!(none.contains("change 0 of them") && !none.contains("not covered"), "{none}");
+        let mut outside = report(1);
+        (outside.reduction.outside_only, outside.reduction.near) = (true, 0.0001);
+        let outside = told(&outside);
+        assert!(outside.contains("none of the 7 recorded collisions is missed"), "{outside}");
+        assert!(outside.contains("moved relative to the other by less than 0.0001"), "{outside}");
+    }
 }
