@@ -33,6 +33,11 @@ if [ "$purpose" = test ]; then
   have openssl || packages+=(openssl)
   [ -d /usr/share/fonts/truetype/dejavu ] || packages+=(fonts-dejavu-core)
   compgen -G '/usr/lib/postgresql/*/bin/initdb' >/dev/null || packages+=(postgresql)
+  # The daemons of a Slurm cluster. Debian's users have no sbin in their path.
+  for program in slurmctld slurmd munged; do
+    have "$program" || [ -x "/usr/sbin/$program" ] || packages+=("${program/munged/munge}")
+  done
+  have sbatch || packages+=(slurm-client)
   # CGAL's exact kernel is the oracle's second opinion; development only, nothing of the product is linked with it.
   echo '#include <CGAL/version.h>' | c++ -E -x c++ - >/dev/null 2>&1 || packages+=(libcgal-dev)
   # The libraries that plugins/cpp/ wraps.
