@@ -4,6 +4,7 @@
 mod choice;
 mod describe;
 
+use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -105,4 +106,21 @@ pub fn read_plugin(file: &Path) -> Result<Vec<u8>> {
         return Err(bad("it is not an ELF file; build a shared library (.so) for Linux".into()));
     }
     Ok(bytes)
+}
+
+/// The named files, and the `*.so` of the named folders, by name.
+pub fn plugin_files(places: &[PathBuf]) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for place in places {
+        if place.is_dir() {
+            let entries = fs::read_dir(place).into_iter().flatten().flatten().map(|entry| entry.path());
+            let mut here: Vec<PathBuf> =
+                entries.filter(|path| path.is_file() && path.extension().is_some_and(|e| e == "so")).collect();
+            here.sort();
+            files.extend(here);
+        } else {
+            files.push(place.clone());
+        }
+    }
+    files
 }

@@ -8,8 +8,10 @@ pub mod check;
 pub mod columns;
 pub mod configurations;
 mod error;
+pub mod job;
 pub mod machine;
 pub mod measure;
+pub mod mesh_file;
 pub mod pairing;
 pub mod recording;
 pub mod reduce;
@@ -19,6 +21,7 @@ pub mod scene_file;
 pub mod scene_import;
 pub mod stability;
 pub mod truth;
+pub mod worker;
 pub mod workload;
 
 use std::time::{SystemTime, UNIX_EPOCH};

@@ -29,6 +29,8 @@ pub struct Machine {
     pub memory_bytes: u64,
     /// Kernel release.
     pub kernel: String,
+    /// Microcode of the CPU.
+    pub microcode: String,
     /// Hash over what makes times comparable: CPU model, stepping and caches, number of CPUs, size of the memory.
     pub hardware_class: String,
 }
@@ -57,6 +59,7 @@ impl Machine {
             memory_bytes.div_ceil(1 << 30),
         );
         Ok(Self {
+            microcode: field("microcode"),
             cpu,
             memory_bytes,
             kernel: fs::read_to_string("/proc/sys/kernel/osrelease").unwrap_or_default().trim().to_owned(),

@@ -159,6 +159,33 @@ pub enum News {
 /// says how far the algorithm comes, and another try may come nowhere.
 const STEAL: f64 = 0.001;
 
+impl<'a> Task<'a> {
+    /// What a request asks for; seed and control questions come on top.
+    pub fn of(
+        spec: &RunSpec,
+        (pairing, set, part): (&'a Pairing, &'a ConfigurationSet, Part),
+        algorithms: &'a [Arc<Algorithm>],
+        reference: Option<&'a Arc<Algorithm>>,
+    ) -> Self {
+        Self {
+            pairing,
+            set,
+            controls: &[],
+            query: spec.query,
+            semantics: spec.semantics,
+            passes: spec.passes,
+            budget: Duration::from_secs_f64(spec.budget_seconds),
+            seed: 0,
+            algorithms,
+            reference,
+            part,
+            watched: false,
+            in_order: is_coherent(&set.method),
+            rounds_only: false,
+        }
+    }
+}
+
 impl Task<'_> {
     fn coherent(&self) -> bool {
         self.in_order

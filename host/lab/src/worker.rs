@@ -1,0 +1,174 @@
+//! A measuring machine: it turns the order of a service and the files that the order names into results.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use tempfile::TempDir;
+
+use crate::algorithm::{Algorithm, Runner, plugin_files, plugin_hash};
+use crate::columns::read_set;
+use crate::job::{self, Job, Place, Results, Step};
+use crate::machine::Machine;
+use crate::measure::{Part, Stop, Task};
+use crate::mesh_file::from_bytes;
+use crate::model::{Ended, MachineFacts, MeasuredAlgorithm, OrderedAlgorithm, Told, WorkOrder};
+use crate::pairing::Pairing;
+use crate::{LabError, Result, sha256_hex};
+
+/// This machine, with what is installed on it.
+pub struct Worker {
+    runner: Runner,
+    machine: Machine,
+    facts: MachineFacts,
+    /// Installed plugin files by hash.
+    plugins: HashMap<String, PathBuf>,
+}
+
+/// How an attempt ended, with the files of its results.
+pub struct Handed {
+    /// How.
+    pub ended: Ended,
+    /// In the order in which [`Ended::Measured`] names them.
+    pub files: Vec<Vec<u8>>,
+}
+
+/// Gives the file that an order names.
+pub type Fetch<'a> = dyn Fn(&str) -> Result<Vec<u8>> + 'a;
+
+impl Worker {
+    /// Looks at this machine, and at the runner and the plugins that are installed.
+    ///
+    /// # Errors
+    /// `Fault` when the runner cannot be read or the machine cannot be looked at.
+    pub fn observe(runner: Runner, plugins: &[PathBuf], note: Option<&str>) -> Result<Self> {
+        let machine = Machine::observe()?.noted(note);
+        let hashed = plugin_files(plugins).into_iter().filter_map(|file| Some((plugin_hash(&file).ok()?, file)));
+        let plugins: HashMap<String, PathBuf> = hashed.collect();
+        let mut hashes: Vec<String> = plugins.keys().cloned().collect();
+        hashes.sort();
+        let facts = MachineFacts {
+            version: env!("CARGO_PKG_VERSION").into(),
+            runner_sha256: plugin_hash(&runner.program)?,
+            plugins: hashes,
+            hardware_class: machine.hardware_class.clone(),
+            cpu: machine.cpu.clone(),
+            kernel: machine.kernel.clone(),
+            microcode: machine.microcode.clone(),
+            governor: governor(machine.measuring_cpu()),
+            profile: runner.profile.as_str().into(),
+        };
+        Ok(Self { runner, machine, facts, plugins })
+    }
+
+    /// What it says of itself.
+    pub fn facts(&self) -> &MachineFacts {
+        &self.facts
+    }
+
+    /// Measures what is ordered; `None` when it was stopped. Blocks.
+    ///
+    /// # Errors
+    /// `Fault` when a file cannot be had or is not the ordered one, or this machine cannot measure.
+    pub fn measure(
+        &self,
+        order: &WorkOrder,
+        stop: &Stop,
+        fetch: &Fetch<'_>,
+        tell: &mut dyn FnMut(Told),
+    ) -> Result<Option<Handed>> {
+        let spec = &order.spec;
+        let pairing = pairing(order, fetch)?;
+        let bytes = fetch("set")?;
+        let set = read_set(&checked("configuration set", &order.set.sha256, sha256_hex(&bytes), bytes)?)?;
+        let brought = tempfile::tempdir().map_err(|e| LabError::fault("Making a temporary folder failed", e))?;
+        let algorithms: Vec<Arc<Algorithm>> =
+            order.algorithms.iter().map(|it| self.algorithm(it, &brought, fetch)).collect::<Result<_>>()?;
+        let reference = order.reference.as_ref().map(|it| self.algorithm(it, &brought, fetch)).transpose()?;
+        let part = Part::of(spec, &set);
+        let task =
+            Task { seed: order.draw.seed, ..Task::of(spec, (&pairing, &set, part), &algorithms, reference.as_ref()) };
+        let job = Job { task, set: &order.set, run: &order.run, draw: order.draw.clone() };
+        let place = Place { runner: &self.runner, machine: &self.machine, stop };
+        let found: Result<Option<Results>> = job::measure(job, &place, || {}, &mut |step| {
+            if let Some(told) = told(&step) {
+                tell(told);
+            }
+            Ok(())
+        });
+        Ok(found?.map(handed))
+    }
+
+    /// The algorithm with its file: the installed one, or the one that the order brings.
+    fn algorithm(&self, ordered: &OrderedAlgorithm, brought: &TempDir, fetch: &Fetch<'_>) -> Result<Arc<Algorithm>> {
+        let OrderedAlgorithm { info, id_in_plugin, settings, threads } = ordered.clone();
+        let hash = &info.plugin_sha256;
+        let file = match self.plugins.get(hash) {
+            Some(installed) => installed.clone(),
+            None => write_plugin(brought.path(), hash, fetch)?,
+        };
+        let trusted = self.runner.trusts(&file);
+        Ok(Arc::new(Algorithm { info, id_in_plugin, settings, threads, file, trusted }))
+    }
+}
+
+/// The frequency governor of a CPU; "none" where the kernel has none, as in most virtual machines.
+fn governor(cpu: usize) -> String {
+    let file = format!("/sys/devices/system/cpu/cpu{cpu}/cpufreq/scaling_governor");
+    std::fs::read_to_string(file).map_or("none".into(), |text| text.trim().to_owned())
+}
+
+fn pairing(order: &WorkOrder, fetch: &Fetch<'_>) -> Result<Pairing> {
+    let mesh = |name: &str, sha256: &str| -> Result<_> {
+        let mesh = from_bytes(&fetch(name)?)?;
+        let found = mesh.sha256();
+        Ok(Arc::new(checked("mesh", sha256, found, mesh)?))
+    };
+    let a = mesh("a", &order.mesh_a)?;
+    let b = order.mesh_b.as_ref().map(|sha256| mesh("b", sha256)).transpose()?;
+    Ok(Pairing::new(a, b))
+}
+
+fn write_plugin(folder: &Path, sha256: &str, fetch: &Fetch<'_>) -> Result<PathBuf> {
+    let bytes = fetch(&format!("plugin-{sha256}"))?;
+    let bytes = checked("plugin", sha256, sha256_hex(&bytes), bytes)?;
+    let file = folder.join(format!("{sha256}.so"));
+    std::fs::write(&file, bytes).map_err(|e| LabError::fault("Writing a plugin file failed", e))?;
+    Ok(file)
+}
+
+/// What arrived, if it is what was ordered.
+fn checked<T>(what: &str, ordered: &str, found: String, arrived: T) -> Result<T> {
+    if ordered == found {
+        return Ok(arrived);
+    }
+    Err(LabError::Fault(format!("The {what} that the service sent is not the ordered one: {found}, not {ordered}.")))
+}
+
+fn told(step: &Step) -> Option<Told> {
+    match *step {
+        Step::Waiting(waiting) => Some(Told::Waiting { waiting }),
+        Step::Progress { place, done, total, worked } => {
+            Some(Told::Progress { place, done, total, worked_us: worked.as_micros() as u64 })
+        }
+        Step::Preliminary(..) => None,
+    }
+}
+
+fn handed(results: Results) -> Handed {
+    let Results { algorithms, environment, preview } = results;
+    let mut files = Vec::new();
+    let mut measured = Vec::new();
+    for found in algorithms {
+        measured.push(MeasuredAlgorithm {
+            records: found.records.is_some(),
+            triangle_tests: found.triangle_tests.is_some(),
+            result: found.result,
+            plugin_sha256: found.plugin_sha256,
+            seconds_per_query: found.seconds_per_query,
+        });
+        files.extend([found.records, found.triangle_tests].into_iter().flatten());
+    }
+    let (environment, preview) = (environment.map(Box::new), preview.map(Box::new));
+    Handed { ended: Ended::Measured { algorithms: measured, environment, preview }, files }
+}

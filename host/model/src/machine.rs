@@ -1,0 +1,172 @@
+//! What the service and its measuring machines tell each other at `/internal/v1`.
+
+use serde::{Deserialize, Serialize};
+
+use crate::{AlgorithmInfo, AlgorithmResult, Draw, Environment, Preview, RunSpec, SetInfo};
+
+/// What a measuring machine says of itself whenever it asks for work.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MachineFacts {
+    /// Version of its `ocb`.
+    pub version: String,
+    /// SHA-256 of its `ocb-runner`.
+    pub runner_sha256: String,
+    /// SHA-256 of its installed plugin files.
+    pub plugins: Vec<String>,
+    /// Hash over what makes times comparable.
+    pub hardware_class: String,
+    /// CPU model.
+    pub cpu: String,
+    /// Kernel release.
+    pub kernel: String,
+    /// Microcode of the CPU.
+    pub microcode: String,
+    /// Frequency governor of the measuring CPU.
+    pub governor: String,
+    /// How much of a jail foreign plugins need: `production` or `dev`.
+    pub profile: String,
+}
+
+impl MachineFacts {
+    /// What of these has changed since it said `before`, if that changes its times.
+    pub fn changed_since(&self, before: &Self) -> Option<&'static str> {
+        [
+            ("hardware class", &self.hardware_class, &before.hardware_class),
+            ("kernel", &self.kernel, &before.kernel),
+            ("microcode", &self.microcode, &before.microcode),
+            ("frequency governor", &self.governor, &before.governor),
+        ]
+        .into_iter()
+        .find_map(|(what, now, before)| (now != before).then_some(what))
+    }
+}
+
+/// A machine that the operator allowed to measure.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MachineInfo {
+    /// Its name.
+    pub name: String,
+    /// What it said of itself last; absent before its first contact.
+    pub facts: Option<MachineFacts>,
+    /// When it was allowed to measure.
+    pub created_us: i64,
+    /// When it asked for work last.
+    pub seen_us: Option<i64>,
+    /// When its token was revoked.
+    pub revoked_us: Option<i64>,
+    /// The run that it works on.
+    pub run: Option<String>,
+}
+
+/// A run for a measuring machine: everything that determines it. Objects, set and submitted plugins are fetched by name.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WorkOrder {
+    /// Id of the attempt; it opens the files of this order alone.
+    pub attempt: String,
+    /// Id of the run.
+    pub run: String,
+    /// What was asked for.
+    pub spec: RunSpec,
+    /// SHA-256 of the mesh of object A.
+    pub mesh_a: String,
+    /// SHA-256 of the mesh of object B, where there is a second object.
+    pub mesh_b: Option<String>,
+    /// The configuration set.
+    pub set: SetInfo,
+    /// The seed. The secret that it follows from stays at the service.
+    pub draw: Draw,
+    /// The algorithms, in the order of the request.
+    pub algorithms: Vec<OrderedAlgorithm>,
+    /// What all of them are compared with.
+    pub reference: Option<OrderedAlgorithm>,
+    /// The run is stopped after so many seconds.
+    pub most_seconds: Option<f64>,
+}
+
+/// An algorithm with its settings, without its file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OrderedAlgorithm {
+    /// What it says of itself; the hash in it names the plugin file.
+    pub info: AlgorithmInfo,
+    /// The id that the plugin knows.
+    pub id_in_plugin: String,
+    /// Values of parameters that are not the default ones.
+    pub settings: Vec<(String, f64)>,
+    /// CPUs that it may use.
+    pub threads: usize,
+}
+
+/// A step of the measuring.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "step", rename_all = "snake_case")]
+pub enum Told {
+    /// It waits for another process that measures on the machine, or no longer.
+    Waiting {
+        /// Whether it waits.
+        waiting: bool,
+    },
+    /// An algorithm has answered so many of its expected queries, after so much work.
+    Progress {
+        /// Place in the list of algorithms; behind the last one, that of a reference that was not asked for.
+        place: usize,
+        /// Queries answered.
+        done: u64,
+        /// Queries expected; 0 while that is not known.
+        total: u64,
+        /// Time at work, microseconds.
+        worked_us: u64,
+    },
+}
+
+/// A sign of life of an attempt.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Beat {
+    /// What happened since the last one.
+    pub steps: Vec<Told>,
+}
+
+/// The answer to a beat or to results.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GoOn {
+    /// False when the attempt has ended at the service: the run was cancelled, or another machine has it.
+    pub current: bool,
+}
+
+/// How a machine ended an attempt. Files follow in the order of the algorithms: records, then tests per triangle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "ended", rename_all = "snake_case")]
+pub enum Ended {
+    /// Everything was measured, as far as it could be.
+    Measured {
+        /// Of each algorithm, in the order of the request.
+        algorithms: Vec<MeasuredAlgorithm>,
+        /// The machine; absent when nothing was measured.
+        environment: Option<Box<Environment>>,
+        /// What the results are a preview of.
+        preview: Option<Box<Preview>>,
+    },
+    /// The time limit of the run is over.
+    TooLong,
+    /// The machine stops working, and the run waits again.
+    PutBack,
+    /// Something went wrong on the machine that is not the fault of a plugin.
+    Failed {
+        /// What.
+        message: String,
+    },
+}
+
+/// The result of one algorithm without its files.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeasuredAlgorithm {
+    /// Its numbers.
+    pub result: AlgorithmResult,
+    /// SHA-256 of the plugin file that was measured.
+    pub plugin_sha256: String,
+    /// Wall seconds of one query with everything around it.
+    pub seconds_per_query: Option<f64>,
+    /// A file with its records follows.
+    pub records: bool,
+    /// A file with its tests per triangle follows.
+    pub triangle_tests: bool,
+}
