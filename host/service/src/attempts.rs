@@ -21,7 +21,9 @@ pub const MOST_LOST: i64 = 3;
 /// What is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A run, from its objects to its results.
+    /// A run up to its configurations, for a measuring machine.
+    Prepare,
+    /// A run, from its objects to its results; on a measuring machine, a prepared one.
     Measure,
     /// The check of a submitted plugin.
     Check,
@@ -59,11 +61,12 @@ pub struct Attempt {
 }
 
 impl Kind {
-    const ALL: [Self; 5] = [Self::Measure, Self::Check, Self::Stability, Self::Replay, Self::Advise];
+    const ALL: [Self; 6] = [Self::Prepare, Self::Measure, Self::Check, Self::Stability, Self::Replay, Self::Advise];
 
     /// As it is stored.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Prepare => "prepare",
             Self::Measure => "measure",
             Self::Check => "check",
             Self::Stability => "stability",

@@ -6,6 +6,7 @@ use std::time::Duration;
 pub use ocb_sandbox::Profile;
 
 use crate::advice::jailed::PROGRAM;
+use crate::machines::SlurmJobs;
 use crate::mail::MailServer;
 use ocb_lab::check::CHECK_LIMIT;
 
@@ -61,6 +62,10 @@ pub struct EngineConfig {
     pub quick_advice: bool,
     /// Work on the queue. Off for commands that only read.
     pub dispatch: bool,
+    /// Runs are only prepared here; measuring machines take them over HTTP.
+    pub elsewhere: bool,
+    /// The measuring machines are nodes of a Slurm cluster.
+    pub slurm: Option<SlurmJobs>,
     /// When nothing is asked for, measure what of the suite is missing, and try the installed algorithms for stability.
     pub idle: bool,
     /// Queue a quick run for the start page when there is none yet.
@@ -95,6 +100,8 @@ impl EngineConfig {
             quick_checks: false,
             quick_advice: false,
             dispatch: true,
+            elsewhere: false,
+            slurm: None,
             idle: false,
             featured: false,
             guest_days: 30,

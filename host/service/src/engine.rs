@@ -18,6 +18,7 @@ use crate::cache::Cache;
 use crate::columns::RecordColumns;
 use crate::house::House;
 use crate::machine::Machine;
+use crate::machines::Orders;
 use crate::measure::Stop;
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;
@@ -56,6 +57,8 @@ pub struct Inner {
     pub run_events: RunEvents,
     /// What the run at work can show.
     pub under_way: Arc<UnderWay>,
+    /// The runs that machines measure for this service.
+    pub orders: Orders,
     /// What public plugins are measured on.
     pub suite: Suite,
     /// Held from reading which plugins are offered until they are.

@@ -14,6 +14,7 @@ use crate::cache::Cache;
 use crate::engine::{Engine, Inner};
 use crate::house::House;
 use crate::machine::{Machine, lock_data_folder};
+use crate::machines::Orders;
 use crate::model::Status;
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;
@@ -48,6 +49,7 @@ impl Engine {
             machine,
             run_events: RunEvents::new(),
             under_way: Arc::default(),
+            orders: Orders::default(),
             suite,
             offering: tokio::sync::Mutex::default(),
             wake: Notify::new(),
@@ -80,6 +82,9 @@ impl Engine {
             engine.inner.spawn(engine.clone().sweep());
             engine.inner.spawn(engine.clone().look_after_campaigns());
             engine.inner.spawn(engine.inner.clone().post());
+            if let Some(jobs) = engine.inner.config.slurm.clone() {
+                engine.inner.spawn(engine.clone().supply(jobs));
+            }
         }
         engine.inner.spawn(beat::beat(engine.inner.clone()));
         #[cfg(feature = "postgres")]

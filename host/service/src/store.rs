@@ -151,6 +151,7 @@ fn migrations(sqlite: bool) -> Vec<Migration> {
         one(37, "house", if sqlite { "" } else { include_str!("../migrations/0037_house.sql") }),
         one(38, "advice turn", include_str!("../migrations/0038_advice_turn.sql")),
         one(39, "workloads", include_str!("../migrations/0039_workloads.sql")),
+        one(40, "machines", include_str!("../migrations/0040_machines.sql")),
     ]
 }
 

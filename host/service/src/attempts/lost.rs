@@ -24,7 +24,7 @@ pub async fn take_back(inner: &Arc<Inner>, just_started: Option<&Worker>) -> Res
         }
         let Attempt { kind, job, number, .. } = &attempt;
         let lost = match kind {
-            Kind::Measure => match inner.store.lose_run(&attempt, just_started).await? {
+            Kind::Prepare | Kind::Measure => match inner.store.lose_run(&attempt, just_started).await? {
                 Some(state) => run_was_lost(inner, job, state).await.map(|()| true)?,
                 None => false,
             },
@@ -47,7 +47,8 @@ pub async fn take_back(inner: &Arc<Inner>, just_started: Option<&Worker>) -> Res
     Ok(())
 }
 
-async fn run_was_lost(inner: &Arc<Inner>, run: &str, now: State) -> Result<()> {
+/// What follows from a lost attempt at a run.
+pub async fn run_was_lost(inner: &Arc<Inner>, run: &str, now: State) -> Result<()> {
     inner.run_events.ring(run);
     inner.run_events.queue_moved();
     if now == State::Queued { Ok(()) } else { inner.run_of_campaign_ended(run).await }
@@ -68,8 +69,9 @@ impl Store {
         };
         let failed = i64::from(run.attempts) >= MOST_LOST;
         let (state, message, finished_us) = if failed {
-            let message =
-                format!("The service ended {MOST_LOST} times in the middle of this run, so it is not tried again.");
+            let message = format!(
+                "The service or the measuring machine ended {MOST_LOST} times in the middle of this run, so it is not tried again."
+            );
             (run.after(State::Failed), Some(message), Some(now_us()))
         } else {
             (State::Queued, None, None)

@@ -8,7 +8,7 @@ use sqlx::{Any, AssertSqlSafe, Column, Row, Transaction, ValueRef};
 use crate::{EngineError, Result};
 
 /// All tables; one that refers to another stands behind it.
-pub(crate) const TABLES: [&str; 31] = [
+pub(crate) const TABLES: [&str; 32] = [
     "blobs",
     "objects",
     "plugins",
@@ -40,6 +40,7 @@ pub(crate) const TABLES: [&str; 31] = [
     "workloads",
     "idle_tried",
     "attempts",
+    "machines",
 ];
 
 /// Hands each row of a table to `each`; gives their number.

@@ -4,12 +4,11 @@ pub mod sql;
 pub mod submitted;
 
 use std::collections::HashMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, RwLockReadGuard};
 
 use ocb_core::query::Query;
-use ocb_lab::algorithm::{Algorithm, Runner, plugin_hash};
+use ocb_lab::algorithm::{Algorithm, Runner, plugin_files, plugin_hash};
 use ocb_sandbox::Profile;
 
 use crate::blocking::blocking;
@@ -219,21 +218,4 @@ impl Registry {
         let (runner, path, hash) = (self.runner.clone(), file.to_owned(), sha256.to_owned());
         blocking(move || Ok(runner.describe(&path, &hash, trusted)?)).await
     }
-}
-
-/// The named files, and the `*.so` of the named folders, by name.
-fn plugin_files(places: &[PathBuf]) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    for place in places {
-        if place.is_dir() {
-            let entries = fs::read_dir(place).into_iter().flatten().flatten().map(|entry| entry.path());
-            let mut here: Vec<PathBuf> =
-                entries.filter(|path| path.is_file() && path.extension().is_some_and(|e| e == "so")).collect();
-            here.sort();
-            files.extend(here);
-        } else {
-            files.push(place.clone());
-        }
-    }
-    files
 }

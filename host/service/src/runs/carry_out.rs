@@ -12,6 +12,7 @@ use crate::model::State;
 use crate::runs::accept::RunEnd;
 use crate::runs::benchmark;
 use crate::runs::benchmark::End;
+use crate::runs::preliminary::Shown;
 use crate::runs::spec::reference;
 use crate::runs::sql::RunRow;
 use crate::{EngineError, Result};
@@ -37,27 +38,45 @@ pub async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, idle: Option<u64>)
     let apart = reference(&row.spec, &inner.registry).filter(|apart| !row.spec.algorithms.contains(&apart.info.id));
     let algorithms = row.spec.algorithms.len() + usize::from(apart.is_some());
     let shown = inner.under_way.begin(id, algorithms, row.expected_seconds);
-    let ended = run_in_time(inner, attempt, &row, &stop).await;
+    let how = run_in_time(inner, attempt, &row, &stop).await;
     inner.unset_current();
-    if let (Ok(End::Stopped), true) = (&ended, inner.closing() || stop.for_now()) {
+    if let (Ok(End::Stopped), true) = (&how, inner.closing() || stop.for_now()) {
         if inner.store.put_back_run(attempt).await? {
             inner.run_events.ring(id);
         }
         return Ok(());
     }
-    let reason = stop.reason();
-    let accepted = accept(inner, attempt, &row, &ended, reason.as_deref()).await?;
+    ended(inner, attempt, &row, &how, stop.reason().as_deref(), Some(shown)).await.map(|_| ())
+}
+
+/// Records how an attempt at a run ended, here or on a measuring machine; false when it was not the current one, and then nothing
+/// of it is kept.
+pub async fn ended(
+    inner: &Inner,
+    attempt: &Attempt,
+    row: &RunRow,
+    how: &Result<End>,
+    reason: Option<&str>,
+    shown: Option<Shown<'_>>,
+) -> Result<bool> {
+    if let Ok(End::Prepared) = how {
+        let prepared = inner.store.run_is_prepared(attempt).await?;
+        inner.run_events.ring(&row.id);
+        inner.wake.notify_waiters();
+        return Ok(prepared);
+    }
+    let accepted = accept(inner, attempt, row, how, reason).await?;
     drop(shown);
     if !accepted {
-        tracing::warn!("run {id}: the result of attempt {} comes too late and is not kept", attempt.number);
-        return Ok(());
+        tracing::warn!("run {}: the result of attempt {} comes too late and is not kept", row.id, attempt.number);
+        return Ok(false);
     }
-    inner.run_events.ring(id);
-    if let Err(e) = inner.run_of_campaign_ended(id).await {
-        tracing::error!("run {id}: its end could not be recorded in its campaign: {e}");
+    inner.run_events.ring(&row.id);
+    if let Err(e) = inner.run_of_campaign_ended(&row.id).await {
+        tracing::error!("run {}: its end could not be recorded in its campaign: {e}", row.id);
     }
     inner.run_events.queue_moved();
-    Ok(())
+    Ok(true)
 }
 
 /// Runs the benchmark on a thread of its own, and stops it when its time limit is over.
@@ -98,7 +117,7 @@ async fn accept(
             let state = if handed.failed.is_some() { State::Failed } else { State::Done };
             (state, handed.failed.clone(), Some(&**handed))
         }
-        Ok(End::Stopped) => (row.after(State::Cancelled), reason.map(str::to_owned), None),
+        Ok(End::Prepared | End::Stopped) => (row.after(State::Cancelled), reason.map(str::to_owned), None),
         Err(e) => {
             tracing::warn!("run {} failed: {e}", row.id);
             (row.after(State::Failed), Some(e.to_string()), None)
@@ -114,7 +133,8 @@ async fn accept(
     }
 }
 
-fn too_long(longest: Duration) -> String {
+/// Why a run that took too long was stopped.
+pub fn too_long(longest: Duration) -> String {
     format!(
         "Stopped after {} minutes, the time limit for guests. Ask for fewer configurations or algorithms, or log in.",
         longest.as_secs().div_ceil(60)

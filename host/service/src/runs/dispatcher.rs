@@ -57,7 +57,11 @@ pub async fn work(inner: Arc<Inner>) {
                 true
             }
         };
-        match inner.store.begin_run(&inner.worker).await {
+        let next = match inner.config.elsewhere {
+            false => inner.store.begin_run(&inner.worker).await,
+            true => inner.store.begin_preparing(&inner.worker).await,
+        };
+        match next {
             Ok(Some(attempt)) => {
                 if let Err(e) = carry_out(&inner, &attempt, None).await {
                     tracing::error!("run {}: {e}", attempt.job);
@@ -65,7 +69,7 @@ pub async fn work(inner: Arc<Inner>) {
                 }
             }
             Ok(None) if checked || tried || replayed => {}
-            Ok(None) if filling.work(&inner, asked).await => {}
+            Ok(None) if !inner.config.elsewhere && filling.work(&inner, asked).await => {}
             Ok(None) => {
                 let idle = if faults > 0 { next_check.saturating_duration_since(Instant::now()) } else { IDLE };
                 let _ = tokio::time::timeout(idle, inner.wake.notified()).await;

@@ -15,6 +15,9 @@ use crate::store::Store;
 /// So often a page learns of progress.
 const TELL_EVERY: Duration = Duration::from_millis(200);
 
+/// The stage of the first algorithm: behind those of the objects and of the configurations.
+pub const FIRST_MEASURING: usize = 2;
+
 /// What is rung when the queue moves; no run has this id.
 pub const QUEUE: &str = "";
 
@@ -94,15 +97,48 @@ impl RunLog {
     pub fn begin(
         attempt: &Attempt,
         algorithms: &[String],
+        told: (Store, RunEvents, Arc<UnderWay>),
+        handle: Handle,
+    ) -> Result<Self> {
+        Self::with_stages(attempt, fresh_stages(algorithms), told, handle)
+    }
+
+    /// The log of a run that was prepared: the stages of its objects and configurations stay as they are.
+    pub fn go_on(
+        attempt: &Attempt,
+        algorithms: &[String],
+        told: (Store, RunEvents, Arc<UnderWay>),
+        handle: Handle,
+    ) -> Result<Self> {
+        let mut stages = fresh_stages(algorithms);
+        let known = handle.block_on(told.0.stages(&attempt.job))?;
+        for (stage, known) in stages.iter_mut().zip(known).take(FIRST_MEASURING) {
+            *stage = known;
+        }
+        Self::with_stages(attempt, stages, told, handle)
+    }
+
+    fn with_stages(
+        attempt: &Attempt,
+        stages: Vec<Stage>,
         (store, run_events, under_way): (Store, RunEvents, Arc<UnderWay>),
         handle: Handle,
     ) -> Result<Self> {
-        let stages = fresh_stages(algorithms);
         let meters = stages.iter().map(|_| Meter::new()).collect();
         let log = Self { attempt: attempt.clone(), store, run_events, under_way, handle, stages, meters };
         let stages: Vec<(usize, &Stage)> = log.stages.iter().enumerate().collect();
         log.send(&stages, plain_event(State::Running, 0))?;
         Ok(log)
+    }
+
+    /// Number of algorithms that have a stage.
+    pub fn algorithms(&self) -> usize {
+        self.stages.len() - FIRST_MEASURING - 1
+    }
+
+    /// Is something said about this stage?
+    pub fn has_note(&self, index: usize) -> bool {
+        self.stages[index].message.is_some()
     }
 
     /// Waits for a database call.

@@ -47,29 +47,15 @@ impl<'a> Looking<'a> {
             seed: draw::seed(row, "first look", &algorithms),
             algorithms,
             reference,
-            watched: row.suite.is_none() && row.campaign.is_none() && !row.is_refined(),
+            watched: !inner.config.elsewhere && row.suite.is_none() && row.campaign.is_none() && !row.is_refined(),
             looked: AtomicBool::new(false),
         }
     }
 
     /// The run's task on this set, without controls.
     pub fn task<'t>(&'t self, pairing: &'t Pairing, set: &'t ConfigurationSet, part: Part) -> Task<'t> {
-        Task {
-            pairing,
-            set,
-            controls: &[],
-            query: self.spec.query,
-            semantics: self.spec.semantics,
-            passes: self.spec.passes,
-            budget: Duration::from_secs_f64(self.spec.budget_seconds),
-            seed: self.seed,
-            algorithms: &self.algorithms,
-            reference: self.reference.as_ref(),
-            part,
-            watched: self.watched,
-            in_order: measure::is_coherent(&set.method),
-            rounds_only: false,
-        }
+        let task = Task::of(&self.spec, (pairing, set, part), &self.algorithms, self.reference.as_ref());
+        Task { seed: self.seed, watched: self.watched, ..task }
     }
 
     /// Where the rest of the set takes long: looks at its beginning. The machine may belong to another process now.

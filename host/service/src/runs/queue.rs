@@ -1,5 +1,7 @@
 //! The queue: which run is next.
 
+use std::ops::RangeInclusive;
+
 use sqlx::AnyConnection;
 
 use crate::Result;
@@ -22,6 +24,22 @@ pub struct Granted {
     pub seconds: f64,
 }
 
+/// The run that is next of those with these priorities for which this holds.
+macro_rules! next {
+    ($which:literal) => {
+        concat!(
+            "SELECT r.id FROM runs r LEFT JOIN served s ON s.owner = r.turn ",
+            "WHERE r.state = 'queued' AND r.priority BETWEEN $1 AND $2 AND ",
+            at_rest!("measure", "r.id"),
+            " AND ",
+            at_rest!("prepare", "r.id"),
+            " AND ",
+            $which,
+            " ORDER BY r.priority, COALESCE(s.served_us, 0), r.created_us, r.id LIMIT 1"
+        )
+    };
+}
+
 macro_rules! granted {
     ($whose:literal) => {
         concat!(
@@ -38,30 +56,52 @@ impl Store {
     /// Begins an attempt at the next run: smallest priority, then whose turn was longest ago, then the oldest. Idle work is not
     /// among them.
     pub async fn begin_run(&self, worker: &Worker) -> Result<Option<Attempt>> {
-        self.begin_between(worker, i64::MIN, BACKGROUND).await
+        self.begin_next(worker, Kind::Measure, i64::MIN..=BACKGROUND, next!("TRUE")).await
     }
 
     /// Begins an attempt at a run that the service queued for when it is idle.
     pub async fn begin_idle_run(&self, worker: &Worker) -> Result<Option<Attempt>> {
-        self.begin_between(worker, IDLE, IDLE).await
+        self.begin_next(worker, Kind::Measure, IDLE..=IDLE, next!("TRUE")).await
     }
 
-    async fn begin_between(&self, worker: &Worker, smallest: i64, largest: i64) -> Result<Option<Attempt>> {
+    /// Begins to prepare the next run for a measuring machine. No visitor has more than a few prepared runs, so that those of others
+    /// are prepared in time for their turn.
+    pub async fn begin_preparing(&self, worker: &Worker) -> Result<Option<Attempt>> {
+        let text = next!(
+            "r.prepared = 0 AND 8 > (SELECT COUNT(*) FROM runs p WHERE p.turn = r.turn AND p.state = 'queued' AND p.prepared = 1)"
+        );
+        self.begin_next(worker, Kind::Prepare, i64::MIN..=BACKGROUND, text).await
+    }
+
+    /// Begins an attempt at the next prepared run.
+    pub async fn begin_prepared_run(&self, worker: &Worker) -> Result<Option<Attempt>> {
+        self.begin_next(worker, Kind::Measure, i64::MIN..=BACKGROUND, next!("r.prepared = 1")).await
+    }
+
+    /// Runs that wait for a measuring machine.
+    pub async fn prepared_runs(&self) -> Result<u64> {
+        let text = "SELECT COUNT(*) FROM runs WHERE state = 'queued' AND prepared = 1";
+        Ok(sqlx::query_scalar::<_, i64>(text).fetch_one(&self.pool).await? as u64)
+    }
+
+    /// A run waits for a measuring machine from now on; false when the attempt is not the current one.
+    pub async fn run_is_prepared(&self, attempt: &Attempt) -> Result<bool> {
+        self.queue_anew(attempt, Outcome::Accepted, true).await
+    }
+
+    async fn begin_next(
+        &self,
+        worker: &Worker,
+        kind: Kind,
+        priorities: RangeInclusive<i64>,
+        text: &'static str,
+    ) -> Result<Option<Attempt>> {
         // Another worker may take what this one has chosen; then it chooses again.
         loop {
-            let next: Option<String> = sqlx::query_scalar(concat!(
-                "SELECT r.id FROM runs r LEFT JOIN served s ON s.owner = r.turn ",
-                "WHERE r.state = 'queued' AND r.priority BETWEEN $1 AND $2 AND ",
-                at_rest!("measure", "r.id"),
-                " ORDER BY r.priority, COALESCE(s.served_us, 0), r.created_us, r.id LIMIT 1"
-            ))
-            .bind(smallest)
-            .bind(largest)
-            .fetch_optional(&self.pool)
-            .await?;
-            let Some(next) = next else { return Ok(None) };
+            let query = sqlx::query_scalar(text).bind(*priorities.start()).bind(*priorities.end());
+            let Some(next): Option<String> = query.fetch_optional(&self.pool).await? else { return Ok(None) };
             let mut transaction = self.pool.begin().await?;
-            let Some(attempt) = begin(&mut transaction, Kind::Measure, &next, worker).await? else { continue };
+            let Some(attempt) = begin(&mut transaction, kind, &next, worker).await? else { continue };
             let turn: Option<String> = sqlx::query_scalar(
                 "UPDATE runs SET state = 'running', attempts = attempts + 1, started_us = $1, message = NULL \
                  WHERE id = $2 AND state = 'queued' RETURNING turn",
@@ -71,7 +111,9 @@ impl Store {
             .fetch_optional(&mut *transaction)
             .await?;
             let Some(turn) = turn else { continue };
-            served(&mut transaction, &turn).await?;
+            if kind == Kind::Measure {
+                served(&mut transaction, &turn).await?;
+            }
             transaction.commit().await?;
             return Ok(Some(attempt));
         }
@@ -80,12 +122,19 @@ impl Store {
     /// Puts a run under way back without counting the attempt: it was asked to stop, and not because of what it did. False when
     /// the attempt is not the current one.
     pub async fn put_back_run(&self, attempt: &Attempt) -> Result<bool> {
+        self.queue_anew(attempt, Outcome::PutBack, false).await
+    }
+
+    /// Queues a run under way again without counting the attempt; prepared, if it was that before or is now.
+    async fn queue_anew(&self, attempt: &Attempt, outcome: Outcome, prepared: bool) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
-        if !end(&mut transaction, attempt, Outcome::PutBack).await? {
+        if !end(&mut transaction, attempt, outcome).await? {
             return Ok(false);
         }
-        let text = "UPDATE runs SET state = 'queued', attempts = attempts - 1 WHERE id = $1 AND state = 'running'";
-        sqlx::query(text).bind(&attempt.job).execute(&mut *transaction).await?;
+        let text = "UPDATE runs SET state = 'queued', attempts = attempts - 1, \
+                    prepared = CASE WHEN $2 = 1 THEN 1 ELSE prepared END WHERE id = $1 AND state = 'running'";
+        let query = sqlx::query(text).bind(&attempt.job).bind(i64::from(prepared));
+        query.execute(&mut *transaction).await?;
         append_event(&mut transaction, &attempt.job, &mut plain_event(State::Queued, 0)).await?;
         transaction.commit().await?;
         Ok(true)
@@ -94,7 +143,9 @@ impl Store {
     /// Ends a run that another worker is at; false when none is.
     pub async fn withdraw_run(&self, id: &str, here: &Worker, to: State, message: Option<&str>) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
-        if !withdraw(&mut transaction, Kind::Measure, id, here).await? {
+        if !withdraw(&mut transaction, Kind::Measure, id, here).await?
+            && !withdraw(&mut transaction, Kind::Prepare, id, here).await?
+        {
             return Ok(false);
         }
         let text = "UPDATE runs SET state = $1, message = $2, finished_us = $3 WHERE id = $4 AND state = 'running'";

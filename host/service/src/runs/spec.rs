@@ -9,9 +9,11 @@ use ocb_lab::algorithm::Algorithm;
 
 use crate::blobs::Blobs;
 use crate::configurations;
+use crate::engine::Inner;
 use crate::model::{AlgorithmInfo, ObjectInfo, RunSpec};
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;
+use crate::runs::sql::RunRow;
 use crate::store::Store;
 use crate::{EngineError, Result};
 
@@ -222,6 +224,20 @@ const REFERENCES: [&str; 2] = ["box-tree", "brute-force"];
 pub fn reference(spec: &RunSpec, registry: &Registry) -> Option<Arc<Algorithm>> {
     let known = REFERENCES.iter().filter_map(|id| registry.algorithm(id));
     known.into_iter().find(|c| c.trusted && answers(&c.info, spec))
+}
+
+impl Inner {
+    /// The algorithms of a run. They may have changed since it was asked for, by a restart with other plugins.
+    pub fn algorithms_of(&self, row: &RunRow) -> Result<Vec<Arc<Algorithm>>> {
+        let find = |id: &String| {
+            self.registry.choose(id, row.owner.as_deref())?.ok_or_else(|| {
+                EngineError::Invalid(format!(
+                    "The algorithm {id:?} is no longer installed; start the run again without it."
+                ))
+            })
+        };
+        row.spec.algorithms.iter().map(find).collect()
+    }
 }
 
 fn answers(algorithm: &AlgorithmInfo, spec: &RunSpec) -> bool {

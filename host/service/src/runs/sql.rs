@@ -171,7 +171,7 @@ impl Store {
         let mut transaction = self.pool.begin().await?;
         let queued = sqlx::query(
             "UPDATE runs SET state = 'queued', attempts = 0, message = NULL, spec = $1, secret = $2, \
-             expected_seconds = $3, finished_us = NULL, granted_seconds = $5, last_event = 0 WHERE id = $4 AND state = 'done'",
+             expected_seconds = $3, finished_us = NULL, granted_seconds = $5, last_event = 0, prepared = 0 WHERE id = $4 AND state = 'done'",
         )
         .bind(to_json(&run.spec)?)
         .bind(run.secret.as_deref())

@@ -1,0 +1,35 @@
+//! The files that an order names.
+
+use ocb_lab::mesh_file::to_bytes;
+
+use crate::blocking::blocking;
+use crate::boxed;
+use crate::engine::Engine;
+use crate::{EngineError, Result};
+
+impl Engine {
+    /// A file of the machine's current attempt: the mesh `a` or `b`, the configuration `set` as Parquet, or `plugin-` with the
+    /// SHA-256 of a plugin file that the run measures.
+    #[boxed]
+    pub async fn file_of_order(&self, machine: &str, attempt: &str, name: &str) -> Result<Vec<u8>> {
+        let inner = &self.inner;
+        let unknown = || EngineError::NotFound(format!("The work of this machine has no file {name:?}."));
+        let attempt = inner.store.attempt_of(machine, attempt).await?.ok_or_else(unknown)?;
+        let row = inner.run_row(&attempt.job).await?;
+        match name {
+            "a" | "b" => {
+                let id = if name == "a" { row.object_a() } else { row.object_b() };
+                let mesh = inner.objects.mesh(id).await?;
+                blocking(move || Ok(to_bytes(&mesh))).await
+            }
+            "set" => inner.blobs.get(&row.set_blob.ok_or_else(unknown)?).await,
+            _ => {
+                let hash = name.strip_prefix("plugin-").ok_or_else(unknown)?;
+                let algorithms = inner.algorithms_of(&row)?;
+                let named = algorithms.iter().find(|it| it.info.plugin_sha256 == hash).ok_or_else(unknown)?;
+                let file = named.file.clone();
+                blocking(move || Ok(ocb_lab::algorithm::read_plugin(&file)?)).await
+            }
+        }
+    }
+}
