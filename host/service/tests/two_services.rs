@@ -7,8 +7,8 @@ use std::path::Path;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use futures::StreamExt;
-use ocb_service::model::{RunInfo, State};
-use ocb_service::{Engine, EngineConfig};
+use ocb_service::model::{Ended, RunInfo, RunSpec, State, Told};
+use ocb_service::{Engine, EngineConfig, Handing};
 
 /// A fresh schema in the harness's database.
 async fn database() -> (String, sqlx::AnyPool) {
@@ -136,4 +136,36 @@ async fn a_second_service_takes_nothing_from_the_first_until_that_is_silent() {
     first.shutdown().await;
     second.shutdown().await;
     database.close().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_machine_begins_at_one_service_and_hands_in_at_the_other() {
+    let (url, _database) = database().await;
+    let [data, other] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let settings =
+        |data: &Path| EngineConfig { database_url: Some(url.clone()), elsewhere: true, ..common::config(data) };
+    let first = Engine::open(settings(data.path())).await.unwrap();
+    let token = first.add_machine("alpha").await.unwrap();
+    let second = Engine::open(settings(other.path())).await.unwrap();
+    assert_eq!(second.machine_of(&token).await.unwrap().as_deref(), Some("alpha"));
+    let worker = common::here(&settings(data.path()));
+    let wait = Duration::from_secs(60);
+    let spec = |seed| RunSpec { algorithms: vec!["box-tree".into()], ..common::spec("collision_first", 30, seed) };
+
+    // Whichever prepares it, the other gives it to the machine.
+    let run = first.submit(spec(1), Some("me")).await.unwrap();
+    let order = second.next_order("alpha", worker.facts(), wait).await.unwrap().unwrap();
+    let told = Told::Progress { place: 0, done: 3, total: 30, worked_us: 10 };
+    assert!(first.beat_of("alpha", &order.attempt, vec![told]).await.unwrap());
+    assert_eq!(second.run(&run.id, None).await.unwrap().stages[2].done, 3);
+
+    // Cancelled at one, which the machine hears from the other.
+    second.cancel(&run.id, Some("me")).await.unwrap();
+    assert!(!first.beat_of("alpha", &order.attempt, Vec::new()).await.unwrap());
+    let late = Handing { ended: Ended::PutBack, files: Vec::new() };
+    assert!(!first.hand_in("alpha", &order.attempt, late).await.unwrap());
+    assert_eq!(first.run(&run.id, None).await.unwrap().state, State::Cancelled);
+    for engine in [first, second] {
+        engine.shutdown().await;
+    }
 }

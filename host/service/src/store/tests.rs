@@ -22,6 +22,7 @@ mod campaigns;
 pub(crate) mod deletion;
 pub(crate) mod fixtures;
 mod lists;
+mod machines;
 mod mails;
 mod owned;
 pub(crate) mod people;
@@ -141,6 +142,10 @@ on_both!(
     lost_checks_parts_and_advice_change_nothing,
     a_job_is_withdrawn_from_another_worker_alone,
     two_workers_never_begin_the_same,
+    a_token_is_that_of_one_machine_until_it_is_revoked,
+    a_machine_that_has_changed_is_not_admitted,
+    prepared_runs_go_to_machines_in_turn,
+    a_machine_reaches_its_own_attempt_alone,
     results_replace_those_of_an_earlier_attempt,
     the_newest_finished_featured_run_is_shown,
     accounts_have_one_name_and_keys_of_their_own,
@@ -173,6 +178,7 @@ mod contract {
     pub use super::campaigns::*;
     pub use super::deletion::*;
     pub use super::lists::*;
+    pub use super::machines::*;
     pub use super::mails::*;
     pub use super::owned::*;
     pub use super::people::*;

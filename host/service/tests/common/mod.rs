@@ -4,8 +4,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use ocb_service::model::{RunEvent, RunInfo, RunSpec};
-use ocb_service::{Engine, EngineConfig};
+use ocb_service::model::{RunEvent, RunInfo, RunSpec, WorkOrder};
+use ocb_service::worker::{Handed, Worker};
+use ocb_service::{Engine, EngineConfig, LabError, Runner, Stop};
+use tokio::runtime::Handle;
 
 /// The folder where cargo puts binaries and plugins; test binaries lie in `deps` below it.
 pub fn built() -> PathBuf {
@@ -93,4 +95,24 @@ pub async fn database(data: &Path) -> sqlx::AnyPool {
     sqlx::any::install_default_drivers();
     let file = data.join("opencollbench.sqlite");
     sqlx::AnyPool::connect(&format!("sqlite://{}", file.display())).await.expect("the database")
+}
+
+/// This process as a measuring machine of such a service.
+pub fn here(config: &EngineConfig) -> Worker {
+    let runner = Runner { program: config.runner.clone(), profile: config.profile };
+    Worker::observe(runner, &config.plugins, None).unwrap()
+}
+
+/// Measures what is ordered in this process.
+pub async fn measured(engine: &Engine, machine: &str, worker: Worker, order: &WorkOrder) -> (Worker, Handed) {
+    let (engine, machine, order, handle) = (engine.clone(), machine.to_owned(), order.clone(), Handle::current());
+    let work = move || {
+        let fetch = |name: &str| {
+            let file = handle.block_on(engine.file_of_order(&machine, &order.attempt, name));
+            file.map_err(|e| LabError::Fault(e.to_string()))
+        };
+        let handed = worker.measure(&order, &Stop::default(), &fetch, &mut |_| {}).unwrap().unwrap();
+        (worker, handed)
+    };
+    tokio::task::spawn_blocking(work).await.unwrap()
 }

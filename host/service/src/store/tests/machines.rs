@@ -1,0 +1,106 @@
+//! Machines: their tokens and facts, prepared runs and whose turn they are.
+
+use super::super::*;
+use super::{add, end, fresh_stages, run, worker};
+use crate::attempts::Attempt;
+use crate::machines::sql::worker as of;
+use crate::model::{MachineFacts, State};
+
+fn facts(class: &str, kernel: &str) -> MachineFacts {
+    MachineFacts {
+        version: "1".into(),
+        runner_sha256: "r".into(),
+        plugins: vec!["p".into()],
+        hardware_class: class.into(),
+        cpu: "c".into(),
+        kernel: kernel.into(),
+        microcode: "0x1".into(),
+        governor: "performance".into(),
+        profile: "production".into(),
+    }
+}
+
+async fn prepare(store: &Store) -> Option<Attempt> {
+    let attempt = store.begin_preparing(&worker("service")).await.unwrap()?;
+    assert!(store.run_is_prepared(&attempt).await.unwrap());
+    Some(attempt)
+}
+
+pub async fn a_token_is_that_of_one_machine_until_it_is_revoked(store: Store) {
+    store.keep_machine("alpha", "one").await.unwrap();
+    store.keep_machine("beta", "two").await.unwrap();
+    assert_eq!(store.machine_of("one").await.unwrap().as_deref(), Some("alpha"));
+    assert_eq!(store.machine_of("three").await.unwrap(), None);
+    store.keep_machine("alpha", "three").await.unwrap();
+    assert_eq!(store.machine_of("one").await.unwrap(), None, "another token replaces it");
+    assert!(store.revoke_machine("alpha").await.unwrap() && !store.revoke_machine("alpha").await.unwrap());
+    assert_eq!(store.machine_of("three").await.unwrap(), None);
+    let all = store.machines().await.unwrap();
+    let told: Vec<_> = all.iter().map(|it| (it.name.as_str(), it.revoked_us.is_some(), it.run.as_deref())).collect();
+    assert_eq!(told, [("alpha", true, None), ("beta", false, None)]);
+    store.keep_machine("alpha", "four").await.unwrap();
+    assert_eq!(store.machine_of("four").await.unwrap().as_deref(), Some("alpha"));
+}
+
+pub async fn a_machine_that_has_changed_is_not_admitted(store: Store) {
+    store.keep_machine("alpha", "one").await.unwrap();
+    let seen = async |facts: &MachineFacts| store.machine_was_seen("alpha", facts).await.unwrap();
+    assert_eq!(seen(&facts("x", "6.1")).await, None);
+    assert_eq!(seen(&facts("x", "6.1")).await, None);
+    assert_eq!(seen(&facts("y", "6.1")).await, Some("hardware class"));
+    assert_eq!(seen(&facts("x", "6.2")).await, Some("kernel"));
+    let slower = MachineFacts { governor: "powersave".into(), ..facts("x", "6.1") };
+    assert_eq!(seen(&slower).await, Some("frequency governor"));
+    let newer = MachineFacts { plugins: Vec::new(), version: "2".into(), ..facts("x", "6.1") };
+    assert_eq!(seen(&newer).await, None, "what is installed may change");
+    assert_eq!(store.machines().await.unwrap()[0].facts.as_ref(), Some(&newer));
+    store.keep_machine("alpha", "two").await.unwrap();
+    assert_eq!(seen(&facts("y", "6.2")).await, None, "it was allowed anew");
+}
+
+pub async fn prepared_runs_go_to_machines_in_turn(store: Store) {
+    for n in 0..10 {
+        add(&store, run(&format!("a{n}"), Some("a"), 1, n)).await;
+    }
+    add(&store, run("b", Some("b"), 1, 50)).await;
+    assert!(store.begin_prepared_run(&of("m", "c")).await.unwrap().is_none(), "nothing is prepared");
+    let mut prepared = Vec::new();
+    while let Some(attempt) = prepare(&store).await {
+        prepared.push(attempt.job);
+    }
+    assert_eq!(prepared.len(), 9, "no more than eight of one visitor: {prepared:?}");
+    assert_eq!(prepared.last().map(String::as_str), Some("b"));
+    assert_eq!(store.prepared_runs().await.unwrap(), 9);
+    let mut begun = Vec::new();
+    for machine in ["m", "n", "o"] {
+        begun.push(store.begin_prepared_run(&of(machine, "c")).await.unwrap().unwrap());
+    }
+    let jobs: Vec<_> = begun.iter().map(|attempt| attempt.job.as_str()).collect();
+    assert_eq!(jobs, ["a0", "b", "a1"], "preparing takes nobody's turn");
+    let row = store.run("a0").await.unwrap().unwrap();
+    assert_eq!((row.state, row.attempts), (State::Running, 1), "preparing is no attempt");
+    // What waits again stays prepared; what is asked for anew is not.
+    assert!(store.put_back_run(&begun[0]).await.unwrap());
+    assert_eq!(store.prepared_runs().await.unwrap(), 7);
+    assert!(end(&store, &begun[1], State::Done, None).await);
+    let b = store.run("b").await.unwrap().unwrap();
+    assert!(store.queue_again(&b, &fresh_stages(&b.spec.algorithms)).await.unwrap());
+    assert_eq!(store.prepared_runs().await.unwrap(), 7);
+}
+
+pub async fn a_machine_reaches_its_own_attempt_alone(store: Store) {
+    store.keep_machine("m", "one").await.unwrap();
+    add(&store, run("r", Some("a"), 1, 1)).await;
+    prepare(&store).await.unwrap();
+    let mine = store.begin_prepared_run(&of("m", "c")).await.unwrap().unwrap();
+    assert_eq!(store.attempt_of("m", &mine.id).await.unwrap(), Some(mine.clone()));
+    assert_eq!(store.attempt_of("n", &mine.id).await.unwrap(), None);
+    assert_eq!(store.attempt_of("machine m", &mine.id).await.unwrap(), None);
+    assert_eq!(store.machines().await.unwrap()[0].run.as_deref(), Some("r"));
+    // A service that starts believes no machine dead.
+    assert!(store.silent_attempts(Some(&worker("service"))).await.unwrap().is_empty());
+    assert!(store.withdraw_run("r", &worker("service"), State::Cancelled, None).await.unwrap());
+    assert_eq!(store.attempt_of("m", &mine.id).await.unwrap(), None, "it has ended");
+    assert!(!store.beat(&mine.id).await.unwrap());
+    assert!(store.machines().await.unwrap()[0].run.is_none());
+}

@@ -1,0 +1,216 @@
+//! What a measuring machine may ask of its service, and what of its results is believed. The machine is this process.
+
+mod common;
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use ocb_core::query::Query;
+use ocb_service::model::{
+    AccountInfo, Ended, MachineFacts, Manifest, PluginState, Role, RunInfo, RunSpec, State, Told, WorkOrder,
+};
+use ocb_service::worker::Handed;
+use ocb_service::{Ceilings, Engine, EngineConfig, EngineError, Handing, Profile, Visitor};
+use tokio::sync::{Mutex, MutexGuard};
+
+/// No wait for work.
+const NOW: Duration = Duration::ZERO;
+
+/// One measures at a time on a machine, and an engine that is opened meanwhile sees fewer CPUs.
+async fn alone() -> MutexGuard<'static, ()> {
+    static ALONE: Mutex<()> = Mutex::const_new(());
+    ALONE.lock().await
+}
+
+fn config(data: &Path) -> EngineConfig {
+    EngineConfig { elsewhere: true, quick_checks: true, ..common::config(data) }
+}
+
+fn small(algorithms: &[&str]) -> RunSpec {
+    let algorithms = algorithms.iter().map(|name| (*name).to_owned()).collect();
+    RunSpec { algorithms, budget_seconds: 5.0, ..common::spec("proximity", 40, 1) }
+}
+
+/// The next order, which comes once the run is prepared.
+async fn order(engine: &Engine, machine: &str, facts: &MachineFacts) -> WorkOrder {
+    let order = engine.next_order(machine, facts, Duration::from_secs(60)).await.unwrap();
+    order.expect("a run is prepared within a minute")
+}
+
+async fn hand_in(engine: &Engine, machine: &str, order: &WorkOrder, Handed { ended, files }: Handed) -> bool {
+    engine.hand_in(machine, &order.attempt, Handing { ended, files }).await.unwrap()
+}
+
+async fn state(engine: &Engine, run: &RunInfo) -> State {
+    engine.run(&run.id, None).await.unwrap().state
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn results_of_something_else_are_refused_and_those_of_the_order_kept_once() {
+    let _alone = alone().await;
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(config(data.path())).await.unwrap();
+    for name in ["alpha", "beta"] {
+        engine.add_machine(name).await.unwrap();
+    }
+    let worker = common::here(&config(data.path()));
+    let run = engine.submit(small(&["box-tree", "brute-force"]), None).await.unwrap();
+    let order = order(&engine, "alpha", worker.facts()).await;
+    assert_eq!((order.run.as_str(), order.draw.secret.as_deref()), (run.id.as_str(), None), "the secret stays here");
+    assert!(engine.next_order("beta", worker.facts(), NOW).await.unwrap().is_none(), "nobody else gets it");
+    // Another machine reaches nothing of it, and this machine nothing but what the order names.
+    for (machine, name) in [("beta", "a"), ("alpha", "../../lock"), ("alpha", "plugin-"), ("alpha", "c")] {
+        let refused = engine.file_of_order(machine, &order.attempt, name).await;
+        assert!(matches!(refused, Err(EngineError::NotFound(_))), "{machine} {name}");
+    }
+    assert!(!engine.beat_of("beta", &order.attempt, Vec::new()).await.unwrap());
+    let (_, handed) = common::measured(&engine, "alpha", worker, &order).await;
+    let Ended::Measured { algorithms, environment, preview } = &handed.ended else { panic!("it was measured") };
+    let with = |change: &dyn Fn(&mut Vec<ocb_service::model::MeasuredAlgorithm>)| {
+        let mut algorithms = algorithms.clone();
+        change(&mut algorithms);
+        Ended::Measured { algorithms, environment: environment.clone(), preview: preview.clone() }
+    };
+    let wrong = [
+        (with(&|all| all.truncate(1)), "a file too many"),
+        (with(&|all| all.clear()), "a file too many"),
+        (with(&|all| all.swap(0, 1)), "was not ordered"),
+        (with(&|all| all[1].plugin_sha256 = "0".repeat(64)), "measured from another file"),
+        (with(&|all| all[0].triangle_tests = !all[0].triangle_tests), "file"),
+    ];
+    for (ended, words) in wrong {
+        let files = handed.files.clone();
+        let refused = engine.hand_in("alpha", &order.attempt, Handing { ended, files }).await;
+        assert!(matches!(&refused, Err(EngineError::Invalid(why)) if why.contains(words)), "{words}: {refused:?}");
+    }
+    let none = Ended::Measured { algorithms: Vec::new(), environment: None, preview: None };
+    let refused = engine.hand_in("alpha", &order.attempt, Handing { ended: none, files: Vec::new() }).await;
+    assert!(matches!(&refused, Err(EngineError::Invalid(why)) if why.contains("another number")), "{refused:?}");
+    let mut files = handed.files.clone();
+    files.pop();
+    let refused = engine.hand_in("alpha", &order.attempt, Handing { ended: handed.ended.clone(), files }).await;
+    assert!(matches!(&refused, Err(EngineError::Invalid(why)) if why.contains("is missing")), "{refused:?}");
+    // Files that are no records.
+    let files = vec![b"PAR1".to_vec(); handed.files.len()];
+    let refused = engine.hand_in("alpha", &order.attempt, Handing { ended: handed.ended.clone(), files }).await;
+    assert!(matches!(refused, Err(EngineError::Invalid(_))), "{refused:?}");
+    assert_eq!(state(&engine, &run).await, State::Running);
+    let told = Told::Progress { place: 0, done: 7, total: 9, worked_us: 1000 };
+    assert!(engine.beat_of("alpha", &order.attempt, vec![told, Told::Waiting { waiting: true }]).await.unwrap());
+    let stages = engine.run(&run.id, None).await.unwrap().stages;
+    assert_eq!((stages[2].done, stages[2].total, stages[2].message.is_some()), (7, 9, true));
+    let again = Handed { ended: handed.ended.clone(), files: handed.files.clone() };
+    assert!(!hand_in(&engine, "beta", &order, again).await, "another machine cannot hand in for it");
+    let again = Handed { ended: handed.ended.clone(), files: handed.files.clone() };
+    assert!(hand_in(&engine, "alpha", &order, handed).await);
+    assert!(!hand_in(&engine, "alpha", &order, again).await, "once");
+    let run = engine.run(&run.id, None).await.unwrap();
+    assert_eq!((run.state, run.results.len()), (State::Done, 2));
+    assert!(run.results.iter().all(|result| result.rank.is_some() && result.wrong == 0), "{:?}", run.results);
+    let draw = run.environment.unwrap().draw.unwrap();
+    assert_eq!((draw.seed, draw.secret.is_some()), (order.draw.seed, true), "published with the result");
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_machine_that_fails_three_times_does_not_keep_the_run_for_ever() {
+    let _alone = alone().await;
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(config(data.path())).await.unwrap();
+    engine.add_machine("alpha").await.unwrap();
+    let worker = common::here(&config(data.path()));
+    let run = engine.submit(small(&["box-tree"]), None).await.unwrap();
+    for number in 1..=3 {
+        assert_ne!(state(&engine, &run).await, State::Failed, "attempt {number}");
+        let order = order(&engine, "alpha", worker.facts()).await;
+        let ended = Ended::Failed { message: "The disk of /somewhere is full.".into() };
+        assert!(hand_in(&engine, "alpha", &order, Handed { ended, files: Vec::new() }).await);
+    }
+    let run = engine.run(&run.id, None).await.unwrap();
+    let message = run.message.unwrap();
+    assert_eq!(run.state, State::Failed);
+    assert!(message.contains("3 times") && !message.contains("somewhere"), "{message}");
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn machines_that_would_measure_otherwise_are_refused() {
+    let _alone = alone().await;
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(config(data.path())).await.unwrap();
+    let token = engine.add_machine("alpha").await.unwrap();
+    assert_eq!(engine.machine_of(&token).await.unwrap().as_deref(), Some("alpha"));
+    let plain = common::here(&config(data.path())).facts().clone();
+    let refused = [
+        (MachineFacts { version: "0.0.0".into(), ..plain.clone() }, "it has version 0.0.0"),
+        (MachineFacts { runner_sha256: String::new(), ..plain.clone() }, "ocb-runner is another file"),
+        (MachineFacts { profile: "dev".into(), ..plain.clone() }, "its profile is dev"),
+        (MachineFacts { plugins: Vec::new(), ..plain.clone() }, "missing or another file"),
+    ];
+    for (facts, words) in refused {
+        let refused = engine.next_order("alpha", &facts, NOW).await;
+        assert!(matches!(&refused, Err(EngineError::Busy(why)) if why.contains(words)), "{words}: {refused:?}");
+    }
+    assert!(engine.next_order("alpha", &plain, NOW).await.unwrap().is_none());
+    engine.revoke_machine("alpha").await.unwrap();
+    assert_eq!(engine.machine_of(&token).await.unwrap(), None);
+    assert!(matches!(engine.revoke_machine("alpha").await, Err(EngineError::NotFound(_))));
+    assert!(matches!(engine.add_machine(" \n").await, Err(EngineError::Invalid(_))));
+    engine.shutdown().await;
+}
+
+async fn validated(engine: &Engine, author: &AccountInfo, file: &Path) -> String {
+    let manifest = Manifest {
+        name: "Slow".into(),
+        version: "1.0".into(),
+        authors: "Somebody".into(),
+        license: "MIT OR Apache-2.0".into(),
+        paper: String::new(),
+        source: String::new(),
+        queries: vec![Query::CollisionFirst],
+        threads: false,
+    };
+    let bytes = std::fs::read(file).unwrap();
+    let id = engine.submit_plugin(author, "slow.so", bytes, manifest, None).await.unwrap().0.id;
+    let begun = Instant::now();
+    loop {
+        let plugin = engine.plugin(&id, Some(author)).await.unwrap();
+        match plugin.state {
+            PluginState::Validated => return format!("{}@1.0", plugin.algorithms[0].id),
+            PluginState::Failed => panic!("{plugin:?}"),
+            _ => assert!(begun.elapsed() < Duration::from_secs(120), "the check does not end"),
+        }
+        tokio::time::sleep(Duration::from_millis(50)).await;
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_submitted_plugin_comes_with_the_order_and_a_guests_time_is_limited() {
+    let _alone = alone().await;
+    let data = tempfile::tempdir().unwrap();
+    let ceilings = Ceilings { guest_run: Duration::from_secs(90), ..Ceilings::default() };
+    let settings = EngineConfig { ceilings, profile: Profile::Dev, ..config(data.path()) };
+    let engine = Engine::open(settings.clone()).await.unwrap();
+    engine.add_machine("alpha").await.unwrap();
+    let author = engine.add_account("author", "a long enough password", Role::Developer).await.unwrap();
+    let name = validated(&engine, &author, &common::slow(data.path(), 0, 0, 1)).await;
+    let spec = RunSpec { query: Query::CollisionFirst, ..small(&[&name]) };
+    let run = engine.submit(spec, Some(&author.owner())).await.unwrap();
+    let worker = common::here(&settings);
+    let order_of_account = order(&engine, "alpha", worker.facts()).await;
+    assert_eq!(order_of_account.most_seconds, None);
+    assert!(!worker.facts().plugins.contains(&order_of_account.algorithms[0].info.plugin_sha256));
+    let (worker, handed) = common::measured(&engine, "alpha", worker, &order_of_account).await;
+    assert!(hand_in(&engine, "alpha", &order_of_account, handed).await);
+    let found = engine.run(&run.id, Some(&author.owner())).await.unwrap();
+    assert_eq!((found.state, found.results[0].algorithm.as_str(), found.results[0].n), (State::Done, &*name, 40));
+    let guest = Visitor { owner: uuid::Uuid::now_v7().to_string(), address: None };
+    let (limited, _) = engine.submit_for(small(&["box-tree"]), &guest, None).await.unwrap();
+    let order_of_guest = order(&engine, "alpha", worker.facts()).await;
+    assert_eq!(order_of_guest.most_seconds, Some(90.0));
+    assert!(hand_in(&engine, "alpha", &order_of_guest, Handed { ended: Ended::TooLong, files: Vec::new() }).await);
+    let limited = engine.run(&limited.id, None).await.unwrap();
+    assert_eq!(limited.state, State::Cancelled);
+    assert!(limited.message.unwrap().contains("the time limit for guests"));
+    engine.shutdown().await;
+}
