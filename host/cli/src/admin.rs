@@ -4,7 +4,9 @@ use std::io::{BufRead, IsTerminal};
 use std::process::ExitCode;
 
 use ocb_service::Engine;
-use ocb_service::model::{InvitationInfo, InvitationRequest, InvitationState, OwnedCounts, Page, Role};
+use ocb_service::model::{
+    InvitationInfo, InvitationRequest, InvitationState, MachineFacts, MachineInfo, OwnedCounts, Page, Role,
+};
 
 use crate::args::{AdminCommand, Store};
 use crate::data::agreed;
@@ -21,6 +23,9 @@ pub async fn admin(store: &Store, command: &AdminCommand, json: bool) -> Result<
         AdminCommand::Invite { recipient, days, server } => invite(&engine, recipient, *days, server, json).await,
         AdminCommand::Invitations => invitations(&engine, json).await,
         AdminCommand::Revoke { id } => revoke(&engine, id, json).await,
+        AdminCommand::Machine { name } => machine(&engine, name, json).await,
+        AdminCommand::Machines => machines(&engine, json).await,
+        AdminCommand::RevokeMachine { name } => revoke_machine(&engine, name, json).await,
         AdminCommand::Audit => audit(&engine, json).await,
     };
     engine.shutdown().await;
@@ -103,6 +108,38 @@ async fn revoke(engine: &Engine, id: &str, json: bool) -> Result<()> {
         return output::print_json(&invitation);
     }
     output::print(&format!("The invitation for {} is withdrawn.", invitation.recipient))
+}
+
+async fn machine(engine: &Engine, name: &str, json: bool) -> Result<()> {
+    let token = engine.add_machine(name).await?;
+    if json { output::print_json(&serde_json::json!({ "token": token })) } else { output::print(&token) }
+}
+
+async fn machines(engine: &Engine, json: bool) -> Result<()> {
+    let all = engine.machines().await?;
+    if json {
+        return output::print_json(&all);
+    }
+    let row = |it: &MachineInfo| {
+        let state = match (it.revoked_us, it.seen_us) {
+            (Some(_), _) => "revoked".to_owned(),
+            (None, None) => "never seen".to_owned(),
+            (None, Some(_)) => it.run.as_ref().map_or("waits".to_owned(), |run| format!("measures {run}")),
+        };
+        let facts = it.facts.as_ref();
+        let told = |of: fn(&MachineFacts) -> &String| facts.map_or(String::new(), |facts| of(facts).clone());
+        vec![it.name.clone(), state, told(|facts| &facts.hardware_class), told(|facts| &facts.cpu)]
+    };
+    output::print(&output::table(&["machine", "state", "hardware class", "CPU"], all.iter().map(row).collect(), &[]))
+}
+
+async fn revoke_machine(engine: &Engine, name: &str, json: bool) -> Result<()> {
+    engine.revoke_machine(name).await?;
+    if json {
+        output::print_json(&serde_json::json!({ "revoked": name }))
+    } else {
+        output::print(&format!("The token of {name} is revoked."))
+    }
 }
 
 fn state(state: InvitationState) -> &'static str {

@@ -12,6 +12,7 @@ mod scene;
 mod secret;
 mod services;
 mod suite;
+mod work;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -29,6 +30,7 @@ pub use runs::{ReplayArgs, RunCommand};
 pub use scene::{ImportArgs, ReduceArgs, SceneCommand};
 pub use services::{CiteArgs, CiteAs, Cited, LookArgs, ServiceArgs, Shown, VisibilityArgs};
 pub use suite::{SuiteCommand, SuiteRunArgs};
+pub use work::WorkArgs;
 
 use ocb_service::Profile;
 
@@ -176,6 +178,8 @@ pub enum Command {
     Backup(BackupArgs),
     /// Restore a backup into a data folder and a database that hold nothing yet, of the same kind or of the other one.
     Restore(BackupArgs),
+    /// Measure runs of a service that runs on another machine (`ocb serve --internal`), until stopped.
+    Work(WorkArgs),
     /// Test where algorithms fail: stress families, relations between answers, failures reported elsewhere.
     Stability(StabilityArgs),
     /// Check what the jail needs of this machine, what is missing and how to get it; exit code 1 if third-party plugins
@@ -237,6 +241,16 @@ pub struct ServeArgs {
     /// Address at which Prometheus finds figures (`/metrics`), such as 127.0.0.1:9090; visitors must not reach it [default: none].
     #[arg(long, env = "OCB_METRICS", value_name = "ADDRESS", hide_env_values = true)]
     pub metrics: Option<SocketAddr>,
+    /// Address at which machines with `ocb work` take runs, such as 10.0.0.1:9091; visitors must not reach it. Runs are then measured
+    /// by these machines alone, and idle work is not done [default: none; runs are measured here].
+    #[arg(long, env = "OCB_INTERNAL", value_name = "ADDRESS", hide_env_values = true)]
+    pub internal: Option<SocketAddr>,
+    /// The machines are nodes of this partition of a Slurm cluster: while runs wait, jobs are submitted.
+    #[arg(long, env = "OCB_SLURM", value_name = "PARTITION", hide_env_values = true, requires_all = ["internal", "slurm_job"])]
+    pub slurm: Option<String>,
+    /// What a job runs: a program on each node that runs `ocb work --once` with the token of the node.
+    #[arg(long, env = "OCB_SLURM_JOB", value_name = "PROGRAM", hide_env_values = true, requires = "slurm")]
+    pub slurm_job: Option<String>,
     /// Days until the data of a guest is deleted, counted from the last item that the guest created or asked to keep.
     #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=36_500), env = "OCB_GUEST_DAYS", value_name = "DAYS", hide_env_values = true)]
     pub guest_days: u32,

@@ -36,6 +36,11 @@ mod suite;
 mod truth;
 mod units;
 mod visibility;
+#[cfg(feature = "remote")]
+mod work;
+#[cfg(not(feature = "remote"))]
+#[path = "work/left_out.rs"]
+mod work;
 mod workload;
 mod worst;
 
@@ -89,6 +94,7 @@ async fn command(cli: Cli) -> Result<ExitCode> {
         Command::Backup(args) => backup::back_up(&store, &args.file, json).await,
         Command::Restore(args) => backup::restore(&store, &args.file, json).await,
         Command::Admin { command } => admin::admin(&store, &command, json).await,
+        Command::Work(args) => work::work(&store, &args).await,
         Command::Stability(args) => stability::stability(&store, &args, json).await,
         Command::Doctor => doctor::doctor(&store, json),
         Command::Suite { command } => suite::suite(&store, &command, json).await,

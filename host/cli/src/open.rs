@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use ocb_service::advising::PROGRAM;
-use ocb_service::{Ceilings, Engine, EngineConfig, MailServer, Profile, given};
+use ocb_service::{Ceilings, Engine, EngineConfig, MailServer, Profile, SlurmJobs, given};
 
 use crate::args::{CeilingArgs, MailArgs, ServeArgs, Store};
 use crate::choice::Switch;
@@ -41,11 +41,18 @@ pub async fn open_to_serve(store: &Store, args: &ServeArgs, url: &str) -> Result
     Ok(Engine::open(EngineConfig {
         guest_days: args.guest_days,
         idle: args.idle == Switch::On,
+        elsewhere: args.internal.is_some(),
+        slurm: slurm(args),
         ceilings,
         mail,
         ..config
     })
     .await?)
+}
+
+fn slurm(args: &ServeArgs) -> Option<SlurmJobs> {
+    let (partition, program) = args.slurm.clone().zip(args.slurm_job.clone())?;
+    Some(SlurmJobs { partition, program })
 }
 
 fn ceilings(args: &CeilingArgs) -> Ceilings {
@@ -95,6 +102,11 @@ pub fn runner(store: &Store) -> PathBuf {
     store.runner.clone().unwrap_or_else(|| EngineConfig::beside_executable("").runner)
 }
 
+/// The plugins that the command line names, or those beside this program.
+pub fn plugins(store: &Store) -> Vec<PathBuf> {
+    if store.plugins.is_empty() { EngineConfig::beside_executable("").plugins } else { store.plugins.clone() }
+}
+
 /// The advisor's program, beside the runner.
 pub fn advisor(store: &Store) -> PathBuf {
     runner(store).with_file_name(PROGRAM)
@@ -113,9 +125,7 @@ fn config(store: &Store, data: PathBuf, purpose: Purpose) -> EngineConfig {
              are marked unranked."
         );
     }
-    if !store.plugins.is_empty() {
-        config.plugins.clone_from(&store.plugins);
-    }
+    config.plugins = plugins(store);
     config.stock_dir = store.stock_dir.clone().or_else(beside_us);
     config.suite.clone_from(&store.suite_file);
     config.machine_note.clone_from(&store.machine_note);

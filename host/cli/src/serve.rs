@@ -3,7 +3,7 @@
 use std::net::SocketAddr;
 use std::process::ExitCode;
 
-use ocb_server::{Names, Network, Proxies};
+use ocb_server::{Aside, Names, Network, Proxies};
 use serde_json::json;
 use tokio::net::TcpListener;
 use tokio::signal::unix::{SignalKind, signal};
@@ -21,6 +21,10 @@ pub async fn serve(store: &Store, args: &ServeArgs, json: bool) -> Result<ExitCo
         Some(address) => Some(bind(address, "--metrics").await?),
         None => None,
     };
+    let internal = match args.internal {
+        Some(address) => Some(bind(address, "--internal").await?),
+        None => None,
+    };
     let address = listener.local_addr().map_err(|e| Failure::Fault(format!("cannot read the address: {e}.")))?;
     let stop = stop_signal()?;
     let url = format!("http://{address}");
@@ -34,7 +38,7 @@ pub async fn serve(store: &Store, args: &ServeArgs, json: bool) -> Result<ExitCo
     } else {
         eprintln!("OpenCollBench is running at {url}; press Ctrl-C to stop it.");
     }
-    ocb_server::serve(engine.clone(), network(args), listener, metrics, stop).await;
+    ocb_server::serve(engine.clone(), network(args), listener, Aside { metrics, internal }, stop).await;
     engine.shutdown().await;
     Ok(ExitCode::SUCCESS)
 }

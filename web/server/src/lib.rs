@@ -10,6 +10,7 @@ mod download;
 mod events;
 mod extract;
 mod guest;
+mod internal;
 mod layers;
 mod limits;
 mod list;
@@ -91,18 +92,30 @@ pub async fn bind(address: SocketAddr) -> io::Result<TcpListener> {
     TcpListener::bind(address).await
 }
 
-/// Serves until `shutdown` is ready, then ends open requests; the engine stays open. `metrics` are for the operator alone.
+/// Listeners of their own for others than visitors.
+#[derive(Debug, Default)]
+pub struct Aside {
+    /// Figures for the operator.
+    pub metrics: Option<TcpListener>,
+    /// Work for measuring machines.
+    pub internal: Option<TcpListener>,
+}
+
+/// Serves until `shutdown` is ready, then ends open requests; the engine stays open.
 pub async fn serve(
     engine: Engine,
     network: Network,
     listener: TcpListener,
-    metrics: Option<TcpListener>,
+    aside: Aside,
     shutdown: impl Future<Output = ()> + Send + 'static,
 ) {
     let (stop, stopping) = watch::channel(false);
     let app = App::new(engine, network, stopping.clone());
-    if let Some(listener) = metrics {
+    if let Some(listener) = aside.metrics {
         tokio::spawn(connections::serve(listener, metrics::router(app.clone()), stopping.clone()));
+    }
+    if let Some(listener) = aside.internal {
+        tokio::spawn(connections::serve(listener, internal::router(app.clone()), stopping.clone()));
     }
     let serving = connections::serve(listener, router(app), stopping);
     let ended = async {

@@ -87,6 +87,18 @@ pub enum AdminCommand {
         /// Its id, as `ocb admin invitations` lists it.
         id: String,
     },
+    /// Allow a machine to measure for this service: print the token for `ocb work`. For the same name again, the old token ends.
+    Machine {
+        /// Name of the machine.
+        name: String,
+    },
+    /// List the machines that measure.
+    Machines,
+    /// Revoke the token of a machine; what it measures waits again.
+    RevokeMachine {
+        /// Its name.
+        name: String,
+    },
     /// Check that no entry of the audit log was altered.
     Audit,
 }

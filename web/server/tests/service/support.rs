@@ -82,10 +82,15 @@ impl Service {
         let listener = ocb_server::bind(([127, 0, 0, 1], 0).into()).await.expect("a free port");
         let url = format!("http://{}", listener.local_addr().expect("an address"));
         let (stop, stopped) = oneshot::channel();
-        let served =
-            tokio::spawn(ocb_server::serve(engine.clone(), ocb_server::Network::default(), listener, None, async {
+        let served = tokio::spawn(ocb_server::serve(
+            engine.clone(),
+            ocb_server::Network::default(),
+            listener,
+            ocb_server::Aside::default(),
+            async {
                 let _ = stopped.await;
-            }));
+            },
+        ));
         Self { url, engine, stop, served, how, data }
     }
 

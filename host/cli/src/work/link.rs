@@ -1,0 +1,122 @@
+//! What a measuring machine asks its service, over HTTP.
+
+use std::fmt;
+use std::time::Duration;
+
+use ocb_service::model::{Beat, Ended, GoOn, MachineFacts, Told, WorkOrder};
+use reqwest::multipart::{Form, Part};
+use reqwest::{Client, RequestBuilder, Response, StatusCode};
+use serde_json::Value;
+
+use crate::failure::{Failure, Result};
+
+/// Longer than the service lets a machine wait for work.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// Results may be large, and the service looks at them before it answers.
+const LONG_PATIENCE: Duration = Duration::from_secs(900);
+
+/// The service, and who asks.
+pub struct Link {
+    server: String,
+    token: String,
+    client: Client,
+}
+
+/// Why there is no answer.
+#[derive(Debug)]
+pub enum Refused {
+    /// It answered, and refused with this sentence; asking again does not help.
+    For(String),
+    /// It did not answer, or had a fault of its own.
+    Unreached(String),
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::For(sentence) | Self::Unreached(sentence) => f.write_str(sentence),
+        }
+    }
+}
+
+type Answer<T> = std::result::Result<T, Refused>;
+
+impl Link {
+    /// To the service at this URL.
+    pub fn new(server: &str, token: &str) -> Result<Self> {
+        let client = Client::builder().connect_timeout(Duration::from_secs(10)).build();
+        let client = client.map_err(|e| Failure::Fault(format!("cannot start the HTTP client: {e}.")))?;
+        Ok(Self { server: server.trim_end_matches('/').to_owned(), token: token.to_owned(), client })
+    }
+
+    /// The next run for this machine, once there is one; nothing when none waits.
+    pub async fn next(&self, facts: &MachineFacts) -> Answer<Option<WorkOrder>> {
+        let request = self.client.post(self.at("")).json(facts).timeout(PATIENCE);
+        let response = self.granted(request).await?;
+        if response.status() == StatusCode::NO_CONTENT {
+            return Ok(None);
+        }
+        self.read(response).await.map(Some)
+    }
+
+    /// A file of the attempt.
+    pub async fn file(&self, attempt: &str, name: &str) -> Answer<Vec<u8>> {
+        let request = self.client.get(self.at(&format!("/{attempt}/files/{name}"))).timeout(LONG_PATIENCE);
+        let bytes = self.granted(request).await?.bytes().await;
+        bytes.map(|bytes| bytes.to_vec()).map_err(|e| Refused::Unreached(format!("The answer was cut off ({e}).")))
+    }
+
+    /// The work goes on, and this happened; false when it has ended at the service.
+    pub async fn beat(&self, attempt: &str, steps: Vec<Told>) -> Answer<bool> {
+        let request =
+            self.client.post(self.at(&format!("/{attempt}/beat"))).json(&Beat { steps }).timeout(PATIENCE / 6);
+        let response = self.granted(request).await?;
+        self.read(response).await.map(|GoOn { current }| current)
+    }
+
+    /// Hands in; false when it is not wanted any more.
+    pub async fn end(&self, attempt: &str, ended: &Ended, files: &[Vec<u8>]) -> Answer<bool> {
+        let ended =
+            serde_json::to_string(ended).map_err(|e| Refused::For(format!("The results cannot be written: {e}.")))?;
+        let form = files.iter().fold(Form::new().text("ended", ended), |form, file| {
+            form.part("file", Part::bytes(file.clone()).file_name("file"))
+        });
+        let request = self.client.post(self.at(&format!("/{attempt}/end"))).multipart(form).timeout(LONG_PATIENCE);
+        let response = self.granted(request).await?;
+        self.read(response).await.map(|GoOn { current }| current)
+    }
+
+    fn at(&self, path: &str) -> String {
+        format!("{}/internal/v1/attempts{path}", self.server)
+    }
+
+    async fn granted(&self, request: RequestBuilder) -> Answer<Response> {
+        let unreached = |_| Refused::Unreached(format!("No service answers at {}.", self.server));
+        let response = request.bearer_auth(&self.token).send().await.map_err(unreached)?;
+        let status = response.status();
+        if status.is_success() {
+            return Ok(response);
+        }
+        let problem: Option<Value> = response.json().await.ok();
+        let sentence = problem.as_ref().and_then(|problem| problem["detail"].as_str()).map(str::to_owned);
+        match sentence {
+            Some(sentence) if status.is_client_error() => Err(Refused::For(sentence)),
+            Some(sentence) => Err(Refused::Unreached(sentence)),
+            None if status.is_client_error() => Err(Refused::For(self.strange(status))),
+            None => Err(Refused::Unreached(self.strange(status))),
+        }
+    }
+
+    async fn read<T: serde::de::DeserializeOwned>(&self, response: Response) -> Answer<T> {
+        let status = response.status();
+        let bytes = response.bytes().await.map_err(|e| Refused::Unreached(format!("The answer was cut off ({e}).")))?;
+        serde_json::from_slice(&bytes).map_err(|_| Refused::For(self.strange(status)))
+    }
+
+    fn strange(&self, status: StatusCode) -> String {
+        format!(
+            "{} is not the address for machines of an OpenCollBench service ({status}); `ocb serve --internal` opens it.",
+            self.server
+        )
+    }
+}

@@ -1,0 +1,100 @@
+//! `/internal/v1`, at an address of its own: what measuring machines ask and hand in. Each request carries the token of a machine,
+//! which opens the attempt of that machine alone.
+
+use std::time::Duration;
+
+use axum::extract::{DefaultBodyLimit, FromRequestParts, Multipart, Path, State};
+use axum::http::request::Parts;
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{get, post};
+use axum::{Json, Router};
+use ocb_service::Handing;
+use ocb_service::model::{Beat, Ended, GoOn, MachineFacts};
+
+use crate::App;
+use crate::problem::{Problem, Result};
+
+/// How long a machine waits for work before it asks again.
+const WAIT: Duration = Duration::from_secs(15);
+/// Largest results of one run: those of all algorithms.
+const MAX_RESULTS: usize = 4 << 30;
+/// Largest of the other requests.
+const MAX_JSON: usize = 1 << 20;
+
+/// The routes for machines.
+pub(crate) fn router(app: App) -> Router {
+    let large =
+        Router::new().route("/internal/v1/attempts/{id}/end", post(end)).layer(DefaultBodyLimit::max(MAX_RESULTS));
+    Router::new()
+        .route("/internal/v1/attempts", post(begin))
+        .route("/internal/v1/attempts/{id}/beat", post(beat))
+        .route("/internal/v1/attempts/{id}/files/{name}", get(file))
+        .layer(DefaultBodyLimit::max(MAX_JSON))
+        .merge(large)
+        .with_state(app)
+}
+
+/// The machine whose token a request carries.
+struct Machine(String);
+
+impl FromRequestParts<App> for Machine {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, app: &App) -> Result<Self> {
+        let given = parts.headers.get(header::AUTHORIZATION).and_then(|value| value.to_str().ok());
+        let known = match given.and_then(|value| value.strip_prefix("Bearer ")) {
+            Some(token) => app.engine.machine_of(token.trim()).await?,
+            None => None,
+        };
+        let refused = "The token of this machine is not valid: it was revoked, or it is another service's. `ocb admin machine NAME` \
+                       makes a new one.";
+        known.map(Self).ok_or_else(|| Problem::new(StatusCode::UNAUTHORIZED, refused))
+    }
+}
+
+/// The next run for the machine, or 204 when none waits.
+async fn begin(State(app): State<App>, Machine(name): Machine, Json(facts): Json<MachineFacts>) -> Result<Response> {
+    let order = app.engine.next_order(&name, &facts, WAIT).await?;
+    Ok(order.map_or_else(|| StatusCode::NO_CONTENT.into_response(), |order| Json(order).into_response()))
+}
+
+async fn beat(
+    State(app): State<App>,
+    Machine(name): Machine,
+    Path(attempt): Path<String>,
+    Json(beat): Json<Beat>,
+) -> Result<Json<GoOn>> {
+    let current = app.engine.beat_of(&name, &attempt, beat.steps).await?;
+    Ok(Json(GoOn { current }))
+}
+
+async fn file(
+    State(app): State<App>,
+    Machine(name): Machine,
+    Path((attempt, file)): Path<(String, String)>,
+) -> Result<Vec<u8>> {
+    Ok(app.engine.file_of_order(&name, &attempt, &file).await?)
+}
+
+/// How an attempt ended: the part `ended`, then the files.
+async fn end(
+    State(app): State<App>,
+    Machine(name): Machine,
+    Path(attempt): Path<String>,
+    mut form: Multipart,
+) -> Result<Json<GoOn>> {
+    let bad = |e: &dyn std::fmt::Display| Problem::bad_request(format!("These results cannot be read: {e}."));
+    let (mut ended, mut files): (Option<Ended>, _) = (None, Vec::new());
+    while let Some(field) = form.next_field().await.map_err(|e| bad(&e))? {
+        let is_file = field.name() == Some("file");
+        let bytes = field.bytes().await.map_err(|e| bad(&e))?;
+        match is_file {
+            true => files.push(bytes.to_vec()),
+            false => ended = Some(serde_json::from_slice(&bytes).map_err(|e| bad(&e))?),
+        }
+    }
+    let ended = ended.ok_or_else(|| bad(&"the part `ended` is missing"))?;
+    let current = app.engine.hand_in(&name, &attempt, Handing { ended, files }).await?;
+    Ok(Json(GoOn { current }))
+}
