@@ -27,10 +27,20 @@ impl Service {
 
     /// The same with these plugins alone, or with every one when none is named.
     pub fn start_with(data: &Path, plugins: &[&str]) -> Self {
-        let port = TcpListener::bind("127.0.0.1:0").and_then(|l| l.local_addr()).expect("a free port").port();
-        let address = format!("127.0.0.1:{port}");
+        Self::start_saying(data, plugins, &[])
+    }
+
+    /// The same with more arguments.
+    pub fn start_saying(data: &Path, plugins: &[&str], more: &[&str]) -> Self {
+        Self::start_among(data, plugins, more, &[])
+    }
+
+    /// The same with variables of the environment.
+    pub fn start_among(data: &Path, plugins: &[&str], more: &[&str], environment: &[(&str, &str)]) -> Self {
+        let address = free_address();
         let mut serve = command(built("ocb"));
-        serve.arg("serve").arg("--data").arg(data).args(["--listen", &address, "--idle", "off"]);
+        serve.arg("serve").arg("--data").arg(data).args(["--listen", &address, "--idle", "off"]).args(more);
+        serve.envs(environment.iter().copied());
         for plugin in plugins {
             serve.arg("--plugins").arg(built(plugin));
         }
@@ -76,6 +86,12 @@ impl Drop for Service {
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
+}
+
+/// An address on the loopback interface that nobody listens on.
+pub fn free_address() -> String {
+    let port = TcpListener::bind("127.0.0.1:0").and_then(|l| l.local_addr()).expect("a free port").port();
+    format!("127.0.0.1:{port}")
 }
 
 /// The password of every account that tests make.

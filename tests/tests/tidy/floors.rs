@@ -147,6 +147,7 @@ fn a_crate_depends_only_on_what_is_listed_for_it() {
         ("ocb-core", &[]),
         ("ocb-chart", &[]),
         ("ocb-citation", &[]),
+        ("ocb-slurm", &[]),
         ("ocb-advice", &["ocb-core"]),
         (ADVISOR, &["ocb-advice", "ocb-core", "ocb-sandbox", METHODS, PLUGIN_API]),
         ("ocb-sandbox", &["ocb-core", PLUGIN_API]),
@@ -155,11 +156,23 @@ fn a_crate_depends_only_on_what_is_listed_for_it() {
         ("ocb-lab", &["ocb-advice", "ocb-core", "ocb-model", "ocb-sandbox", "ocb-stability"]),
         (
             "ocb-service",
-            &["ocb-advice", "ocb-chart", "ocb-citation", "ocb-core", "ocb-lab", "ocb-model", "ocb-sandbox"],
+            &[
+                "ocb-advice",
+                "ocb-chart",
+                "ocb-citation",
+                "ocb-core",
+                "ocb-lab",
+                "ocb-model",
+                "ocb-sandbox",
+                "ocb-slurm",
+            ],
         ),
         ("ocb-server", &["ocb-core", "ocb-service"]),
         ("ocb-cli", &["ocb-core", "ocb-advice", "ocb-service", "ocb-server"]),
-        ("ocb-tests", &["ocb-chart", "ocb-core", "ocb-sandbox", "ocb-service", "ocb-server", "ocb-cli", PLUGIN_API]),
+        (
+            "ocb-tests",
+            &["ocb-chart", "ocb-core", "ocb-sandbox", "ocb-slurm", "ocb-service", "ocb-server", "ocb-cli", PLUGIN_API],
+        ),
     ]);
     may.extend(PLUGINS.map(|p| (p, &[PLUGIN_API, TRIANGLES, BODIES, HIERARCHY, WIDE, FIELDS, METHODS] as &[&str])));
     let members = dependencies(&metadata());

@@ -1,0 +1,300 @@
+//! Machines measure for a service (`ocb serve --internal`, `ocb work`), and machine or service fail at the worst moment.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::{Pid, geteuid};
+use ocb_tests::place::built;
+use ocb_tests::process::{command, output};
+use ocb_tests::service::{Guest, Service, free_address, runner_below};
+use serde_json::{Value, json};
+
+const PLUGINS: [&str; 3] = ["libocb_brute_force.so", "libocb_box_tree.so", "libocb_parry.so"];
+/// How long the service believes that a silent machine lives.
+const LEASE: Duration = Duration::from_secs(20);
+
+/// The tests share a data folder, one after the other: the start page of a new one would be measured first.
+static ALONE: Mutex<()> = Mutex::new(());
+
+/// A service that does not measure by itself, on the shared data folder.
+struct Site {
+    _alone: MutexGuard<'static, ()>,
+    data: PathBuf,
+    internal: String,
+    service: Option<Service>,
+    guest: Guest,
+}
+
+impl Site {
+    fn open() -> Self {
+        let alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+        let data = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("machines-{}", std::process::id()));
+        let mut site = Self { _alone: alone, internal: free_address(), service: None, guest: Guest::default(), data };
+        let new = !site.data.exists();
+        site.start();
+        if new {
+            let _machine = site.machine("first");
+            site.guest.wait_for_quiet(site.service());
+        }
+        site
+    }
+
+    fn start(&mut self) {
+        let internal = self.internal.clone();
+        self.service = Some(Service::start_saying(&self.data, &PLUGINS, &["--internal", &internal]));
+    }
+
+    fn service(&self) -> &Service {
+        self.service.as_ref().expect("it was started")
+    }
+
+    /// `ocb admin` needs the data folder for itself.
+    fn admin(&mut self, arguments: &[&str]) -> String {
+        let stopped = self.service.take().map(Service::kill).is_some();
+        let said = output(command(built("ocb")).arg("--data").arg(&self.data).arg("admin").args(arguments));
+        if stopped {
+            self.start();
+        }
+        said
+    }
+
+    /// The token of a machine, in a file.
+    fn token(&mut self, name: &str) -> PathBuf {
+        let file = self.data.join(format!("{name}.token"));
+        if !file.exists() {
+            let token = self.admin(&["machine", name]);
+            fs::write(&file, token).expect("the token is written");
+        }
+        file
+    }
+
+    /// Starts a machine.
+    fn machine(&mut self, name: &str) -> Machine {
+        let token = self.token(name);
+        Machine::start(&self.internal, &token, &self.data.join(format!("{name}.log")), &[])
+    }
+
+    fn submit(&self, budget_seconds: f64) -> String {
+        let spec = json!({
+            "object_a": "stock:torus-knot@2000", "query": "proximity", "passes": 2, "budget_seconds": budget_seconds,
+            "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 300 } },
+            "algorithms": ["brute-force", "box-tree", "parry"],
+        });
+        self.guest.submit(self.service(), &spec)
+    }
+
+    fn wait(&self, run: &str, what: &str, enough: impl Fn(&Value) -> bool) -> Value {
+        self.guest.wait(self.service(), run, what, enough)
+    }
+
+    fn ended(&self, run: &str) -> Value {
+        let run = self.wait(run, "the run has ended", |r| !["queued", "running"].iter().any(|s| r["state"] == *s));
+        assert_eq!(run["state"], "done", "{run}");
+        let results = run["results"].as_array().expect("results");
+        let names: Vec<_> = results.iter().map(|r| r["algorithm"].as_str().expect("a name")).collect();
+        assert_eq!(names, ["brute-force", "box-tree", "parry"], "each once");
+        for result in results {
+            assert_eq!((&result["outcome"]["name"], &result["wrong"]), (&json!("Completed"), &json!(0)), "{result}");
+        }
+        run
+    }
+
+    /// Waits until the machine asks a plugin for this run.
+    fn measures(&self, run: &str, machine: &Machine) {
+        self.wait(run, "it is measured", |r| {
+            r["state"] == "running" && r["stages"][2]["state"] == "running" && runner_below(machine.pid()).is_some()
+        });
+    }
+}
+
+/// `ocb work`, killed when it goes out of use.
+struct Machine {
+    child: Child,
+    log: PathBuf,
+}
+
+impl Machine {
+    fn start(internal: &str, token: &Path, log: &Path, more: &[&str]) -> Self {
+        Self::of(command(built("ocb")), internal, token, log, more)
+    }
+
+    /// With a measuring lock of its own, as on hardware of its own: one that stands still keeps the lock.
+    fn apart(internal: &str, token: &Path, log: &Path) -> Self {
+        let lock = "mount -t tmpfs none /run/lock && exec \"$@\"";
+        let mut unshare = command("unshare");
+        unshare.arg(if geteuid().is_root() { "-m" } else { "-rm" }).args(["sh", "-c", lock, "sh"]).arg(built("ocb"));
+        Self::of(unshare, internal, token, log, &[])
+    }
+
+    fn of(mut ocb: Command, internal: &str, token: &Path, log: &Path, more: &[&str]) -> Self {
+        ocb.args(["work", "--server", &format!("http://{internal}"), "--token"]);
+        ocb.arg(format!("@{}", token.display())).args(more);
+        for plugin in PLUGINS {
+            ocb.arg("--plugins").arg(built(plugin));
+        }
+        let file = File::create(log).expect("a log");
+        Self { child: ocb.stderr(file).spawn().expect("it starts"), log: log.to_owned() }
+    }
+
+    fn pid(&self) -> u32 {
+        self.child.id()
+    }
+
+    fn signal(&self, signal: Signal) {
+        kill(Pid::from_raw(self.pid() as i32), signal).expect("it lives");
+    }
+
+    fn ended(&mut self, within: Duration) -> ExitStatus {
+        let end = Instant::now() + within;
+        loop {
+            if let Some(status) = self.child.try_wait().expect("its state") {
+                return status;
+            }
+            assert!(Instant::now() < end, "it does not end: {}", self.said());
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    fn said(&self) -> String {
+        fs::read_to_string(&self.log).expect("its log")
+    }
+
+    fn says(&self, words: &str, within: Duration) {
+        let end = Instant::now() + within;
+        while !self.said().contains(words) {
+            assert!(Instant::now() < end, "it does not say {words:?}: {}", self.said());
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+}
+
+impl Drop for Machine {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+#[test]
+fn a_machine_measures_what_the_service_has_prepared() {
+    let mut site = Site::open();
+    site.token("alpha");
+    let run = site.submit(0.5);
+    let waiting = site.wait(&run, "it is prepared", |r| r["stages"][1]["state"] == "done" && r["state"] == "queued");
+    assert_eq!((&waiting["stages"][2]["state"], &waiting["attempts"]), (&json!("queued"), &json!(0)));
+    std::thread::sleep(Duration::from_secs(1));
+    let still = site.wait(&run, "anything", |_| true);
+    assert_eq!(still["state"], "queued", "the service measures nothing by itself: {still}");
+    let machine = site.machine("alpha");
+    let run = site.ended(&run);
+    machine.says("is handed in", Duration::from_secs(5));
+    drop(machine);
+    // The seed follows from a secret that the machine never had.
+    let draw = &run["environment"]["draw"];
+    assert!(draw["secret"].is_string() && draw["commitment"] == run["commitment"], "{draw}");
+    let machines: Value = serde_json::from_str(&site.admin(&["machines", "--json"])).expect("JSON");
+    let alpha = machines.as_array().expect("machines").iter().find(|it| it["name"] == "alpha").expect("alpha");
+    assert_eq!(alpha["facts"]["hardware_class"], run["environment"]["hardware_class"]);
+}
+
+#[test]
+fn runs_of_machines_that_were_killed_or_stood_still_are_measured_by_another() {
+    let mut site = Site::open();
+    let [alpha, beta, delta] = ["alpha", "beta", "delta"].map(|name| (site.token(name), site.data.join(name)));
+    let machine = |(token, log): &(PathBuf, PathBuf)| Machine::apart(&site.internal, token, log);
+    let still = machine(&alpha);
+    let first = site.submit(2.0);
+    site.measures(&first, &still);
+    still.signal(Signal::SIGSTOP);
+    let killed = machine(&beta);
+    let second = site.submit(2.0);
+    site.measures(&second, &killed);
+    let runner = runner_below(killed.pid()).expect("a runner");
+    killed.signal(Signal::SIGKILL);
+    let begun = Instant::now();
+    let delta = machine(&delta);
+    delta.says(&format!("measuring the run {second}"), 2 * LEASE + Duration::from_secs(15));
+    println!("from the kill to the next attempt, behind another run: {:.1} s", begun.elapsed().as_secs_f64());
+    assert!(!Path::new(&format!("/proc/{runner}")).exists(), "its runner has ended with it");
+    let done = [first, second].map(|run| site.ended(&run));
+    assert!(done.iter().all(|run| run["attempts"] == 2), "{done:?}");
+    still.signal(Signal::SIGCONT);
+    still.says("ended by the service", Duration::from_secs(60));
+    let id = done[0]["id"].as_str().expect("an id");
+    let later = site.wait(id, "anything", |_| true);
+    assert_eq!(later["results"], done[0]["results"], "nothing of the first attempt counts");
+}
+
+#[test]
+fn a_cancelled_run_ends_on_its_machine() {
+    let mut site = Site::open();
+    let machine = site.machine("alpha");
+    let run = site.submit(30.0);
+    site.measures(&run, &machine);
+    let begun = Instant::now();
+    site.guest.post(site.service(), &format!("/runs/{run}/cancel"), &json!({}));
+    machine.says("ended by the service", Duration::from_secs(5));
+    println!("from cancelling to the end on the machine: {:.1} s", begun.elapsed().as_secs_f64());
+    assert_eq!(runner_below(machine.pid()), None);
+    let run = site.wait(&run, "it has ended", |r| r["state"] != "running");
+    assert_eq!((&run["state"], run["results"].as_array().map(Vec::len)), (&json!("cancelled"), Some(0)), "{run}");
+}
+
+#[test]
+fn a_machine_that_is_asked_to_stop_puts_its_run_back() {
+    let mut site = Site::open();
+    let mut machine = site.machine("alpha");
+    let run = site.submit(4.0);
+    site.measures(&run, &machine);
+    machine.signal(Signal::SIGTERM);
+    assert_eq!(machine.ended(Duration::from_secs(10)).code(), Some(0), "{}", machine.said());
+    let waiting = site.wait(&run, "it waits again", |r| r["state"] == "queued");
+    assert_eq!((&waiting["attempts"], &waiting["stages"][1]["state"]), (&json!(0), &json!("done")), "{waiting}");
+    let _again = site.machine("alpha");
+    assert_eq!(site.ended(&run)["attempts"], 1);
+}
+
+#[test]
+fn a_machine_outlives_its_service() {
+    let mut site = Site::open();
+    let machine = site.machine("alpha");
+    let run = site.submit(6.0);
+    site.measures(&run, &machine);
+    site.service.take().expect("a service").kill();
+    std::thread::sleep(Duration::from_secs(3));
+    site.start();
+    assert_eq!(site.ended(&run)["attempts"], 1, "it was measured once");
+    machine.says("is handed in", Duration::from_secs(5));
+    // The next run finds the machine waiting.
+    let next = site.submit(0.5);
+    site.ended(&next);
+}
+
+#[test]
+fn a_machine_that_is_not_wanted_is_told_why() {
+    let mut site = Site::open();
+    let token = site.token("gamma");
+    let log = site.data.join("gamma.log");
+    let mut differing = Machine::start(&site.internal, &token, &log, &["--machine-note", "first"]);
+    std::thread::sleep(Duration::from_secs(2));
+    differing.signal(Signal::SIGTERM);
+    assert_eq!(differing.ended(Duration::from_secs(5)).code(), Some(0), "{}", differing.said());
+    let mut changed = Machine::start(&site.internal, &token, &log, &["--machine-note", "second"]);
+    assert_eq!(changed.ended(Duration::from_secs(5)).code(), Some(2));
+    assert!(changed.said().contains("The hardware class of gamma has changed since"), "{}", changed.said());
+    let mut lacking = command(built("ocb"));
+    lacking.args(["work", "--once", "--server", &format!("http://{}", site.internal), "--token"]);
+    lacking.arg(format!("@{}", token.display())).arg("--plugins").arg(built("libocb_parry.so"));
+    let refused = lacking.output().expect("it starts");
+    let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    assert!(said.contains("its plugin of box-tree is missing or another file"), "{said}");
+    site.admin(&["revoke-machine", "gamma"]);
+    let mut revoked = Machine::start(&site.internal, &token, &log, &[]);
+    assert_eq!(revoked.ended(Duration::from_secs(5)).code(), Some(2));
+    assert!(revoked.said().contains("The token of this machine is not valid"), "{}", revoked.said());
+}

@@ -1,0 +1,102 @@
+//! A service whose measuring machines are nodes of a Slurm cluster: jobs come while runs wait, and a killed job costs no run.
+
+#[path = "../../../host/slurm/tests/daemons/cluster.rs"]
+#[allow(dead_code, reason = "the test of the daemons uses all of it")]
+mod cluster;
+
+use std::fs::{self, Permissions};
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use cluster::Cluster;
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+use ocb_tests::place::built;
+use ocb_tests::process::{command, output};
+use ocb_tests::service::{Guest, Service, free_address};
+use serde_json::{Value, json};
+
+const PLUGINS: [&str; 2] = ["libocb_brute_force.so", "libocb_box_tree.so"];
+
+/// What each job runs: the token is that of its node. Both nodes are this machine, so that their jobs take turns in measuring.
+fn job(folder: &Path, internal: &str) -> String {
+    let plugins: Vec<String> = PLUGINS.iter().map(|name| format!("--plugins '{}'", built(name).display())).collect();
+    let script = format!(
+        "#!/bin/sh\nexec '{}' work --once --server http://{internal} \
+         --token \"@{}/$SLURMD_NODENAME\" {} 2>> '{}/jobs.log'\n",
+        built("ocb").display(),
+        folder.display(),
+        plugins.join(" "),
+        folder.display(),
+    );
+    let file = folder.join("job");
+    fs::write(&file, script).expect("a script");
+    fs::set_permissions(&file, Permissions::from_mode(0o755)).expect("the script is ours");
+    file.to_str().expect("UTF-8").to_owned()
+}
+
+fn wait(what: &str, within: Duration, there: impl Fn() -> bool) {
+    let end = Instant::now() + within;
+    while !there() {
+        assert!(Instant::now() < end, "waited in vain until {what}");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+#[test]
+fn nodes_measure_while_runs_wait_and_a_killed_job_costs_no_run() {
+    let cluster = Cluster::start();
+    let folder = tempfile::tempdir().expect("a folder");
+    // Jobs read it as the user of the node.
+    let data = folder.path().join("data");
+    let internal = free_address();
+    for node in cluster::NAMES {
+        let token = output(command(built("ocb")).arg("--data").arg(&data).args(["admin", "machine", node]));
+        fs::write(folder.path().join(node), token).expect("the token is written");
+    }
+    let program = job(folder.path(), &internal);
+    let more = ["--internal", &internal, "--slurm", "measuring", "--slurm-job", &program];
+    let configuration = cluster.path("slurm.conf");
+    let environment = [("SLURM_CONF", configuration.to_str().expect("UTF-8"))];
+    let service = Service::start_among(&data, &PLUGINS, &more, &environment);
+    let guest = Guest::default();
+    let log = || fs::read_to_string(folder.path().join("jobs.log")).unwrap_or_default();
+    guest.wait_for_quiet(&service);
+    let spec = json!({
+        "object_a": "stock:torus-knot@2000", "query": "proximity", "passes": 2, "budget_seconds": 2.0,
+        "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 300 } },
+        "algorithms": ["brute-force", "box-tree"],
+    });
+    let begun = Instant::now();
+    let runs: Vec<String> = (0..4).map(|_| guest.submit(&service, &spec)).collect();
+    let state = |run: &String| guest.get(&service, &format!("/runs/{run}"));
+    let measured = |run: &Value| run["state"] == "running" && run["stages"][2]["state"] == "running";
+    wait("a run is measured", Duration::from_secs(60), || runs.iter().any(|run| measured(&state(run))));
+    println!("from asking to measuring: {:.1} s", begun.elapsed().as_secs_f64());
+    // One job is killed, as the node's kernel does when memory is short.
+    let pids = output(command("pgrep").args(["-f", &format!("work --once --server http://{internal}")]));
+    let killed: i32 = pids.split_whitespace().last().expect("a job").parse().expect("a number");
+    kill(Pid::from_raw(killed), Signal::SIGKILL).expect("it lived");
+    let mut attempts = Vec::new();
+    for run in &runs {
+        let run =
+            guest.wait(&service, run, "it has ended", |run| run["state"] != "queued" && run["state"] != "running");
+        assert_eq!(
+            (&run["state"], run["results"].as_array().map(Vec::len)),
+            (&json!("done"), Some(2)),
+            "{run}\n{}",
+            log()
+        );
+        attempts.push(run["attempts"].as_i64().expect("a number"));
+    }
+    attempts.sort_unstable();
+    assert_eq!(attempts, [1, 1, 1, 2], "one was lost with its job: {}", log());
+    println!("four runs on two nodes, one of them twice: {:.1} s", begun.elapsed().as_secs_f64());
+    // No job is left behind when nothing waits.
+    let jobs = || {
+        let queue = output(command("squeue").args(["--noheader", "--format=%A"]).envs(environment));
+        queue.lines().count()
+    };
+    wait("no job is left", Duration::from_secs(40), || jobs() == 0);
+}
