@@ -66,7 +66,10 @@ pub use estimate::{AlgorithmSeconds, Estimate};
 pub use example::{Example, ExampleInfo};
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
 pub use invitation::{Acceptance, InvitationInfo, InvitationRequest, InvitationState, NewInvitation};
-pub use machine::{Beat, Ended, GoOn, MachineFacts, MachineInfo, MeasuredAlgorithm, OrderedAlgorithm, Told, WorkOrder};
+pub use machine::{
+    Beat, Ended, GoOn, MachineFacts, MachineInfo, MachineState, MachineStatus, MeasuredAlgorithm, OrderedAlgorithm,
+    Told, WorkOrder,
+};
 pub use notice::NoticeInfo;
 pub use object::{ObjectInfo, Rounding};
 pub use object_id::{ObjectId, stock_id};
@@ -385,12 +388,20 @@ pub struct RunEvent {
 pub struct Status {
     /// Version of this program.
     pub version: String,
-    /// Hardware class of this machine.
+    /// Hardware class on which runs are measured.
     pub hardware_class: String,
-    /// Runs at work (0 or 1).
+    /// Runs under way.
     pub running: u32,
-    /// Runs waiting.
+    /// Runs that wait.
     pub queued: u32,
+    /// Seconds that the oldest waiting run has waited; 0 when none waits.
+    pub oldest_seconds: f64,
+    /// Seconds that the waiting runs are expected to take, one after the other.
+    pub expected_seconds: f64,
+    /// Other machines measure the runs of this service.
+    pub elsewhere: bool,
+    /// These machines, by name.
+    pub machines: Vec<MachineStatus>,
     /// Algorithms offered.
     pub algorithms: u32,
     /// What keeps something from being offered, e.g. a plugin that does not load; one sentence each.

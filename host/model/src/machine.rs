@@ -1,8 +1,12 @@
 //! What the service and its measuring machines tell each other at `/internal/v1`.
 
 use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
 use crate::{AlgorithmInfo, AlgorithmResult, Draw, Environment, Preview, RunSpec, SetInfo};
+
+/// A machine that waits asks again every 15 seconds.
+const SILENT_US: i64 = 60_000_000;
 
 /// What a measuring machine says of itself whenever it asks for work.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -56,6 +60,42 @@ pub struct MachineInfo {
     pub revoked_us: Option<i64>,
     /// The run that it works on.
     pub run: Option<String>,
+}
+
+/// A measuring machine, as everybody sees it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct MachineStatus {
+    /// Its name.
+    pub name: String,
+    /// What it does.
+    pub state: MachineState,
+    /// When it asked for a run last.
+    pub seen_us: i64,
+}
+
+/// What a measuring machine does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MachineState {
+    /// It has a run.
+    Measuring,
+    /// It asks for runs.
+    Waiting,
+    /// It has no run and has not asked for one in the last minute.
+    Silent,
+}
+
+impl MachineInfo {
+    /// As everybody sees it at this time; nothing before its first contact, and when its token is revoked.
+    pub fn status(&self, now_us: i64) -> Option<MachineStatus> {
+        let seen_us = self.seen_us.filter(|_| self.revoked_us.is_none())?;
+        let state = match &self.run {
+            Some(_) => MachineState::Measuring,
+            None if now_us - seen_us < SILENT_US => MachineState::Waiting,
+            None => MachineState::Silent,
+        };
+        Some(MachineStatus { name: self.name.clone(), state, seen_us })
+    }
 }
 
 /// A run for a measuring machine: everything that determines it. Objects, set and submitted plugins are fetched by name.
@@ -169,4 +209,21 @@ pub struct MeasuredAlgorithm {
     pub records: bool,
     /// A file with its tests per triangle follows.
     pub triangle_tests: bool,
+}
+
+#[test]
+fn a_machine_is_silent_after_a_minute_without_a_run() {
+    let info = |run: Option<&str>, seen_us, revoked_us| MachineInfo {
+        name: "alpha".into(),
+        facts: None,
+        created_us: 0,
+        seen_us,
+        revoked_us,
+        run: run.map(str::to_owned),
+    };
+    let state = |info: MachineInfo| info.status(100_000_000).map(|status| status.state);
+    assert_eq!(state(info(None, Some(50_000_000), None)), Some(MachineState::Waiting));
+    assert_eq!(state(info(None, Some(30_000_000), None)), Some(MachineState::Silent));
+    assert_eq!(state(info(Some("r"), Some(30_000_000), None)), Some(MachineState::Measuring));
+    assert_eq!((state(info(None, None, None)), state(info(Some("r"), Some(99_000_000), Some(1)))), (None, None));
 }

@@ -47,7 +47,7 @@ impl Engine {
             suite_repeats: of_suite().filter(|due| due.repeats.is_some()).count() as u32,
             peoples_runs: due.iter().filter(|due| !due.of_suite).count() as u32,
             expected_seconds: self.seconds_for(&due).await?,
-            hardware_class: inner.machine.hardware_class.clone(),
+            hardware_class: inner.hardware_class(),
             oracle: ocb_core::oracle::VERSION,
             suite_version: inner.suite.document.version,
         })
@@ -90,7 +90,7 @@ impl Engine {
             of_people: asked.people,
             created_by: by.map_or(NAME_OF_OPERATOR, |by| &by.name).to_owned(),
             created_us: now_us(),
-            hardware_class: inner.machine.hardware_class.clone(),
+            hardware_class: inner.hardware_class(),
             oracle: ocb_core::oracle::VERSION,
             suite: inner.suite.sha256.clone(),
             queued_us: None,
@@ -243,7 +243,7 @@ impl Engine {
 impl Inner {
     /// For this machine's class, this oracle and this suite.
     fn is_for_now(&self, row: &CampaignRow) -> bool {
-        row.hardware_class == self.machine.hardware_class
+        row.hardware_class == self.hardware_class()
             && row.oracle == ocb_core::oracle::VERSION
             && row.suite == self.suite.sha256
     }

@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
 use ocb_core::configuration::ConfigurationSet;
 use ocb_core::heatmap::VertexMap;
@@ -54,6 +54,8 @@ pub struct Inner {
     pub objects: Objects,
     pub registry: Registry,
     pub machine: Machine,
+    /// The hardware class on which runs are measured: of this machine, or of those that measure for it.
+    pub class: RwLock<String>,
     pub run_events: RunEvents,
     /// What the run at work can show.
     pub under_way: Arc<UnderWay>,
@@ -97,6 +99,11 @@ impl Inner {
     /// The engine is shutting down.
     pub fn closing(&self) -> bool {
         self.closing.load(Ordering::SeqCst)
+    }
+
+    /// The hardware class on which runs are measured.
+    pub fn hardware_class(&self) -> String {
+        self.class.read().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// There is new work: the dispatcher looks at the queue, and idle work gives way.

@@ -9,14 +9,10 @@ use crate::{Result, model::Status};
 /// How much is stored, waits and is under way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figures {
-    /// Version, hardware class, algorithms and problems.
+    /// Version, hardware class, queue, algorithms and problems.
     pub status: Status,
     /// Number of runs in each state that there is one in.
     pub runs: Vec<(String, u64)>,
-    /// Seconds that the oldest waiting run has waited; 0 where none waits.
-    pub oldest_seconds: f64,
-    /// Seconds that the waiting runs are expected to take.
-    pub expected_seconds: f64,
     /// Number of submitted plugins in each state that there is one in.
     pub plugins: Vec<(String, u64)>,
     /// Bytes of all blobs.
@@ -31,8 +27,6 @@ impl Engine {
         Ok(Figures {
             status: self.status().await?,
             runs: store.counts("SELECT state, COUNT(*) FROM runs GROUP BY state ORDER BY state").await?,
-            oldest_seconds: store.oldest_seconds().await?,
-            expected_seconds: store.waiting(BACKGROUND).await?.1,
             plugins: store.counts("SELECT state, COUNT(*) FROM submissions GROUP BY state ORDER BY state").await?,
             blob_bytes: store.blob_total().await?,
         })
@@ -45,7 +39,8 @@ impl Store {
         Ok(rows.into_iter().map(|(state, count)| (state, count as u64)).collect())
     }
 
-    async fn oldest_seconds(&self) -> Result<f64> {
+    /// How long the oldest waiting run has waited; 0 when none waits.
+    pub(crate) async fn oldest_seconds(&self) -> Result<f64> {
         let text = "SELECT MIN(created_us) FROM runs WHERE state = 'queued' AND priority <= $1";
         let oldest: Option<i64> = sqlx::query_scalar(text).bind(BACKGROUND).fetch_one(&self.pool).await?;
         Ok(oldest.map_or(0.0, |oldest_us| (now_us() - oldest_us).max(0) as f64 / 1e6))

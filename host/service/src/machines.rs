@@ -10,11 +10,12 @@ pub mod sql;
 mod work;
 
 use std::path::Path;
+use std::sync::PoisonError;
 
 use ocb_lab::algorithm::plugin_hash;
 
 use crate::boxed;
-use crate::engine::Engine;
+use crate::engine::{Engine, Inner};
 use crate::model::{MachineFacts, MachineInfo};
 use crate::runs::draw;
 use crate::{EngineError, Result, sha256_hex};
@@ -84,13 +85,38 @@ impl Engine {
         if let Some(missing) = missing {
             return Err(differs(&format!("its plugin of {} is missing or another file", missing.id)));
         }
+        let others = self.inner.store.machines().await?;
+        let others = others.iter().filter(|other| other.name != machine && other.revoked_us.is_none());
+        let mut classes = others.filter_map(|other| Some(&other.facts.as_ref()?.hardware_class));
+        if let Some(class) = classes.find(|class| **class != facts.hardware_class) {
+            return Err(EngineError::Busy(format!(
+                "The machines of a service have one hardware class: {machine} has {}, the others {class}. Revoke those of the other \
+                 class first with `ocb admin revoke-machine`.",
+                facts.hardware_class
+            )));
+        }
         match self.inner.store.machine_was_seen(machine, facts).await? {
-            None => Ok(()),
+            None => self.inner.learn_class().await,
             Some(what) => Err(EngineError::Busy(format!(
                 "The {what} of {machine} has changed since it was allowed to measure; if that is right, allow it again with `ocb admin \
                  machine {machine}`."
             ))),
         }
+    }
+}
+
+impl Inner {
+    /// Where machines measure for this service, runs have their hardware class.
+    pub(crate) async fn learn_class(&self) -> Result<()> {
+        if !self.config.elsewhere {
+            return Ok(());
+        }
+        let machines = self.store.machines().await?;
+        let measuring = machines.iter().filter(|machine| machine.revoked_us.is_none());
+        if let Some(facts) = measuring.filter_map(|machine| machine.facts.as_ref()).next() {
+            self.class.write().unwrap_or_else(PoisonError::into_inner).clone_from(&facts.hardware_class);
+        }
+        Ok(())
     }
 }
 

@@ -1,7 +1,7 @@
 //! Opening a service on its data folder, and closing it.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
 use tokio::sync::Notify;
 
@@ -21,7 +21,7 @@ use crate::plugins::registry::Registry;
 use crate::runs::dispatcher;
 use crate::runs::log::RunEvents;
 use crate::runs::priority::BACKGROUND;
-use crate::store::Store;
+use crate::store::{Store, now_us};
 use crate::suite::Suite;
 use crate::{EngineConfig, EngineError, Result, workloads};
 
@@ -46,6 +46,7 @@ impl Engine {
             worker: Worker::of(&lock, &machine.hardware_class)?,
             holding: Arc::default(),
             objects: Objects::new(store.clone(), blobs.clone(), config.stock_dir.clone()),
+            class: RwLock::new(machine.hardware_class.clone()),
             machine,
             run_events: RunEvents::new(),
             under_way: Arc::default(),
@@ -75,6 +76,7 @@ impl Engine {
         });
         let engine = Self { inner };
         engine.inner.renew_plugins().await?;
+        engine.inner.learn_class().await?;
         if engine.inner.config.dispatch {
             lost::take_back(&engine.inner, Some(&engine.inner.worker)).await?;
             engine.open_house().await?;
@@ -121,11 +123,19 @@ impl Engine {
     /// The service at a glance.
     #[boxed]
     pub async fn status(&self) -> Result<Status> {
+        let store = &self.inner.store;
+        let (queued, expected_seconds) = store.waiting(BACKGROUND).await?;
+        let machines = if self.inner.config.elsewhere { store.machines().await? } else { Vec::new() };
+        let now = now_us();
         Ok(Status {
             version: env!("CARGO_PKG_VERSION").into(),
-            hardware_class: self.inner.machine.hardware_class.clone(),
-            running: self.inner.store.running().await?.len() as u32,
-            queued: self.inner.store.waiting(BACKGROUND).await?.0,
+            hardware_class: self.inner.hardware_class(),
+            running: store.running().await?.len() as u32,
+            queued,
+            oldest_seconds: store.oldest_seconds().await?,
+            expected_seconds,
+            elsewhere: self.inner.config.elsewhere,
+            machines: machines.iter().filter_map(|machine| machine.status(now)).collect(),
             algorithms: self.inner.registry.algorithms(None).len() as u32,
             problems: self.inner.registry.problems(),
         })

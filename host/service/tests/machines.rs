@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use ocb_core::query::Query;
 use ocb_service::model::{
-    AccountInfo, Ended, MachineFacts, Manifest, PluginState, Role, RunInfo, RunSpec, State, Told, WorkOrder,
+    AccountInfo, Ended, MachineFacts, MachineState, Manifest, PluginState, Role, RunInfo, RunSpec, State, Told,
+    WorkOrder,
 };
 use ocb_service::worker::Handed;
 use ocb_service::{Ceilings, Engine, EngineConfig, EngineError, Handing, Profile, Visitor};
@@ -83,6 +84,11 @@ async fn results_of_something_else_are_refused_and_those_of_the_order_kept_once(
         let refused = engine.hand_in("alpha", &order.attempt, Handing { ended, files }).await;
         assert!(matches!(&refused, Err(EngineError::Invalid(why)) if why.contains(words)), "{words}: {refused:?}");
     }
+    let mut elsewhere = environment.clone().expect("it was measured");
+    elsewhere.hardware_class = "0123456789abcdef".into();
+    let ended = Ended::Measured { algorithms: algorithms.clone(), environment: Some(elsewhere), preview: None };
+    let refused = engine.hand_in("alpha", &order.attempt, Handing { ended, files: handed.files.clone() }).await;
+    assert!(matches!(&refused, Err(EngineError::Invalid(why)) if why.contains("hardware class")), "{refused:?}");
     let none = Ended::Measured { algorithms: Vec::new(), environment: None, preview: None };
     let refused = engine.hand_in("alpha", &order.attempt, Handing { ended: none, files: Vec::new() }).await;
     assert!(matches!(&refused, Err(EngineError::Invalid(why)) if why.contains("another number")), "{refused:?}");
@@ -152,7 +158,17 @@ async fn machines_that_would_measure_otherwise_are_refused() {
         assert!(matches!(&refused, Err(EngineError::Busy(why)) if why.contains(words)), "{words}: {refused:?}");
     }
     assert!(engine.next_order("alpha", &plain, NOW).await.unwrap().is_none());
+    // All machines are of one class, which the service then calls its own.
+    engine.add_machine("beta").await.unwrap();
+    let other = MachineFacts { hardware_class: "0123456789abcdef".into(), ..plain.clone() };
+    let refused = engine.next_order("beta", &other, NOW).await;
+    assert!(matches!(&refused, Err(EngineError::Busy(why)) if why.contains("one hardware class")), "{refused:?}");
+    let status = engine.status().await.unwrap();
+    let states: Vec<_> = status.machines.iter().map(|it| (it.name.as_str(), it.state)).collect();
+    assert_eq!((states, &status.hardware_class), (vec![("alpha", MachineState::Waiting)], &plain.hardware_class));
     engine.revoke_machine("alpha").await.unwrap();
+    assert!(engine.next_order("beta", &other, NOW).await.unwrap().is_none(), "now there is no other class");
+    assert_eq!(engine.status().await.unwrap().hardware_class, other.hardware_class);
     assert_eq!(engine.machine_of(&token).await.unwrap(), None);
     assert!(matches!(engine.revoke_machine("alpha").await, Err(EngineError::NotFound(_))));
     assert!(matches!(engine.add_machine(" \n").await, Err(EngineError::Invalid(_))));

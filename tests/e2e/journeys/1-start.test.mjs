@@ -39,6 +39,12 @@ for (const scheme of ['light', 'dark']) {
       await v.go('/truth')
       await v.page.getByRole('heading', { level: 1, name: 'How answers are judged' }).waitFor()
       await v.accessible('how answers are judged')
+      await v.page.getByRole('link', { name: 'Status' }).click()
+      const { version, algorithms } = await v.api('/status')
+      await v.at('status-queue').getByText(version).waitFor()
+      assert.ok((await v.at('status-queue').textContent()).includes(`Algorithms${algorithms}`))
+      await v.at('status-here').waitFor()
+      await v.accessible('the status page')
     })
   }
 }

@@ -26,6 +26,7 @@ export const router = createRouter({
     { path: '/advisor/:id?', component: () => import('./pages/AdvisorPage.vue'), props: true, meta: { title: 'How much detail is enough?' } },
     { path: '/about', component: () => import('./pages/AboutPage.vue'), meta: { title: 'How we measure' } },
     { path: '/truth', component: () => import('./pages/TruthPage.vue'), meta: { title: 'How answers are judged' } },
+    { path: '/status', component: () => import('./pages/StatusPage.vue'), meta: { title: 'Status' } },
     { path: '/api', component: () => import('./pages/ApiPage.vue'), meta: { title: 'API' } },
     { path: '/:rest(.*)*', component: () => import('./pages/NotFoundPage.vue'), meta: { title: 'Page not found' } },
   ],

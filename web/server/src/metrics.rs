@@ -95,7 +95,7 @@ async fn show(State(app): State<App>) -> Result<Response, Problem> {
 fn registry_of(figures: Figures) -> Registry {
     let mut registry = Registry::with_prefix("ocb");
     let program = Family::<Program, Gauge>::default();
-    let Figures { status, runs, oldest_seconds, expected_seconds, plugins, blob_bytes } = figures;
+    let Figures { status, runs, plugins, blob_bytes } = figures;
     program.get_or_create(&Program { version: status.version, hardware_class: status.hardware_class }).set(1);
     registry.register("program", "Version and hardware class of this service", program);
     for (name, help, counts) in [("runs", "Runs by state", runs), ("plugins", "Submitted plugins by state", plugins)] {
@@ -106,8 +106,8 @@ fn registry_of(figures: Figures) -> Registry {
         registry.register(name, help, family);
     }
     let seconds = [
-        ("queue_oldest", "Time that the oldest waiting run has waited", oldest_seconds),
-        ("queue_expected", "Time that the waiting runs are expected to take", expected_seconds),
+        ("queue_oldest", "Time that the oldest waiting run has waited", status.oldest_seconds),
+        ("queue_expected", "Time that the waiting runs are expected to take", status.expected_seconds),
     ];
     for (name, help, value) in seconds {
         let gauge = Gauge::<f64, std::sync::atomic::AtomicU64>::default();

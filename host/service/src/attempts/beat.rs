@@ -25,6 +25,11 @@ pub async fn beat(inner: Arc<Inner>) {
                 Err(e) => tracing::warn!("the lease of the attempt {attempt} was not renewed: {e}"),
             }
         }
+        if inner.config.elsewhere
+            && let Err(e) = inner.learn_class().await
+        {
+            tracing::warn!("the hardware class of the measuring machines is not known: {e}");
+        }
         if inner.house.is_here()
             && let Err(e) = lost::take_back(&inner, None).await
         {

@@ -159,6 +159,9 @@ impl Engine {
             let [records, triangle_tests] = files;
             found.push(Found { result, records, triangle_tests, plugin_sha256, seconds_per_query });
         }
+        if environment.as_ref().is_some_and(|machine| machine.hardware_class != self.inner.hardware_class()) {
+            return Err(wrong("they are of another hardware class"));
+        }
         let draw = draw_of(&self.inner, row)?;
         let environment = environment.map(|environment| Environment { draw: Some(draw), ..*environment });
         Ok(Results { algorithms: found, environment, preview: preview.map(|preview| *preview) })

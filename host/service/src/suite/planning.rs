@@ -58,7 +58,7 @@ impl Engine {
             configurations: document.configurations,
             passes: document.passes,
             scenarios: scenarios.len() as u32,
-            hardware_class: self.inner.machine.hardware_class.clone(),
+            hardware_class: self.inner.hardware_class(),
             oracle: ocb_core::oracle::VERSION,
             idle: self.inner.config.idle,
             progress: self.inner.public().into_iter().map(progress).collect::<Result<_>>()?,
@@ -244,7 +244,7 @@ impl Inner {
     /// Measured on this machine's class, judged by this oracle, in a jail like this.
     pub(crate) fn is_of_now(&self, row: &RunRow) -> bool {
         let here = |machine: &Environment| {
-            machine.hardware_class == self.machine.hardware_class && machine.profile == self.registry.profile().as_str()
+            machine.hardware_class == self.hardware_class() && machine.profile == self.registry.profile().as_str()
         };
         row.environment.as_ref().is_some_and(here)
             && row.set.as_ref().is_some_and(|set| set.oracle == Some(ocb_core::oracle::VERSION))
