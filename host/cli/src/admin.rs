@@ -124,7 +124,11 @@ async fn machines(engine: &Engine, json: bool) -> Result<()> {
         let state = match (it.revoked_us, it.seen_us) {
             (Some(_), _) => "revoked".to_owned(),
             (None, None) => "never seen".to_owned(),
-            (None, Some(_)) => it.run.as_ref().map_or("waits".to_owned(), |run| format!("measures {run}")),
+            (None, Some(_)) => match (&it.run, &it.trouble) {
+                (Some(run), _) => format!("measures {run}"),
+                (None, Some(trouble)) => format!("gets no run: {trouble}"),
+                (None, None) => "waits".to_owned(),
+            },
         };
         let facts = it.facts.as_ref();
         let told = |of: fn(&MachineFacts) -> &String| facts.map_or(String::new(), |facts| of(facts).clone());

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use ocb_service::doctor::examine;
 use ocb_service::model::{Ended, Told, WorkOrder};
 use ocb_service::worker::{Handed, Worker};
 use ocb_service::{LabError, Runner, Stop};
@@ -20,22 +21,29 @@ use link::{Link, Refused};
 
 /// How often the service hears that the work goes on.
 const BEAT: Duration = Duration::from_secs(2);
-/// A service that was not reached for so long has given the run to another machine.
-const LOST: Duration = Duration::from_secs(20);
 /// After something went wrong.
 const PAUSE: Duration = Duration::from_secs(2);
-/// After a failure of this machine: others may have more luck with the run.
-const LONG_PAUSE: Duration = Duration::from_secs(15);
+/// A service that is not reached for so long, or has a fault for so long, does not get what it is asked for.
+const PATIENCE: Duration = Duration::from_secs(600);
+/// A service that has a fault so many times when results are handed in will have it again.
+const MOST_FAULTS: u32 = 10;
+/// A job of a cluster rests for so long at most.
+const REST: Duration = Duration::from_secs(60);
 
 /// Takes runs of the service and measures them, one after the other, until it is stopped; with `--once`, the next one alone.
 pub async fn work(store: &Store, args: &WorkArgs) -> Result<ExitCode> {
     let runner = Runner { program: open::runner(store), profile: store.profile() };
+    if !examine(&runner.program).allows(runner.profile) {
+        let told = "This machine cannot run third-party plugins in the jail; `ocb doctor` says what is missing.";
+        return Err(Failure::Input(told.to_owned()));
+    }
     let plugins = open::plugins(store);
-    let worker = Arc::new(Worker::observe(runner, &plugins, store.machine_note.as_deref())?);
     let link = Arc::new(Link::new(&args.server, &args.token)?);
     let stopped = stopped()?;
-    let mut unreached = false;
+    let mut said = None;
     while !*stopped.borrow() {
+        // Anew each time: what has changed since must be noticed.
+        let worker = Worker::observe(runner.clone(), &plugins, store.machine_note.as_deref())?;
         let mut end = stopped.clone();
         let next = tokio::select! {
             next = link.next(worker.facts()) => next,
@@ -43,21 +51,22 @@ pub async fn work(store: &Store, args: &WorkArgs) -> Result<ExitCode> {
         };
         match next {
             Ok(Some(order)) => {
-                unreached = false;
-                let failed = carry_out(&worker, &link, order, &stopped).await?;
-                if failed && !args.once {
-                    pause(LONG_PAUSE, &stopped).await;
-                }
+                said = None;
+                carry_out(worker, &link, order, &stopped).await?;
             }
-            Ok(None) => unreached = false,
+            Ok(None) => said = None,
             Err(Refused::For(sentence)) => return Err(Failure::Input(sentence)),
-            Err(Refused::Unreached(sentence)) => {
-                if !unreached {
+            Err(refused) => {
+                let rest = refused.rest().unwrap_or(PAUSE);
+                let sentence = refused.to_string();
+                if said.as_ref() != Some(&sentence) {
                     eprintln!("ocb: {sentence} Trying again.");
                 }
-                unreached = true;
-                pause(PAUSE, &stopped).await;
-                continue;
+                said = Some(sentence);
+                pause(if args.once { rest.min(REST) } else { rest }, &stopped).await;
+                if refused.rest().is_none() {
+                    continue;
+                }
             }
         }
         if args.once {
@@ -85,86 +94,105 @@ async fn pause(time: Duration, stopped: &watch::Receiver<bool>) {
     let _ = tokio::time::timeout(time, stopped.wait_for(|stopped| *stopped)).await;
 }
 
-/// Measures one run and hands it in; true when this machine failed.
-async fn carry_out(
-    worker: &Arc<Worker>,
-    link: &Arc<Link>,
-    order: WorkOrder,
-    stopped: &watch::Receiver<bool>,
-) -> Result<bool> {
-    let (stop, steps, order) = (Stop::default(), Arc::new(Mutex::new(Vec::new())), Arc::new(order));
+/// Measures one run and hands it in.
+async fn carry_out(worker: Worker, link: &Arc<Link>, order: WorkOrder, stopped: &watch::Receiver<bool>) -> Result<()> {
+    let (stop, steps, order) = (Stop::default(), Arc::new(Mutex::new(Some(Vec::new()))), Arc::new(order));
     eprintln!("ocb: measuring the run {}", order.run);
     let begun = Instant::now();
     let measuring = {
-        let (worker, link, order, stop, steps) =
-            (worker.clone(), link.clone(), order.clone(), stop.clone(), steps.clone());
-        let handle = Handle::current();
+        let (link, order, stop, steps) = (link.clone(), order.clone(), stop.clone(), steps.clone());
+        let (handle, stopped) = (Handle::current(), stopped.clone());
         tokio::task::spawn_blocking(move || {
             let fetch = |name: &str| {
-                let fetched = handle.block_on(link.file(&order.attempt, name));
+                let fetched = handle.block_on(fetched(&link, &order.attempt, name, &stopped));
                 fetched.map_err(|e| LabError::Fault(format!("The file {name:?} of the run cannot be had. {e}")))
             };
             worker.measure(&order, &stop, &fetch, &mut |told| note(&steps, told))
         })
     };
-    let beating = tokio::spawn(beat(link.clone(), order.clone(), stop.clone(), steps));
+    let beating = tokio::spawn(beat(link.clone(), order.clone(), stop.clone(), steps.clone()));
     let watching = tokio::spawn(watch_over(stop.clone(), stopped.clone(), order.most_seconds));
     let measured = measuring.await.map_err(|e| Failure::Fault(format!("the measuring thread ended: {e}.")))?;
     watching.abort();
-    let (Handed { ended, files }, failed) = match measured {
-        Ok(Some(handed)) => (handed, false),
-        Ok(None) if *stopped.borrow() => (plain(Ended::PutBack), false),
+    // What is told from now on would come behind the end.
+    steps.lock().unwrap_or_else(PoisonError::into_inner).take();
+    let Handed { ended, files } = match measured {
+        Ok(Some(handed)) => handed,
+        _ if *stopped.borrow() => plain(Ended::PutBack),
         Ok(None) if order.most_seconds.is_some_and(|most| begun.elapsed().as_secs_f64() >= most) => {
-            (plain(Ended::TooLong), false)
+            plain(Ended::TooLong)
         }
-        // The service has ended the attempt, or was not reached for so long that it has.
+        // The service has ended the attempt.
         Ok(None) => {
             beating.abort();
             eprintln!("ocb: the run {} was ended by the service", order.run);
-            return Ok(false);
+            return Ok(());
         }
         Err(e) => {
             eprintln!("ocb: the run {} could not be measured: {e}", order.run);
-            (plain(Ended::Failed { message: e.to_string() }), true)
+            plain(Ended::Failed { message: e.to_string() })
         }
     };
-    let handed = hand_in(link, &order.attempt, &ended, &files, stopped).await;
+    let handed = match hand_in(link, &order.attempt, &ended, &files, stopped).await {
+        Err(refused) => {
+            eprintln!("ocb: the run {} cannot be handed in: {refused}", order.run);
+            let ended = Ended::Failed { message: format!("The results could not be handed in. {refused}") };
+            link.end(&order.attempt, &ended, &[]).await
+        }
+        handed => handed,
+    };
     beating.abort();
     match handed {
         Ok(true) => eprintln!("ocb: the run {} is handed in", order.run),
         Ok(false) => {
             eprintln!("ocb: the run {} comes too late: it was cancelled, or another machine has it", order.run)
         }
-        Err(sentence) => return Err(Failure::Fault(format!("the run {} cannot be handed in: {sentence}", order.run))),
+        Err(refused) => eprintln!("ocb: the run {} is given up: {refused}", order.run),
     }
-    Ok(failed)
+    Ok(())
+}
+
+/// A file of the run; a service that is started again is waited for.
+async fn fetched(
+    link: &Link,
+    attempt: &str,
+    name: &str,
+    stopped: &watch::Receiver<bool>,
+) -> std::result::Result<Vec<u8>, Refused> {
+    let asked = Instant::now();
+    loop {
+        match link.file(attempt, name).await {
+            Err(Refused::Unreached(_) | Refused::Fault(_)) if !*stopped.borrow() && asked.elapsed() < PATIENCE => {
+                pause(PAUSE, stopped).await;
+            }
+            answer => return answer,
+        }
+    }
 }
 
 fn plain(ended: Ended) -> Handed {
     Handed { ended, files: Vec::new() }
 }
 
-/// Keeps a step for the next beat; of the progress of an algorithm the newest alone.
-fn note(steps: &Mutex<Vec<Told>>, told: Told) {
+/// Keeps a step for the next beat, of the progress of an algorithm the newest alone; nothing once the measuring has ended.
+fn note(steps: &Mutex<Option<Vec<Told>>>, told: Told) {
     let mut steps = steps.lock().unwrap_or_else(PoisonError::into_inner);
+    let Some(steps) = &mut *steps else { return };
     if let Told::Progress { place: of, .. } = &told {
         steps.retain(|known| !matches!(known, Told::Progress { place, .. } if place == of));
     }
     steps.push(told);
 }
 
-/// Tells the service every two seconds that the work goes on, and how far it is; stops the work when the service has ended it.
-async fn beat(link: Arc<Link>, order: Arc<WorkOrder>, stop: Stop, steps: Arc<Mutex<Vec<Told>>>) {
-    let mut reached = Instant::now();
+/// Tells the service every two seconds that the work goes on, and how far it is; stops the work when the service has ended it. While
+/// the service is not reached, the work goes on: it may have been started again.
+async fn beat(link: Arc<Link>, order: Arc<WorkOrder>, stop: Stop, steps: Arc<Mutex<Option<Vec<Told>>>>) {
     let mut ticks = tokio::time::interval(BEAT);
     loop {
         ticks.tick().await;
-        let told = std::mem::take(&mut *steps.lock().unwrap_or_else(PoisonError::into_inner));
-        match link.beat(&order.attempt, told).await {
-            Ok(true) => reached = Instant::now(),
-            Ok(false) | Err(Refused::For(_)) => return stop.stop(),
-            Err(Refused::Unreached(_)) if reached.elapsed() > LOST => return stop.stop(),
-            Err(Refused::Unreached(_)) => {}
+        let told = steps.lock().unwrap_or_else(PoisonError::into_inner).as_mut().map(std::mem::take);
+        if matches!(link.beat(&order.attempt, told.unwrap_or_default()).await, Ok(false) | Err(Refused::For(_))) {
+            return stop.stop();
         }
     }
 }
@@ -184,29 +212,26 @@ async fn watch_over(stop: Stop, mut stopped: watch::Receiver<bool>, most_seconds
     stop.stop();
 }
 
-/// Hands in, again and again while the service is not reached; whoever stops this process does not wait for that.
+/// Hands in, again and again while the service is not reached or has a fault. Whoever stops this process waits for one try.
 async fn hand_in(
     link: &Link,
     attempt: &str,
     ended: &Ended,
     files: &[Vec<u8>],
     stopped: &watch::Receiver<bool>,
-) -> std::result::Result<bool, String> {
-    let mut tries_left = None;
+) -> std::result::Result<bool, Refused> {
+    let mut faults = 0;
+    let asked = Instant::now();
     loop {
-        match link.end(attempt, ended, files).await {
-            Ok(current) => return Ok(current),
-            Err(Refused::For(sentence)) => return Err(sentence),
-            Err(Refused::Unreached(sentence)) => {
-                let left = tries_left.get_or_insert(3);
-                if *stopped.borrow() {
-                    *left -= 1;
-                }
-                if *left == 0 {
-                    return Err(sentence);
-                }
-            }
+        let answer = link.end(attempt, ended, files).await;
+        match &answer {
+            Err(Refused::Fault(_)) if faults < MOST_FAULTS => faults += 1,
+            Err(Refused::Unreached(_)) if asked.elapsed() < PATIENCE => {}
+            _ => return answer,
         }
-        tokio::time::sleep(PAUSE).await;
+        if *stopped.borrow() {
+            return answer;
+        }
+        pause(PAUSE, stopped).await;
     }
 }

@@ -60,6 +60,8 @@ pub struct MachineInfo {
     pub revoked_us: Option<i64>,
     /// The run that it works on.
     pub run: Option<String>,
+    /// Why it gets no run.
+    pub trouble: Option<String>,
 }
 
 /// A measuring machine, as everybody sees it.
@@ -83,6 +85,8 @@ pub enum MachineState {
     Waiting,
     /// It has no run and has not asked for one in the last minute.
     Silent,
+    /// It asks and gets none: it has failed, or differs from what it was.
+    Refused,
 }
 
 impl MachineInfo {
@@ -91,6 +95,7 @@ impl MachineInfo {
         let seen_us = self.seen_us.filter(|_| self.revoked_us.is_none())?;
         let state = match &self.run {
             Some(_) => MachineState::Measuring,
+            None if self.trouble.is_some() => MachineState::Refused,
             None if now_us - seen_us < SILENT_US => MachineState::Waiting,
             None => MachineState::Silent,
         };
@@ -220,10 +225,13 @@ fn a_machine_is_silent_after_a_minute_without_a_run() {
         seen_us,
         revoked_us,
         run: run.map(str::to_owned),
+        trouble: None,
     };
     let state = |info: MachineInfo| info.status(100_000_000).map(|status| status.state);
     assert_eq!(state(info(None, Some(50_000_000), None)), Some(MachineState::Waiting));
     assert_eq!(state(info(None, Some(30_000_000), None)), Some(MachineState::Silent));
     assert_eq!(state(info(Some("r"), Some(30_000_000), None)), Some(MachineState::Measuring));
+    let failing = MachineInfo { trouble: Some("why".into()), ..info(None, Some(50_000_000), None) };
+    assert_eq!(state(failing), Some(MachineState::Refused));
     assert_eq!((state(info(None, None, None)), state(info(Some("r"), Some(99_000_000), Some(1)))), (None, None));
 }

@@ -6,7 +6,6 @@ use std::time::Duration;
 pub use ocb_sandbox::Profile;
 
 use crate::advice::jailed::PROGRAM;
-use crate::machines::SlurmJobs;
 use crate::mail::MailServer;
 use ocb_lab::check::CHECK_LIMIT;
 
@@ -28,6 +27,15 @@ impl Default for Ceilings {
         let minutes = |n: u64| Duration::from_secs(60 * n);
         Self { guest_run: minutes(10), guest: minutes(30), account: minutes(12 * 60), address: minutes(24 * 60) }
     }
+}
+
+/// The partition whose nodes measure, and the program that each job runs there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SlurmJobs {
+    /// The partition; its nodes are of one hardware class.
+    pub partition: String,
+    /// A program on each node that runs `ocb work --once` with the node's token.
+    pub program: String,
 }
 
 /// How to open an [`crate::Engine`].

@@ -18,7 +18,7 @@ use crate::cache::Cache;
 use crate::columns::RecordColumns;
 use crate::house::House;
 use crate::machine::Machine;
-use crate::machines::Orders;
+use crate::machines::under_way::Orders;
 use crate::measure::Stop;
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;

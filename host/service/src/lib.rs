@@ -45,7 +45,7 @@ mod workloads;
 /// An asynchronous function whose future comes in a box. All that others call are such: the machine behind a future is
 /// compiled where it is polled, and so the whole engine once more for every program around it.
 pub(crate) use async_recursion::async_recursion as boxed;
-pub use config::{Ceilings, EngineConfig, Profile};
+pub use config::{Ceilings, EngineConfig, Profile, SlurmJobs};
 pub use ocb_lab::{LabError, sha256_hex};
 use ocb_lab::{columns, configurations, machine, measure, replay};
 
@@ -56,7 +56,7 @@ pub use campaigns::campaign_csv;
 pub use charts::ask::{chart_csv, chart_parquet};
 pub use engine::Engine;
 pub use error::{EngineError, Result};
-pub use machines::{Handing, SlurmJobs};
+pub use machines::Handing;
 pub use mail::{MailServer, Pace};
 pub use ocb_chart as chart;
 pub use ocb_lab::algorithm::Runner;

@@ -7,21 +7,21 @@ mod files;
 mod orders;
 mod slurm;
 pub mod sql;
+pub mod under_way;
 mod work;
 
-use std::path::Path;
 use std::sync::PoisonError;
 
 use ocb_lab::algorithm::plugin_hash;
 
+use crate::blocking::blocking;
 use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::model::{MachineFacts, MachineInfo};
 use crate::runs::draw;
+use crate::store::now_us;
 use crate::{EngineError, Result, sha256_hex};
 
-pub use orders::Orders;
-pub use slurm::SlurmJobs;
 pub use work::Handing;
 
 /// Longest name of a machine.
@@ -50,12 +50,12 @@ impl Engine {
     /// Revokes the token of a machine. What it works on waits again.
     #[boxed]
     pub async fn revoke_machine(&self, name: &str) -> Result<()> {
-        if self.inner.store.revoke_machine(name.trim()).await? {
-            return Ok(());
+        if !self.inner.store.revoke_machine(name.trim()).await? {
+            return Err(EngineError::NotFound(format!(
+                "There is no machine {name:?} with a valid token; `ocb admin machines` lists them."
+            )));
         }
-        Err(EngineError::NotFound(format!(
-            "There is no machine {name:?} with a valid token; `ocb admin machines` lists them."
-        )))
+        self.inner.put_back_runs_of(name.trim()).await
     }
 
     /// The machine of a token that was not revoked.
@@ -66,6 +66,22 @@ impl Engine {
 
     /// Refuses a machine that would not measure the same as this service, or not the same as before.
     pub(crate) async fn admit(&self, machine: &str, facts: &MachineFacts) -> Result<()> {
+        let rests_us = self.inner.store.machine_rests(machine).await? - now_us();
+        if rests_us > 0 {
+            let retry_seconds = (rests_us / 1_000_000 + 1) as u32;
+            let message = format!("{machine} has failed and gets its next run in {retry_seconds} s; its log says why.");
+            return Err(EngineError::TooMuch { message, retry_seconds });
+        }
+        let admitted = self.is_as_wanted(machine, facts).await;
+        if let Err(EngineError::Busy(why)) = &admitted {
+            // Jobs of a cluster have no log of their own.
+            tracing::warn!("{machine} gets no run. {why}");
+            self.inner.store.machine_has_trouble(machine, why, 0).await?;
+        }
+        admitted
+    }
+
+    async fn is_as_wanted(&self, machine: &str, facts: &MachineFacts) -> Result<()> {
         let differs = |what: &str| {
             EngineError::Busy(format!(
                 "This machine cannot measure for this service: {what}. Install the same package on both."
@@ -75,7 +91,8 @@ impl Engine {
         if facts.version != env!("CARGO_PKG_VERSION") {
             return Err(differs(&format!("it has version {}, not {}", facts.version, env!("CARGO_PKG_VERSION"))));
         }
-        if Some(&facts.runner_sha256) != self.inner.orders.runner(&registry.runner().program).as_ref() {
+        let program = registry.runner().program.clone();
+        if facts.runner_sha256 != blocking(move || Ok(plugin_hash(&program)?)).await? {
             return Err(differs("its ocb-runner is another file"));
         }
         if facts.profile != registry.profile().as_str() {
@@ -106,6 +123,17 @@ impl Engine {
 }
 
 impl Inner {
+    /// The runs that a machine has wait again; it hears of that with its next beat.
+    pub(crate) async fn put_back_runs_of(&self, machine: &str) -> Result<()> {
+        for attempt in self.store.attempts_of(machine).await? {
+            self.store.put_back_run(&attempt).await?;
+            self.orders.forget(&attempt.id);
+            self.run_events.ring(&attempt.job);
+            self.orders.prepared.notify_waiters();
+        }
+        Ok(())
+    }
+
     /// Where machines measure for this service, runs have their hardware class.
     pub(crate) async fn learn_class(&self) -> Result<()> {
         if !self.config.elsewhere {
@@ -118,9 +146,4 @@ impl Inner {
         }
         Ok(())
     }
-}
-
-/// SHA-256 of the runner's file.
-fn runner_hash(program: &Path) -> Option<String> {
-    plugin_hash(program).ok()
 }

@@ -14,7 +14,7 @@ use crate::cache::Cache;
 use crate::engine::{Engine, Inner};
 use crate::house::House;
 use crate::machine::{Machine, lock_data_folder};
-use crate::machines::Orders;
+use crate::machines::under_way::Orders;
 use crate::model::Status;
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;
@@ -78,6 +78,7 @@ impl Engine {
         engine.inner.renew_plugins().await?;
         engine.inner.learn_class().await?;
         if engine.inner.config.dispatch {
+            engine.inner.store.believe_machines().await?;
             lost::take_back(&engine.inner, Some(&engine.inner.worker)).await?;
             engine.open_house().await?;
             engine.inner.spawn(dispatcher::work(engine.inner.clone()));

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use ocb_core::query::Query;
 use ocb_service::model::{
-    AccountInfo, Ended, MachineFacts, MachineState, Manifest, PluginState, Role, RunInfo, RunSpec, State, Told,
-    WorkOrder,
+    AccountInfo, Ended, MachineFacts, MachineState, Manifest, MeasuredAlgorithm, OutcomeName, PluginState, Role,
+    RunInfo, RunSpec, State, Told, WorkOrder,
 };
 use ocb_service::worker::Handed;
 use ocb_service::{Ceilings, Engine, EngineConfig, EngineError, Handing, Profile, Visitor};
@@ -128,6 +128,17 @@ async fn a_machine_that_fails_three_times_does_not_keep_the_run_for_ever() {
     let run = engine.submit(small(&["box-tree"]), None).await.unwrap();
     for number in 1..=3 {
         assert_ne!(state(&engine, &run).await, State::Failed, "attempt {number}");
+        // It rests after a failure, so that other machines get the run; until its operator says that it is mended.
+        if number > 1 {
+            let rests = engine.next_order("alpha", worker.facts(), NOW).await;
+            let long = |refused: &EngineError| matches!(refused, EngineError::TooMuch { retry_seconds: 500..=601, .. });
+            assert!(rests.as_ref().is_err_and(long), "{rests:?}");
+            let status = engine.status().await.unwrap();
+            assert_eq!(status.machines[0].state, MachineState::Refused);
+            let machines = engine.machines().await.unwrap();
+            assert_eq!(machines[0].trouble.as_deref(), Some("The disk of /somewhere is full."));
+            engine.add_machine("alpha").await.unwrap();
+        }
         let order = order(&engine, "alpha", worker.facts()).await;
         let ended = Ended::Failed { message: "The disk of /somewhere is full.".into() };
         assert!(hand_in(&engine, "alpha", &order, Handed { ended, files: Vec::new() }).await);
@@ -172,6 +183,86 @@ async fn machines_that_would_measure_otherwise_are_refused() {
     assert_eq!(engine.machine_of(&token).await.unwrap(), None);
     assert!(matches!(engine.revoke_machine("alpha").await, Err(EngineError::NotFound(_))));
     assert!(matches!(engine.add_machine(" \n").await, Err(EngineError::Invalid(_))));
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_the_jail_of_a_machine_lacks_is_no_result() {
+    let _alone = alone().await;
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(config(data.path())).await.unwrap();
+    engine.add_machine("alpha").await.unwrap();
+    let worker = common::here(&config(data.path()));
+    let facts = worker.facts().clone();
+    let run = engine.submit(small(&["box-tree"]), None).await.unwrap();
+    let first = order(&engine, "alpha", &facts).await;
+    let (_, handed) = common::measured(&engine, "alpha", worker, &first).await;
+    let Ended::Measured { mut algorithms, .. } = handed.ended else { panic!("it was measured") };
+    let MeasuredAlgorithm { result, records, triangle_tests, .. } = &mut algorithms[0];
+    (*records, *triangle_tests, result.n, result.outcome.ours) = (false, false, 0, true);
+    result.outcome.name = OutcomeName::SandboxFault;
+    let ended = Ended::Measured { algorithms, environment: None, preview: None };
+    assert!(hand_in(&engine, "alpha", &first, Handed { ended, files: Vec::new() }).await);
+    assert_eq!(state(&engine, &run).await, State::Queued, "another machine may have more luck");
+    assert!(matches!(engine.next_order("alpha", &facts, NOW).await, Err(EngineError::TooMuch { .. })));
+
+    // Who asks anew has forgotten what it had, which then waits again and is no attempt; and so it is when its token is revoked.
+    engine.add_machine("beta").await.unwrap();
+    let second = order(&engine, "beta", &facts).await;
+    let third = order(&engine, "beta", &facts).await;
+    assert_eq!((&second.run, &third.run), (&run.id, &run.id));
+    assert!(!engine.beat_of("beta", &second.attempt, Vec::new()).await.unwrap());
+    engine.revoke_machine("beta").await.unwrap();
+    let waiting = engine.run(&run.id, None).await.unwrap();
+    assert_eq!((waiting.state, waiting.attempts), (State::Queued, 1), "the failure of alpha alone counts");
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_machine_finds_what_the_service_itself_would_find() {
+    let _alone = alone().await;
+    let [here, there] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let spec = RunSpec {
+        object_b: Some("stock:box@500".into()),
+        seed: Some(7),
+        at_most: Some(60),
+        ..RunSpec {
+            method: common::spec("proximity", 200, 1).method,
+            ..small(&["box-tree:leaf_size=4", "brute-force"])
+        }
+    };
+    let alone = Engine::open(EngineConfig { elsewhere: false, ..config(here.path()) }).await.unwrap();
+    let run = alone.submit(spec.clone(), Some("me")).await.unwrap();
+    let expected = common::finish(&alone, &run.id).await.0;
+    alone.shutdown().await;
+
+    let engine = Engine::open(config(there.path())).await.unwrap();
+    engine.add_machine("alpha").await.unwrap();
+    let worker = common::here(&config(there.path()));
+    let run = engine.submit(spec, Some("me")).await.unwrap();
+    let first = order(&engine, "alpha", worker.facts()).await;
+    let (worker, handed) = common::measured(&engine, "alpha", worker, &first).await;
+    assert!(hand_in(&engine, "alpha", &first, handed).await);
+    let found = engine.run(&run.id, None).await.unwrap();
+    let told = |run: &RunInfo| {
+        let of = |it: &ocb_service::model::AlgorithmResult| {
+            (it.algorithm.clone(), it.n, it.of, it.wrong, it.verdicts.clone(), it.bv_tests_mean, it.rank.is_some())
+        };
+        (run.state, run.results.iter().map(of).collect::<Vec<_>>(), run.preview.as_ref().map(|it| (it.n, it.of)))
+    };
+    assert_eq!(told(&found), told(&expected));
+    assert_eq!(found.set.as_ref().map(|set| &set.sha256), expected.set.as_ref().map(|set| &set.sha256));
+    let reference = |run: &RunInfo| run.environment.as_ref().and_then(|it| it.reference.clone());
+    assert_eq!(reference(&found), reference(&expected));
+
+    // The whole of the preview is prepared and measured like any other run.
+    engine.refine(&run.id, Some("me")).await.unwrap();
+    let whole = order(&engine, "alpha", worker.facts()).await;
+    assert_eq!(whole.spec.at_most, None);
+    let (_, handed) = common::measured(&engine, "alpha", worker, &whole).await;
+    assert!(hand_in(&engine, "alpha", &whole, handed).await);
+    let refined = engine.run(&run.id, None).await.unwrap();
+    assert_eq!((refined.state, refined.preview.is_none(), refined.results[0].n), (State::Done, true, 200));
     engine.shutdown().await;
 }
 

@@ -141,25 +141,42 @@ async fn a_second_service_takes_nothing_from_the_first_until_that_is_silent() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_machine_begins_at_one_service_and_hands_in_at_the_other() {
     let (url, _database) = database().await;
+    let bucket = std::env::var("OCB_TEST_S3").expect("OCB_TEST_S3 is not set: run `make test`");
     let [data, other] = [(); 2].map(|()| tempfile::tempdir().unwrap());
-    let settings =
-        |data: &Path| EngineConfig { database_url: Some(url.clone()), elsewhere: true, ..common::config(data) };
-    let first = Engine::open(settings(data.path())).await.unwrap();
+    let settings = |data: &Path, dispatch| EngineConfig {
+        database_url: Some(url.clone()),
+        blob_url: Some(bucket.clone()),
+        elsewhere: true,
+        dispatch,
+        ..common::config(data)
+    };
+    let first = Engine::open(settings(data.path(), true)).await.unwrap();
     let token = first.add_machine("alpha").await.unwrap();
-    let second = Engine::open(settings(other.path())).await.unwrap();
+    // It prepares nothing.
+    let second = Engine::open(settings(other.path(), false)).await.unwrap();
     assert_eq!(second.machine_of(&token).await.unwrap().as_deref(), Some("alpha"));
-    let worker = common::here(&settings(data.path()));
+    let worker = common::here(&settings(data.path(), true));
+    let facts = worker.facts().clone();
     let wait = Duration::from_secs(60);
     let spec = |seed| RunSpec { algorithms: vec!["box-tree".into()], ..common::spec("collision_first", 30, seed) };
 
-    // Whichever prepares it, the other gives it to the machine.
     let run = first.submit(spec(1), Some("me")).await.unwrap();
-    let order = second.next_order("alpha", worker.facts(), wait).await.unwrap().unwrap();
-    let told = Told::Progress { place: 0, done: 3, total: 30, worked_us: 10 };
-    assert!(first.beat_of("alpha", &order.attempt, vec![told]).await.unwrap());
+    let order = second.next_order("alpha", &facts, wait).await.unwrap().unwrap();
+    let told = |done| Told::Progress { place: 0, done, total: 30, worked_us: 10 };
+    assert!(first.beat_of("alpha", &order.attempt, vec![told(3)]).await.unwrap());
     assert_eq!(second.run(&run.id, None).await.unwrap().stages[2].done, 3);
+    let (_, handed) = common::measured(&second, "alpha", worker, &order).await;
+    let handing = Handing { ended: handed.ended, files: handed.files };
+    assert!(first.hand_in("alpha", &order.attempt, handing).await.unwrap());
+    let done = second.run(&run.id, None).await.unwrap();
+    assert_eq!((done.state, done.attempts, done.results[0].n), (State::Done, 1, 30));
+    assert!(done.stages.iter().all(|stage| stage.state == State::Done), "{:?}", done.stages);
+    // A beat that comes late changes no stage.
+    assert!(!second.beat_of("alpha", &order.attempt, vec![told(4)]).await.unwrap());
 
     // Cancelled at one, which the machine hears from the other.
+    let run = first.submit(spec(2), Some("me")).await.unwrap();
+    let order = first.next_order("alpha", &facts, wait).await.unwrap().unwrap();
     second.cancel(&run.id, Some("me")).await.unwrap();
     assert!(!first.beat_of("alpha", &order.attempt, Vec::new()).await.unwrap());
     let late = Handing { ended: Ended::PutBack, files: Vec::new() };

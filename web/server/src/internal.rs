@@ -11,6 +11,7 @@ use axum::routing::{get, post};
 use axum::{Json, Router};
 use ocb_service::Handing;
 use ocb_service::model::{Beat, Ended, GoOn, MachineFacts};
+use tokio::sync::Semaphore;
 
 use crate::App;
 use crate::problem::{Problem, Result};
@@ -18,7 +19,9 @@ use crate::problem::{Problem, Result};
 /// How long a machine waits for work before it asks again.
 const WAIT: Duration = Duration::from_secs(15);
 /// Largest results of one run: those of all algorithms.
-const MAX_RESULTS: usize = 4 << 30;
+const MAX_RESULTS: usize = 1 << 30;
+/// So many results are taken at a time; others wait.
+static TAKING: Semaphore = Semaphore::const_new(2);
 /// Largest of the other requests.
 const MAX_JSON: usize = 1 << 20;
 
@@ -84,17 +87,23 @@ async fn end(
     Path(attempt): Path<String>,
     mut form: Multipart,
 ) -> Result<Json<GoOn>> {
+    if !app.engine.is_at_work(&name, &attempt).await? {
+        return Ok(Json(GoOn { current: false }));
+    }
+    let _one = TAKING.acquire().await.map_err(Problem::fault)?;
     let bad = |e: &dyn std::fmt::Display| Problem::bad_request(format!("These results cannot be read: {e}."));
     let (mut ended, mut files): (Option<Ended>, _) = (None, Vec::new());
     while let Some(field) = form.next_field().await.map_err(|e| bad(&e))? {
         let is_file = field.name() == Some("file");
         let bytes = field.bytes().await.map_err(|e| bad(&e))?;
         match is_file {
-            true => files.push(bytes.to_vec()),
+            true => files.push(bytes.into()),
             false => ended = Some(serde_json::from_slice(&bytes).map_err(|e| bad(&e))?),
         }
     }
     let ended = ended.ok_or_else(|| bad(&"the part `ended` is missing"))?;
-    let current = app.engine.hand_in(&name, &attempt, Handing { ended, files }).await?;
+    // On a task of its own, so that it is done to its end when the machine hangs up.
+    let taking = async move { app.engine.hand_in(&name, &attempt, Handing { ended, files }).await };
+    let current = tokio::spawn(taking).await.map_err(Problem::fault)??;
     Ok(Json(GoOn { current }))
 }

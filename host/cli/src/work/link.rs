@@ -4,6 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use ocb_service::model::{Beat, Ended, GoOn, MachineFacts, Told, WorkOrder};
+use reqwest::header::RETRY_AFTER;
 use reqwest::multipart::{Form, Part};
 use reqwest::{Client, RequestBuilder, Response, StatusCode};
 use serde_json::Value;
@@ -27,14 +28,30 @@ pub struct Link {
 pub enum Refused {
     /// It answered, and refused with this sentence; asking again does not help.
     For(String),
-    /// It did not answer, or had a fault of its own.
+    /// The same, but asking again after so many seconds may help.
+    ForNow(String, u64),
+    /// It did not answer.
     Unreached(String),
+    /// It had a fault of its own.
+    Fault(String),
+}
+
+impl Refused {
+    /// How long it wants not to be asked.
+    pub fn rest(&self) -> Option<Duration> {
+        match self {
+            Self::ForNow(_, seconds) => Some(Duration::from_secs(*seconds)),
+            _ => None,
+        }
+    }
 }
 
 impl fmt::Display for Refused {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::For(sentence) | Self::Unreached(sentence) => f.write_str(sentence),
+            Self::For(sentence) | Self::ForNow(sentence, _) | Self::Unreached(sentence) | Self::Fault(sentence) => {
+                f.write_str(sentence)
+            }
         }
     }
 }
@@ -97,14 +114,15 @@ impl Link {
         if status.is_success() {
             return Ok(response);
         }
+        let retry = response.headers().get(RETRY_AFTER).and_then(|value| value.to_str().ok()?.parse().ok());
         let problem: Option<Value> = response.json().await.ok();
-        let sentence = problem.as_ref().and_then(|problem| problem["detail"].as_str()).map(str::to_owned);
-        match sentence {
-            Some(sentence) if status.is_client_error() => Err(Refused::For(sentence)),
-            Some(sentence) => Err(Refused::Unreached(sentence)),
-            None if status.is_client_error() => Err(Refused::For(self.strange(status))),
-            None => Err(Refused::Unreached(self.strange(status))),
-        }
+        let sentence = problem.as_ref().and_then(|problem| problem["detail"].as_str());
+        let sentence = sentence.map_or_else(|| self.strange(status), str::to_owned);
+        Err(match (status.is_client_error(), status) {
+            (_, StatusCode::TOO_MANY_REQUESTS) => Refused::ForNow(sentence, retry.unwrap_or(60)),
+            (true, _) => Refused::For(sentence),
+            (false, _) => Refused::Fault(sentence),
+        })
     }
 
     async fn read<T: serde::de::DeserializeOwned>(&self, response: Response) -> Answer<T> {

@@ -70,7 +70,8 @@ impl Store {
         let failed = i64::from(run.attempts) >= MOST_LOST;
         let (state, message, finished_us) = if failed {
             let message = format!(
-                "The service or the measuring machine ended {MOST_LOST} times in the middle of this run, so it is not tried again."
+                "The service or a measuring machine ended or failed {MOST_LOST} times in the middle of this run, so it is not tried again. \
+                 That is no fault of the algorithms."
             );
             (run.after(State::Failed), Some(message), Some(now_us()))
         } else {

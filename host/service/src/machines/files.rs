@@ -14,7 +14,7 @@ impl Engine {
     pub async fn file_of_order(&self, machine: &str, attempt: &str, name: &str) -> Result<Vec<u8>> {
         let inner = &self.inner;
         let unknown = || EngineError::NotFound(format!("The work of this machine has no file {name:?}."));
-        let attempt = inner.store.attempt_of(machine, attempt).await?.ok_or_else(unknown)?;
+        let (attempt, order) = inner.store.order_of(machine, attempt).await?.ok_or_else(unknown)?;
         let row = inner.run_row(&attempt.job).await?;
         match name {
             "a" | "b" => {
@@ -25,10 +25,10 @@ impl Engine {
             "set" => inner.blobs.get(&row.set_blob.ok_or_else(unknown)?).await,
             _ => {
                 let hash = name.strip_prefix("plugin-").ok_or_else(unknown)?;
-                let algorithms = inner.algorithms_of(&row)?;
-                let named = algorithms.iter().find(|it| it.info.plugin_sha256 == hash).ok_or_else(unknown)?;
-                let file = named.file.clone();
-                blocking(move || Ok(ocb_lab::algorithm::read_plugin(&file)?)).await
+                let mut ordered = order.algorithms.iter().chain(&order.reference);
+                ordered.find(|it| it.info.plugin_sha256 == hash).ok_or_else(unknown)?;
+                // Installed files are on the machine; submitted ones are stored, also when they are no longer offered.
+                inner.blobs.get(hash).await
             }
         }
     }

@@ -4,29 +4,23 @@
 use std::time::Duration;
 
 use ocb_slurm::Slurm;
+use url::Url;
 
 use crate::blocking::blocking;
+use crate::config::SlurmJobs;
 use crate::engine::Engine;
 use crate::{EngineError, Result, sha256_hex};
 
 /// How often jobs and runs are compared.
 const STEP: Duration = Duration::from_secs(2);
 
-/// The partition whose nodes measure, and the program that each job runs there.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SlurmJobs {
-    /// The partition; its nodes are of one hardware class.
-    pub partition: String,
-    /// A program on each node that runs `ocb work --once` with the node's token.
-    pub program: String,
-}
-
 impl Engine {
     /// Keeps the cluster supplied with jobs, while this service keeps house.
     pub(crate) async fn supply(self, jobs: SlurmJobs) {
         let inner = &self.inner;
-        // Two services may use one cluster, and each must know its own jobs.
-        let database = inner.config.database_url.as_deref().unwrap_or(&inner.worker.machine);
+        // Two services may use one cluster, and each must know its own jobs. Everybody on the cluster sees the name.
+        let database = inner.config.database_url.as_deref().and_then(without_password);
+        let database = database.as_deref().unwrap_or(&inner.worker.machine);
         let name = format!("ocb-{}", &sha256_hex(database.as_bytes())[..12]);
         let slurm = match Slurm::new(&jobs.partition, &name, &[jobs.program]) {
             Ok(slurm) => slurm,
@@ -60,4 +54,16 @@ impl Engine {
         })
         .await
     }
+}
+
+/// Host, port and name of a database.
+fn without_password(url: &str) -> Option<String> {
+    let url = Url::parse(url).ok()?;
+    Some(format!("{}:{}{}", url.host_str()?, url.port().unwrap_or(5432), url.path()))
+}
+
+#[test]
+fn the_name_of_jobs_does_not_depend_on_a_password() {
+    let [plain, other] = ["postgres://a:secret@db/ocb", "postgres://a:other@db:5432/ocb"].map(without_password);
+    assert_eq!((plain.as_deref(), other.as_deref()), (Some("db:5432/ocb"), Some("db:5432/ocb")));
 }

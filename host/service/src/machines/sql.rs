@@ -2,12 +2,12 @@
 
 use crate::Result;
 use crate::attempts::worker::Worker;
-use crate::attempts::{Attempt, Kind};
-use crate::model::{MachineFacts, MachineInfo};
+use crate::attempts::{Attempt, Kind, LEASE_US};
+use crate::model::{MachineFacts, MachineInfo, WorkOrder};
 use crate::store::{Store, from_json, now_us, to_json};
 
-/// Name, facts, when it was allowed, seen, revoked, and the run that it works on.
-type MachineRow = (String, Option<String>, i64, Option<i64>, Option<i64>, Option<String>);
+/// Name, facts, when it was allowed, seen, revoked, the run that it works on, and its trouble.
+type MachineRow = (String, Option<String>, i64, Option<i64>, Option<i64>, Option<String>, Option<String>);
 
 /// The name under which attempts of a machine are kept; those of services are names of data folders.
 pub fn worker(machine: &str, class: &str) -> Worker {
@@ -19,7 +19,7 @@ impl Store {
     pub async fn keep_machine(&self, name: &str, token_sha256: &str) -> Result<()> {
         let text = "INSERT INTO machines (name, token_sha256, created_us) VALUES ($1, $2, $3) \
                     ON CONFLICT (name) DO UPDATE SET token_sha256 = excluded.token_sha256, \
-                    created_us = excluded.created_us, facts = NULL, seen_us = NULL, revoked_us = NULL";
+                    created_us = excluded.created_us, facts = NULL, trouble = NULL, rests_until_us = 0, seen_us = NULL, revoked_us = NULL";
         sqlx::query(text).bind(name).bind(token_sha256).bind(now_us()).execute(&self.pool).await?;
         Ok(())
     }
@@ -45,7 +45,7 @@ impl Store {
         if let Some(what) = before.and_then(|before| facts.changed_since(&before)) {
             return Ok(Some(what));
         }
-        let text = "UPDATE machines SET facts = $1, seen_us = $2 WHERE name = $3";
+        let text = "UPDATE machines SET facts = $1, seen_us = $2, trouble = NULL WHERE name = $3";
         let query = sqlx::query(text).bind(to_json(facts)?).bind(now_us()).bind(name);
         query.execute(&self.pool).await?;
         Ok(None)
@@ -54,14 +54,58 @@ impl Store {
     /// All machines by name.
     pub async fn machines(&self) -> Result<Vec<MachineInfo>> {
         let text = "SELECT name, facts, created_us, seen_us, revoked_us, \
-                    (SELECT MAX(a.job) FROM attempts a WHERE a.machine = 'machine ' || m.name AND a.ended_us IS NULL) \
+                    (SELECT MAX(a.job) FROM attempts a WHERE a.machine = 'machine ' || m.name AND a.ended_us IS NULL), trouble \
                     FROM machines m ORDER BY name";
         let rows: Vec<MachineRow> = sqlx::query_as(text).fetch_all(&self.pool).await?;
-        let info = |(name, facts, created_us, seen_us, revoked_us, run): MachineRow| {
+        let info = |(name, facts, created_us, seen_us, revoked_us, run, trouble): MachineRow| {
             let facts = facts.map(|facts| from_json(&facts)).transpose()?;
-            Ok(MachineInfo { name, facts, created_us, seen_us, revoked_us, run })
+            Ok(MachineInfo { name, facts, created_us, seen_us, revoked_us, run, trouble })
         };
         rows.into_iter().map(info).collect()
+    }
+
+    /// Notes why a machine gets no run, and until when.
+    pub async fn machine_has_trouble(&self, name: &str, why: &str, rests_until_us: i64) -> Result<()> {
+        let text = "UPDATE machines SET trouble = $1, rests_until_us = $2 WHERE name = $3";
+        sqlx::query(text).bind(why).bind(rests_until_us).bind(name).execute(&self.pool).await?;
+        Ok(())
+    }
+
+    /// Until when a machine gets no run.
+    pub async fn machine_rests(&self, name: &str) -> Result<i64> {
+        let text = "SELECT rests_until_us FROM machines WHERE name = $1";
+        Ok(sqlx::query_scalar(text).bind(name).fetch_optional(&self.pool).await?.unwrap_or(0))
+    }
+
+    /// The current attempts of a machine.
+    pub async fn attempts_of(&self, machine: &str) -> Result<Vec<Attempt>> {
+        let text = "SELECT id, job, number FROM attempts WHERE machine = $1 AND ended_us IS NULL";
+        let worker = worker(machine, "");
+        let rows: Vec<(String, String, i64)> = sqlx::query_as(text).bind(&worker.machine).fetch_all(&self.pool).await?;
+        Ok(rows.into_iter().map(|(id, job, number)| Attempt { id, kind: Kind::Measure, job, number }).collect())
+    }
+
+    /// Machines have a whole lease again: a service that starts was not there to hear their beats.
+    pub async fn believe_machines(&self) -> Result<()> {
+        let text = "UPDATE attempts SET lease_us = (SELECT now_us FROM database_clock) + $1 \
+                    WHERE ended_us IS NULL AND machine LIKE 'machine %'";
+        sqlx::query(text).bind(LEASE_US).execute(&self.pool).await?;
+        Ok(())
+    }
+
+    /// Keeps what the machine of this attempt is told to do.
+    pub async fn keep_order(&self, order: &WorkOrder) -> Result<()> {
+        let text = "UPDATE attempts SET work = $1 WHERE id = $2";
+        sqlx::query(text).bind(to_json(order)?).bind(&order.attempt).execute(&self.pool).await?;
+        Ok(())
+    }
+
+    /// The current attempt with this id and its order, if it is of this machine.
+    pub async fn order_of(&self, machine: &str, attempt: &str) -> Result<Option<(Attempt, WorkOrder)>> {
+        let Some(found) = self.attempt_of(machine, attempt).await? else { return Ok(None) };
+        let text = "SELECT work FROM attempts WHERE id = $1";
+        let work: Option<String> = sqlx::query_scalar(text).bind(attempt).fetch_one(&self.pool).await?;
+        work.map(|work| Ok((found, from_json(&work)?))).transpose()
     }
 
     /// The current attempt with this id, if it is of this machine.

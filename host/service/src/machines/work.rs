@@ -1,27 +1,33 @@
 //! The work of measuring machines, from asking for a run to handing in its results.
 
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use ocb_lab::job::{Found, Results, Step};
 use tokio::runtime::Handle;
+use tokio::time::Instant;
 
-use super::orders::{draw_of, order};
+use super::orders::order;
 use super::sql::worker;
 use crate::attempts::Attempt;
 use crate::attempts::lost::run_was_lost;
 use crate::blocking::blocking;
 use crate::boxed;
 use crate::columns::{read_records, read_triangle_tests};
-use crate::engine::Engine;
-use crate::model::{Ended, Environment, MachineFacts, MeasuredAlgorithm, Preview, Told, WorkOrder};
+use crate::engine::{Engine, Inner};
+use crate::model::{Ended, Environment, MachineFacts, MeasuredAlgorithm, OutcomeName, Preview, State, Told, WorkOrder};
 use crate::runs::benchmark::End;
 use crate::runs::carry_out::{ended, too_long};
+use crate::runs::log::RunLog;
 use crate::runs::sql::RunRow;
-use crate::runs::{hand_in, spec};
+use crate::runs::{draw, hand_in, spec};
+use crate::store::now_us;
 use crate::{EngineError, Result};
 
-/// How often a machine that waits for work looks into the queue, unless something new is announced.
+/// How often a machine that waits for work looks into the queue, unless a run is prepared here.
 const LOOK: Duration = Duration::from_secs(1);
+/// How long a machine that failed gets no run, so that others get the one at which it failed.
+const REST: Duration = Duration::from_secs(600);
 
 /// How a machine ended an attempt, with the files.
 pub struct Handing {
@@ -32,126 +38,193 @@ pub struct Handing {
 }
 
 impl Engine {
-    /// The next prepared run for this machine; waits so long for one.
+    /// The next prepared run for this machine; waits so long for one. A run that it had waits again: it has forgotten that.
     ///
     /// # Errors
-    /// `Busy` when the machine does not measure the same as this service, or not the same as before.
+    /// `Busy` when the machine does not measure the same as this service, or not the same as before; `TooMuch` while it rests after
+    /// a failure.
     #[boxed]
     pub async fn next_order(&self, machine: &str, facts: &MachineFacts, wait: Duration) -> Result<Option<WorkOrder>> {
         self.admit(machine, facts).await?;
         if !self.inner.config.elsewhere {
             return Err(EngineError::Busy("This service measures by itself; start it with --internal.".into()));
         }
-        let (asked, worker) = (tokio::time::Instant::now(), worker(machine, &facts.hardware_class));
+        self.inner.put_back_runs_of(machine).await?;
+        let (asked, worker) = (Instant::now(), worker(machine, &facts.hardware_class));
         while !self.inner.closing() {
+            let prepared = self.inner.orders.prepared.notified();
             if let Some(attempt) = self.inner.store.begin_prepared_run(&worker).await? {
-                return self.begun(&attempt).await.map(Some);
+                match self.begun(&attempt).await? {
+                    Some(order) => return Ok(Some(order)),
+                    None => continue,
+                }
             }
             let Some(left) = wait.checked_sub(asked.elapsed()) else { break };
-            let _ = tokio::time::timeout(left.min(LOOK), self.inner.wake.notified()).await;
+            let _ = tokio::time::timeout(left.min(LOOK), prepared).await;
         }
         Ok(None)
     }
 
-    async fn begun(&self, attempt: &Attempt) -> Result<WorkOrder> {
+    /// The order of an attempt; nothing when its run cannot be measured, or not yet.
+    async fn begun(&self, attempt: &Attempt) -> Result<Option<WorkOrder>> {
         self.inner.run_events.queue_moved();
-        let row = self.inner.run_row(&attempt.job).await?;
-        match order(&self.inner, attempt, &row).await {
-            Ok(order) => {
-                // Who follows the run hears that it has begun.
-                let (inner, attempt, handle) = (self.inner.clone(), attempt.clone(), Handle::current());
-                blocking(move || inner.orders.log(&inner, &attempt, &row, &handle).map(|_| ())).await?;
-                Ok(order)
-            }
-            Err(e) => {
-                // The run cannot be measured as it was asked for, or the service is at fault; either way it does not stay begun.
+        match self.try_begin(attempt).await {
+            Ok(order) => Ok(order),
+            // It cannot be measured as it was asked for.
+            Err(e @ (EngineError::Invalid(_) | EngineError::NotFound(_))) => {
+                let row = self.inner.run_row(&attempt.job).await?;
                 ended(&self.inner, attempt, &row, &Err(e), None, None).await?;
-                Err(EngineError::Busy("The next run could not be begun; ask again.".into()))
+                Ok(None)
+            }
+            // It was ended meanwhile.
+            Err(EngineError::Busy(_)) => Ok(None),
+            Err(e) => {
+                self.inner.store.put_back_run(attempt).await?;
+                Err(e)
             }
         }
+    }
+
+    async fn try_begin(&self, attempt: &Attempt) -> Result<Option<WorkOrder>> {
+        let row = self.inner.run_row(&attempt.job).await?;
+        let Some(order) = order(&self.inner, attempt, &row).await? else {
+            self.inner.store.prepare_again(attempt).await?;
+            self.inner.wake.notify_one();
+            return Ok(None);
+        };
+        self.inner.store.keep_order(&order).await?;
+        // Who follows the run hears that it has begun.
+        let (inner, attempt) = (self.inner.clone(), attempt.clone());
+        let told = (inner.store.clone(), inner.run_events.clone(), inner.under_way.clone());
+        blocking(move || {
+            let log = || RunLog::go_on(&attempt, &row.spec.algorithms, told, Handle::current());
+            inner.orders.log(&attempt.id, log).map(|_| ())
+        })
+        .await?;
+        Ok(Some(order))
+    }
+
+    /// Is this the current attempt of the machine?
+    #[boxed]
+    pub async fn is_at_work(&self, machine: &str, attempt: &str) -> Result<bool> {
+        let there = self.inner.store.attempt_of(machine, attempt).await?.is_some();
+        if !there {
+            self.inner.orders.forget(attempt);
+        }
+        Ok(there)
     }
 
     /// A sign of life of a machine's attempt; false when it has ended here.
     #[boxed]
     pub async fn beat_of(&self, machine: &str, attempt: &str, steps: Vec<Told>) -> Result<bool> {
-        let Some(attempt) = self.inner.store.attempt_of(machine, attempt).await? else { return Ok(false) };
-        if !self.inner.store.beat(&attempt.id).await? {
+        if !self.is_at_work(machine, attempt).await? || !self.inner.store.beat(attempt).await? {
             return Ok(false);
         }
-        if !steps.is_empty() {
-            let row = self.inner.run_row(&attempt.job).await?;
-            let (inner, handle) = (self.inner.clone(), Handle::current());
-            let told = blocking(move || {
-                let log = inner.orders.log(&inner, &attempt, &row, &handle)?;
-                let mut log = log.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-                let reference = spec::reference(&row.spec, &inner.registry);
-                let name = reference.as_ref().map_or("", |reference| reference.info.name.as_str());
-                steps.into_iter().try_for_each(|step| hand_in::tell(&mut log, &told(step), name))
-            });
-            // It may have been ended between the lines.
-            return match told.await {
-                Err(EngineError::Busy(_)) => Ok(false),
-                told => told.map(|()| true),
-            };
+        let Some((attempt, _)) = self.inner.store.order_of(machine, attempt).await? else { return Ok(false) };
+        if steps.is_empty() {
+            return Ok(true);
         }
-        Ok(true)
+        let row = self.inner.run_row(&attempt.job).await?;
+        let inner = self.inner.clone();
+        let telling = blocking(move || {
+            let log = inner.log_of(&attempt)?;
+            let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
+            let reference = spec::reference(&row.spec, &inner.registry);
+            let name = reference.as_ref().map_or("", |reference| reference.info.name.as_str());
+            steps.into_iter().try_for_each(|step| hand_in::tell(&mut log, &told(step), name))
+        });
+        match telling.await {
+            // It was ended between the lines.
+            Err(EngineError::Busy(_)) => Ok(false),
+            told => told.map(|()| true),
+        }
     }
 
     /// Takes what a machine hands in; false, and nothing is kept, when its attempt is not the current one.
     #[boxed]
     pub async fn hand_in(&self, machine: &str, attempt: &str, handing: Handing) -> Result<bool> {
+        let Some((current, order)) = self.inner.store.order_of(machine, attempt).await? else { return Ok(false) };
+        let row = self.inner.run_row(&current.job).await?;
+        match self.take(machine, (&current, &order), &row, handing).await {
+            // It was cancelled or deleted while it was taken.
+            Err(EngineError::Busy(_) | EngineError::NotFound(_)) if !self.is_at_work(machine, attempt).await? => {
+                Ok(false)
+            }
+            Err(e) => Err(e),
+            Ok(accepted) => {
+                self.inner.orders.forget(attempt);
+                self.inner.run_events.ring(&row.id);
+                self.inner.orders.prepared.notify_waiters();
+                Ok(accepted)
+            }
+        }
+    }
+
+    async fn take(
+        &self,
+        machine: &str,
+        (attempt, order): (&Attempt, &WorkOrder),
+        row: &RunRow,
+        Handing { ended: how, files }: Handing,
+    ) -> Result<bool> {
         let inner = &self.inner;
-        let Some(attempt) = inner.store.attempt_of(machine, attempt).await? else { return Ok(false) };
-        let row = inner.run_row(&attempt.job).await?;
-        let Handing { ended: how, files } = handing;
-        let accepted = match how {
+        match how {
+            Ended::Measured { algorithms, .. } if let Some(why) = failure(&algorithms) => {
+                self.failed(machine, attempt, row, &why).await
+            }
             Ended::Measured { algorithms, environment, preview } => {
                 let files = blocking(move || readable(&algorithms, files).map(|files| (algorithms, files)));
                 let (algorithms, files) = files.await?;
-                let results = self.results(&row, algorithms, (environment, preview), files)?;
-                let (inner, of, handle) = (self.inner.clone(), (attempt.clone(), row.clone()), Handle::current());
+                let results = self.results(row, order, algorithms, (environment, preview), files)?;
+                let (here, of) = (self.inner.clone(), (attempt.clone(), row.clone()));
                 let end = blocking(move || {
-                    let log = inner.orders.log(&inner, &of.0, &of.1, &handle)?;
-                    let mut log = log.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-                    hand_in::keep(&inner, &mut log, &of.1, results)
-                })
-                .await?;
-                ended(&self.inner, &attempt, &row, &Ok(end), None, None).await?
+                    let log = here.log_of(&of.0)?;
+                    let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
+                    hand_in::keep(&here, &mut log, &of.1, results)
+                });
+                ended(inner, attempt, row, &Ok(end.await?), None, None).await
             }
             Ended::TooLong => {
-                let reason = inner.longest_run(&row).map(too_long);
-                ended(inner, &attempt, &row, &Ok(End::Stopped), reason.as_deref(), None).await?
+                let (here, of) = (self.inner.clone(), attempt.clone());
+                let closing = blocking(move || {
+                    let log = here.log_of(&of)?;
+                    log.lock().unwrap_or_else(PoisonError::into_inner).end_open(State::Cancelled, None)
+                });
+                closing.await?;
+                let reason = inner.longest_run(row).map(too_long);
+                ended(inner, attempt, row, &Ok(End::Stopped), reason.as_deref(), None).await
             }
-            Ended::PutBack => inner.store.put_back_run(&attempt).await?,
-            Ended::Failed { message } => {
-                tracing::error!("run {}: the machine {machine} failed: {message}", row.id);
-                let state = inner.store.lose_run(&attempt, Some(&worker(machine, ""))).await?;
-                if let Some(state) = state {
-                    run_was_lost(inner, &row.id, state).await?;
-                }
-                state.is_some()
-            }
-        };
-        inner.orders.forget(&attempt.id);
-        inner.run_events.ring(&row.id);
-        inner.wake.notify_one();
-        Ok(accepted)
+            Ended::PutBack => inner.store.put_back_run(attempt).await,
+            Ended::Failed { message } => self.failed(machine, attempt, row, &message).await,
+        }
+    }
+
+    /// The machine could not measure: it rests, and the run waits for another one, three times at most.
+    async fn failed(&self, machine: &str, attempt: &Attempt, row: &RunRow, why: &str) -> Result<bool> {
+        tracing::error!("run {}: the machine {machine} failed: {why}", row.id);
+        let until = now_us() + REST.as_micros() as i64;
+        self.inner.store.machine_has_trouble(machine, why, until).await?;
+        let state = self.inner.store.lose_run(attempt, Some(&worker(machine, ""))).await?;
+        if let Some(state) = state {
+            run_was_lost(&self.inner, &row.id, state).await?;
+        }
+        Ok(state.is_some())
     }
 
     /// The results of a machine, if they are of what was ordered.
     fn results(
         &self,
         row: &RunRow,
+        order: &WorkOrder,
         algorithms: Vec<MeasuredAlgorithm>,
         (environment, preview): (Option<Box<Environment>>, Option<Box<Preview>>),
         files: Vec<[Option<Vec<u8>>; 2]>,
     ) -> Result<Results> {
-        let ordered = self.inner.algorithms_of(row)?;
-        if algorithms.len() != ordered.len() {
+        if algorithms.len() != order.algorithms.len() {
             return Err(wrong("another number of algorithms"));
         }
         let mut found = Vec::new();
-        for ((measured, files), ordered) in algorithms.into_iter().zip(files).zip(ordered) {
+        for ((measured, files), ordered) in algorithms.into_iter().zip(files).zip(&order.algorithms) {
             let MeasuredAlgorithm { result, plugin_sha256, seconds_per_query, .. } = measured;
             if result.algorithm != ordered.info.id || plugin_sha256 != ordered.info.plugin_sha256 {
                 return Err(wrong(&format!("{} was not ordered, or was measured from another file", result.algorithm)));
@@ -162,10 +235,25 @@ impl Engine {
         if environment.as_ref().is_some_and(|machine| machine.hardware_class != self.inner.hardware_class()) {
             return Err(wrong("they are of another hardware class"));
         }
-        let draw = draw_of(&self.inner, row)?;
+        let draw = draw::drawn(row, order.draw.seed);
         let environment = environment.map(|environment| Environment { draw: Some(draw), ..*environment });
         Ok(Results { algorithms: found, environment, preview: preview.map(|preview| *preview) })
     }
+}
+
+impl Inner {
+    /// The log of an attempt that has begun; blocks.
+    fn log_of(&self, attempt: &Attempt) -> Result<Arc<Mutex<RunLog>>> {
+        let told = (self.store.clone(), self.run_events.clone(), self.under_way.clone());
+        self.orders.log(&attempt.id, || RunLog::resume(attempt, told, Handle::current()))
+    }
+}
+
+/// Why nothing was measured, if that is the fault of the machine and not of the algorithms.
+fn failure(algorithms: &[MeasuredAlgorithm]) -> Option<String> {
+    let outcomes = || algorithms.iter().map(|it| &it.result.outcome);
+    let ours = outcomes().find(|outcome| outcome.ours || outcome.name == OutcomeName::FileReplaced)?;
+    algorithms.iter().all(|it| it.result.n == 0).then(|| ours.message.clone())
 }
 
 fn wrong(what: &str) -> EngineError {

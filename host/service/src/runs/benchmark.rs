@@ -79,7 +79,7 @@ impl<'a> Bench<'a> {
         let looking = self.looking()?;
         let Some((set, info)) = self.configurations(&pairing, &looking)? else { return Ok(End::Stopped) };
         if self.attempt.kind == Kind::Prepare {
-            return Ok(End::Prepared);
+            return Ok(if self.stop.asked() { End::Stopped } else { End::Prepared });
         }
         let Some(results) = self.measuring(&pairing, &looking, &set, &info)? else { return Ok(End::Stopped) };
         hand_in::keep(self.inner, &mut self.log, &self.row, results)

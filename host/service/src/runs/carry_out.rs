@@ -62,7 +62,7 @@ pub async fn ended(
     if let Ok(End::Prepared) = how {
         let prepared = inner.store.run_is_prepared(attempt).await?;
         inner.run_events.ring(&row.id);
-        inner.wake.notify_waiters();
+        inner.orders.prepared.notify_waiters();
         return Ok(prepared);
     }
     let accepted = accept(inner, attempt, row, how, reason).await?;

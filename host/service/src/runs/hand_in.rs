@@ -15,6 +15,9 @@ use crate::runs::sql::RunRow;
 /// Notes a step in the run's log; `reference` is the name of the reference algorithm.
 pub fn tell(log: &mut RunLog, step: &Step, reference: &str) -> Result<()> {
     match *step {
+        // It was told before, and arrives late.
+        Step::Progress { place, .. } if log.has_ended(FIRST_MEASURING + place.min(log.algorithms() - 1)) => Ok(()),
+        Step::Waiting(_) if log.has_ended(FIRST_MEASURING) => Ok(()),
         Step::Waiting(waiting) => {
             log.note(FIRST_MEASURING, waiting.then_some("Waiting: another process is measuring on this machine."))
         }

@@ -118,17 +118,37 @@ impl RunLog {
         Self::with_stages(attempt, stages, told, handle)
     }
 
+    /// The log of an attempt that another process began, or this one before it was started again.
+    pub fn resume(attempt: &Attempt, told: (Store, RunEvents, Arc<UnderWay>), handle: Handle) -> Result<Self> {
+        let stages = handle.block_on(told.0.stages(&attempt.job))?;
+        Ok(Self::of(attempt, stages, told, handle))
+    }
+
     fn with_stages(
+        attempt: &Attempt,
+        stages: Vec<Stage>,
+        told: (Store, RunEvents, Arc<UnderWay>),
+        handle: Handle,
+    ) -> Result<Self> {
+        let log = Self::of(attempt, stages, told, handle);
+        let stages: Vec<(usize, &Stage)> = log.stages.iter().enumerate().collect();
+        log.send(&stages, plain_event(State::Running, 0))?;
+        Ok(log)
+    }
+
+    fn of(
         attempt: &Attempt,
         stages: Vec<Stage>,
         (store, run_events, under_way): (Store, RunEvents, Arc<UnderWay>),
         handle: Handle,
-    ) -> Result<Self> {
+    ) -> Self {
         let meters = stages.iter().map(|_| Meter::new()).collect();
-        let log = Self { attempt: attempt.clone(), store, run_events, under_way, handle, stages, meters };
-        let stages: Vec<(usize, &Stage)> = log.stages.iter().enumerate().collect();
-        log.send(&stages, plain_event(State::Running, 0))?;
-        Ok(log)
+        Self { attempt: attempt.clone(), store, run_events, under_way, handle, stages, meters }
+    }
+
+    /// Has this stage ended?
+    pub fn has_ended(&self, index: usize) -> bool {
+        !matches!(self.stages[index].state, State::Queued | State::Running)
     }
 
     /// Number of algorithms that have a stage.

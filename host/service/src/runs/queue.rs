@@ -86,7 +86,7 @@ impl Store {
 
     /// A run waits for a measuring machine from now on; false when the attempt is not the current one.
     pub async fn run_is_prepared(&self, attempt: &Attempt) -> Result<bool> {
-        self.queue_anew(attempt, Outcome::Accepted, true).await
+        self.queue_anew(attempt, Outcome::Accepted, Some(true)).await
     }
 
     async fn begin_next(
@@ -122,18 +122,23 @@ impl Store {
     /// Puts a run under way back without counting the attempt: it was asked to stop, and not because of what it did. False when
     /// the attempt is not the current one.
     pub async fn put_back_run(&self, attempt: &Attempt) -> Result<bool> {
-        self.queue_anew(attempt, Outcome::PutBack, false).await
+        self.queue_anew(attempt, Outcome::PutBack, None).await
     }
 
-    /// Queues a run under way again without counting the attempt; prepared, if it was that before or is now.
-    async fn queue_anew(&self, attempt: &Attempt, outcome: Outcome, prepared: bool) -> Result<bool> {
+    /// The same for a run that must be prepared again.
+    pub async fn prepare_again(&self, attempt: &Attempt) -> Result<bool> {
+        self.queue_anew(attempt, Outcome::PutBack, Some(false)).await
+    }
+
+    /// Queues a run under way again without counting the attempt.
+    async fn queue_anew(&self, attempt: &Attempt, outcome: Outcome, prepared: Option<bool>) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
         if !end(&mut transaction, attempt, outcome).await? {
             return Ok(false);
         }
         let text = "UPDATE runs SET state = 'queued', attempts = attempts - 1, \
-                    prepared = CASE WHEN $2 = 1 THEN 1 ELSE prepared END WHERE id = $1 AND state = 'running'";
-        let query = sqlx::query(text).bind(&attempt.job).bind(i64::from(prepared));
+                    prepared = COALESCE($2, prepared) WHERE id = $1 AND state = 'running'";
+        let query = sqlx::query(text).bind(&attempt.job).bind(prepared.map(i64::from));
         query.execute(&mut *transaction).await?;
         append_event(&mut transaction, &attempt.job, &mut plain_event(State::Queued, 0)).await?;
         transaction.commit().await?;
