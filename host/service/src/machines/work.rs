@@ -16,7 +16,7 @@ use crate::boxed;
 use crate::columns::{read_records, read_triangle_tests};
 use crate::engine::{Engine, Inner};
 use crate::model::{Ended, Environment, MachineFacts, MeasuredAlgorithm, OutcomeName, Preview, State, Told, WorkOrder};
-use crate::runs::benchmark::End;
+use crate::runs::accept::End;
 use crate::runs::carry_out::{ended, too_long};
 use crate::runs::log::RunLog;
 use crate::runs::sql::RunRow;

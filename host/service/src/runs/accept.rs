@@ -5,6 +5,7 @@ use ocb_core::query::Query;
 use crate::Result;
 use crate::attempts::sql::end;
 use crate::attempts::{Attempt, Outcome};
+use crate::locks::Keeping;
 use crate::model::{Environment, Preview, RunEvent, State};
 use crate::results::sql::{StoredResult, keep_result};
 use crate::runs::events_sql::append_event;
@@ -28,7 +29,18 @@ pub struct Handed {
     pub failed: Option<String>,
 }
 
-/// How a run ended.
+/// How a run ended when nothing went wrong.
+#[derive(Debug)]
+pub enum End {
+    /// All stages are through, or nothing could be measured. Its files stay although no row names them yet.
+    Done { handed: Box<Handed>, _keeping: Keeping },
+    /// Its configurations are stored, and a measuring machine can take it.
+    Prepared,
+    /// It was stopped from outside.
+    Stopped,
+}
+
+/// How a run ended, as it is recorded.
 #[derive(Clone, Copy, Debug)]
 pub struct RunEnd<'a> {
     pub state: State,

@@ -16,11 +16,10 @@ use tokio::runtime::Handle;
 use crate::attempts::{Attempt, Kind};
 use crate::configurations::{self, ConfigurationFile, Gauge};
 use crate::engine::Inner;
-use crate::locks::Keeping;
 use crate::machine::MakingWay;
 use crate::measure::{Part, Preliminary, Stop, Task};
 use crate::model::{RunSpec, SetInfo, State};
-use crate::runs::accept::Handed;
+use crate::runs::accept::End;
 use crate::runs::log::RunLog;
 use crate::runs::looking::Looking;
 use crate::runs::sql::RunRow;
@@ -33,17 +32,6 @@ const TICK: Duration = Duration::from_millis(200);
 /// Stages before the measuring ones.
 const OBJECT: usize = 0;
 const CONFIGURATIONS: usize = 1;
-
-/// How a run ended when nothing went wrong.
-#[derive(Debug)]
-pub enum End {
-    /// All stages are through, or nothing could be measured. Its files stay although no row names them yet.
-    Done { handed: Box<Handed>, _keeping: Keeping },
-    /// Its configurations are stored, and a measuring machine can take it.
-    Prepared,
-    /// It was stopped from outside.
-    Stopped,
-}
 
 /// Carries out a run, or prepares it for a measuring machine. An error is the reason why the run failed.
 pub fn run(inner: &Arc<Inner>, attempt: &Attempt, stop: &Stop, handle: &Handle) -> Result<End> {

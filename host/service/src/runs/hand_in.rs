@@ -7,8 +7,7 @@ use crate::engine::Inner;
 use crate::locks::Keeping;
 use crate::model::{AlgorithmResult, State};
 use crate::results::sql::StoredResult;
-use crate::runs::accept::Handed;
-use crate::runs::benchmark::End;
+use crate::runs::accept::{End, Handed};
 use crate::runs::log::{FIRST_MEASURING, RunLog};
 use crate::runs::sql::RunRow;
 
