@@ -6,7 +6,8 @@
 # (OCB_REPETITIONS); the service is killed two hundred times (OCB_KILLS), two hundred visitors come for a minute
 # (OCB_LOAD_SECONDS), and must not change sixty runs (OCB_LOAD_ROUNDS), every route is asked a hundred times and more
 # (OCB_API_EXAMPLES), and an honest visitor goes on beside hostile ones and ten thousand waiting runs for an hour
-# (OCB_HOSTILE_MINUTES); two hundred runs of forged plugins, in an hour and a half (OCB_FORGERS), which want a machine with
+# (OCB_HOSTILE_MINUTES); a thousand runs are shared by machines that are killed a hundred times (OCB_MACHINE_RUNS,
+# OCB_MACHINE_KILLS); two hundred runs of forged plugins, in an hour and a half (OCB_FORGERS), which want a machine with
 # nothing else on it; the libraries built for this CPU (`make plugins-native`) answer as they should. Then the restart tests
 # (the service is killed at every stage of a run) over and over. The first failure ends it; the last line says how often they
 # passed.
@@ -23,6 +24,8 @@ tests/setup/tools.sh test
 OCB_KILLS=${OCB_KILLS:-200} OCB_LOAD_SECONDS=${OCB_LOAD_SECONDS:-60} OCB_LOAD_ROUNDS=${OCB_LOAD_ROUNDS:-20} \
   OCB_API_EXAMPLES=${OCB_API_EXAMPLES:-100} OCB_HOSTILE_MINUTES=${OCB_HOSTILE_MINUTES:-60} \
   cargo test --release --workspace --test whole -- --nocapture
+OCB_MACHINE_RUNS=${OCB_MACHINE_RUNS:-1000} OCB_MACHINE_KILLS=${OCB_MACHINE_KILLS:-100} \
+  cargo test --release --workspace --test machines many_runs -- --nocapture
 OCB_FORGERS=${OCB_FORGERS:-200} cargo test --release --workspace --test forgers -- --nocapture
 meshes=${OCB_SHARED:-../shared}/meshes
 target/release/ocb --data "$(mktemp -d)" advise "$meshes/bunny65k.obj" "$meshes/rocker-arm.obj" --held-out "${OCB_HELD_OUT:-100000}"

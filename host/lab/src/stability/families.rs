@@ -183,7 +183,7 @@ fn ask(asker: &mut Asker, family: &Family, items: &[Item]) -> Result<Vec<Seen>> 
     Ok(seen)
 }
 
-/// Marks what took more than ten times the median of its query on objects of this size, and does so again.
+/// Marks what took more than ten times the median of its query on objects of this size, and does so again; the slowest few.
 fn mark_slow(asker: &mut Asker, items: &[Item], seen: &mut [Seen]) -> Result<()> {
     let size = |item: &Item| (item.question.posed.a.triangles().len(), item.question.posed.b.triangles().len());
     let mut times: HashMap<_, Vec<f64>> = HashMap::new();
@@ -193,19 +193,23 @@ fn mark_slow(asker: &mut Asker, items: &[Item], seen: &mut [Seen]) -> Result<()>
         }
     }
     times.values_mut().for_each(|times| times.sort_by(f64::total_cmp));
-    let mut suspects = 0;
-    for one in seen.iter_mut() {
+    let mut suspects: Vec<(f64, usize, f64)> = Vec::new();
+    for (place, one) in seen.iter().enumerate() {
         let Got::Answer(_, ns) = one.got else { continue };
         let item = &items[one.item];
         let all = &times[&(one.query, size(item))];
         let limit = (SLOW * all[all.len() / 2]).max(SEEN_NS);
-        let posed = &item.question.posed;
-        if ns > limit && !item.question.solid && suspects < SUSPECTS {
-            suspects += 1;
-            let question = (one.query, posed.configuration);
-            let shortest = asker.shortest(&posed.a, &posed.b, question, AGAIN)?;
-            one.tally.slow = u32::from(shortest.is_some_and(|time| time.as_nanos() as f64 > limit));
+        if ns > limit && !item.question.solid {
+            suspects.push((ns, place, limit));
         }
+    }
+    // On a busy machine many take long by chance, and the slowest are the most likely to be slow by themselves.
+    suspects.sort_by(|one, other| other.0.total_cmp(&one.0));
+    for (_, place, limit) in suspects.into_iter().take(SUSPECTS) {
+        let one = &mut seen[place];
+        let posed = &items[one.item].question.posed;
+        let shortest = asker.shortest(&posed.a, &posed.b, (one.query, posed.configuration), AGAIN)?;
+        one.tally.slow = u32::from(shortest.is_some_and(|time| time.as_nanos() as f64 > limit));
     }
     Ok(())
 }
