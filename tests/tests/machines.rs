@@ -265,7 +265,8 @@ fn a_machine_outlives_its_service() {
     let run = site.submit(6.0);
     site.measures(&run, &machine);
     site.service.take().expect("a service").kill();
-    std::thread::sleep(Duration::from_secs(3));
+    // Longer than the lease: the run is measured to its end, and the machine asks again and again whether it may hand in.
+    std::thread::sleep(LEASE + Duration::from_secs(2));
     site.start();
     assert_eq!(site.ended(&run)["attempts"], 1, "it was measured once");
     machine.says("is handed in", Duration::from_secs(5));

@@ -6,9 +6,8 @@ use std::collections::HashSet;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use ocb_core::query::Query;
 use ocb_service::model::{
-    AccountInfo, Action, CheckVerdict, Decision, Manifest, Page, PluginInfo, PluginReport, PluginState, Role,
+    AccountInfo, Action, CheckVerdict, Decision, Page, PluginInfo, PluginReport, PluginState, Role,
 };
 use ocb_service::{Engine, EngineConfig, EngineError, Profile};
 use tokio::sync::{Mutex, MutexGuard};
@@ -23,22 +22,9 @@ fn config(data: &Path) -> EngineConfig {
     EngineConfig { plugins: Vec::new(), profile: Profile::Dev, ..common::config(data) }
 }
 
-fn manifest() -> Manifest {
-    Manifest {
-        name: "Slow".into(),
-        version: "1.0".into(),
-        authors: "Somebody".into(),
-        license: "MIT OR Apache-2.0".into(),
-        paper: String::new(),
-        source: String::new(),
-        queries: vec![Query::CollisionFirst],
-        threads: false,
-    }
-}
-
 async fn sent(engine: &Engine, author: &AccountInfo, file: &Path) -> PluginInfo {
     let bytes = std::fs::read(file).unwrap();
-    engine.submit_plugin(author, "slow.so", bytes, manifest(), None).await.unwrap().0
+    engine.submit_plugin(author, "slow.so", bytes, common::manifest(), None).await.unwrap().0
 }
 
 async fn developer(engine: &Engine, name: &str) -> AccountInfo {
@@ -214,7 +200,7 @@ async fn one_of_two_concurrent_approvals_wins_and_a_lost_file_stops_no_start() {
     for name in ["one", "two"] {
         let author = developer(&engine, name).await;
         let bytes = format!("\x7fELF of {name}").into_bytes();
-        plugins.push(engine.submit_plugin(&author, "slow.so", bytes, manifest(), None).await.unwrap().0);
+        plugins.push(engine.submit_plugin(&author, "slow.so", bytes, common::manifest(), None).await.unwrap().0);
     }
     let awaiting = "UPDATE submissions SET state = 'awaiting', algorithms = '[{\"id\": \"slow\", \"name\": \"Slow\", \
         \"version\": \"1.0\", \"authors\": \"Somebody\", \"license\": \"MIT\", \"url\": \"\", \"paper\": \"\", \

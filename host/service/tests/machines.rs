@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use ocb_core::query::Query;
 use ocb_service::model::{
-    AccountInfo, Ended, MachineFacts, MachineState, Manifest, MeasuredAlgorithm, OutcomeName, PluginState, Role,
-    RunInfo, RunSpec, State, Told, WorkOrder,
+    AccountInfo, Ended, MachineFacts, MachineState, MeasuredAlgorithm, OutcomeName, PluginState, Role, RunInfo,
+    RunSpec, State, Told, WorkOrder,
 };
 use ocb_service::worker::Handed;
 use ocb_service::{Ceilings, Engine, EngineConfig, EngineError, Handing, Profile, Visitor};
@@ -267,18 +267,8 @@ async fn a_machine_finds_what_the_service_itself_would_find() {
 }
 
 async fn validated(engine: &Engine, author: &AccountInfo, file: &Path) -> String {
-    let manifest = Manifest {
-        name: "Slow".into(),
-        version: "1.0".into(),
-        authors: "Somebody".into(),
-        license: "MIT OR Apache-2.0".into(),
-        paper: String::new(),
-        source: String::new(),
-        queries: vec![Query::CollisionFirst],
-        threads: false,
-    };
     let bytes = std::fs::read(file).unwrap();
-    let id = engine.submit_plugin(author, "slow.so", bytes, manifest, None).await.unwrap().0.id;
+    let id = engine.submit_plugin(author, "slow.so", bytes, common::manifest(), None).await.unwrap().0.id;
     let begun = Instant::now();
     loop {
         let plugin = engine.plugin(&id, Some(author)).await.unwrap();

@@ -117,10 +117,13 @@ impl Engine {
     /// A sign of life of a machine's attempt; false when it has ended here.
     #[boxed]
     pub async fn beat_of(&self, machine: &str, attempt: &str, steps: Vec<Told>) -> Result<bool> {
-        if !self.is_at_work(machine, attempt).await? || !self.inner.store.beat(attempt).await? {
+        let Some(attempt) = self.inner.store.attempt_of(machine, attempt).await? else {
+            self.inner.orders.forget(attempt);
+            return Ok(false);
+        };
+        if !self.inner.store.beat(&attempt.id).await? {
             return Ok(false);
         }
-        let Some((attempt, _)) = self.inner.store.order_of(machine, attempt).await? else { return Ok(false) };
         if steps.is_empty() {
             return Ok(true);
         }

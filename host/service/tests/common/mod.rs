@@ -4,7 +4,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use ocb_service::model::{RunEvent, RunInfo, RunSpec, WorkOrder};
+use ocb_core::query::Query;
+use ocb_service::model::{Manifest, RunEvent, RunInfo, RunSpec, WorkOrder};
 use ocb_service::worker::{Handed, Worker};
 use ocb_service::{Engine, EngineConfig, LabError, Runner, Stop};
 use tokio::runtime::Handle;
@@ -115,4 +116,18 @@ pub async fn measured(engine: &Engine, machine: &str, worker: Worker, order: &Wo
         (worker, handed)
     };
     tokio::task::spawn_blocking(work).await.unwrap()
+}
+
+/// What the author of [`slow`] says of it.
+pub fn manifest() -> Manifest {
+    Manifest {
+        name: "Slow".into(),
+        version: "1.0".into(),
+        authors: "Somebody".into(),
+        license: "MIT OR Apache-2.0".into(),
+        paper: String::new(),
+        source: String::new(),
+        queries: vec![Query::CollisionFirst],
+        threads: false,
+    }
 }
