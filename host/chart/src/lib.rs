@@ -34,6 +34,10 @@ pub struct Chart {
     pub series: Vec<Series>,
     /// How to read it, one sentence each.
     pub notes: Vec<String>,
+    /// What it shows is still being measured, and will change.
+    #[serde(default)]
+    #[schema(required = true)]
+    pub preliminary: bool,
 }
 
 /// An axis.

@@ -235,6 +235,7 @@ mod tests {
         let series = |name: &str, style, form, points| Series { name: name.to_owned(), style, form, points };
         Chart {
             kind: "board".into(),
+            preliminary: false,
             title: "Speed & accuracy".into(),
             finding: "A sentence.".into(),
             x: Axis { lane: Some("none seen".into()), ..Axis::new("wrong answers", "share", Scale::Log) },

@@ -92,6 +92,9 @@ pub struct AlgorithmResult {
     #[serde(default)]
     #[schema(required = true)]
     pub preliminary: bool,
+    /// While it is preliminary: the place that it would have if the run ended now. The end may give it another, or none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub place_so_far: Option<u32>,
 }
 
 impl AlgorithmResult {

@@ -3,6 +3,8 @@
 //! Times are compared inside one hardware class, so that charts over several runs take those of this run's class alone,
 //! and only runs that the asker may see.
 //!
+//! A run under way has charts, too, made of the answers so far and marked as preliminary.
+//!
 //! A finished run never changes, so its charts are kept in memory ([`KEPT_POINTS`]): the intervals of a large one take more
 //! than a second.
 
@@ -42,6 +44,8 @@ impl Inner {
     /// The runs that a chart is made of: this one alone, or with others that the asker may see.
     async fn charted_runs(&self, row: &RunRow, kind: ChartKind, viewer: Option<&str>) -> Result<Vec<RunRow>> {
         match kind {
+            // Its results are compared with no other run's.
+            _ if row.state != State::Done => Ok(vec![row.clone()]),
             ChartKind::Distance => self.at_other_distances(row, viewer).await,
             ChartKind::Triangles => self.of_other_sizes(row, viewer).await,
             _ => Ok(vec![row.clone()]),
@@ -50,14 +54,18 @@ impl Inner {
 
     async fn draw(&self, row: &RunRow, runs: &[RunRow], request: ChartRequest) -> Result<Chart> {
         let run = &row.id;
-        let results = self.measured_results(row).await?;
+        let results = self.results_so_far(row).await?;
+        let preliminary = results.iter().any(|result| result.preliminary);
         if results.is_empty() {
             return Err(EngineError::NotFound(format!("The run {run:?} cannot be charted: no algorithm has a time.")));
         }
         let chosen = self.chosen_for(row, &results, &request).await?;
         let mut chart = match request.kind {
             ChartKind::Accuracy => {
-                let measured: Vec<Measured> = self.measured_of(row).await?;
+                let measured: Vec<Measured> = match preliminary {
+                    true => self.measured_so_far(row, &results),
+                    false => self.measured_of(row).await?,
+                };
                 of_run(&measured, request.accuracy)
             }
             ChartKind::Distance => self.time_by_distance(&results, runs).await?,
@@ -68,11 +76,11 @@ impl Inner {
             }
             ChartKind::Resolution => resolution::chart(&results),
         };
-        if chart.series.iter().all(|series| series.points.is_empty()) {
-            let why = if chosen.is_some() {
-                "The selection has none of these configurations."
-            } else {
-                nothing(request.kind)
+        // While it is preliminary, there may be points later.
+        if !preliminary && chart.series.iter().all(|series| series.points.is_empty()) {
+            let why = match chosen {
+                Some(_) => "The selection has none of these configurations.",
+                None => nothing(request.kind),
             };
             return Err(EngineError::NotFound(why.into()));
         }
@@ -80,7 +88,10 @@ impl Inner {
             let n = chosen.iter().filter(|is| **is).count();
             chart.notes.push(format!("Only the {n} of {} configurations of the selection {selection}.", chosen.len()));
         }
-        Ok(chart)
+        if preliminary {
+            chart.notes.push("Preliminary: the run is still being measured, and this shows its answers so far.".into());
+        }
+        Ok(Chart { preliminary, ..chart })
     }
 
     /// The configurations of the request's selection; none when it has none.
@@ -102,10 +113,13 @@ impl Inner {
         Ok(Some(self.chosen(&row.id, algorithm, selection).await?))
     }
 
-    /// The summaries of a run that come with a time.
-    async fn measured_results(&self, row: &RunRow) -> Result<Vec<AlgorithmResult>> {
-        let all = self.store.results(&row.id).await?.into_iter().map(|stored| stored.result);
-        Ok(all.filter(|result| result.n > 0).collect())
+    /// The summaries of a run that come with a time; of a run under way those so far.
+    async fn results_so_far(&self, row: &RunRow) -> Result<Vec<AlgorithmResult>> {
+        let mut all: Vec<_> = self.store.results(&row.id).await?.into_iter().map(|stored| stored.result).collect();
+        let so_far = self.under_way.results(&row.id).into_iter();
+        all.extend(so_far.filter(|new| all.iter().all(|old| old.algorithm != new.algorithm)).collect::<Vec<_>>());
+        all.retain(|result| result.n > 0);
+        Ok(all)
     }
 }
 

@@ -279,7 +279,7 @@ impl Inner {
     ) -> Result<Vec<u8>> {
         let (heatmap, mesh) = self.values(run, request).await?;
         if heatmap.preliminary {
-            return Err(still_measured(run));
+            return Err(still_measured());
         }
         let request = &heatmap.request;
         let against = request.subtrahend().map(|(other_run, algorithm)| {
@@ -393,8 +393,8 @@ pub fn not_yet(run: &str) -> EngineError {
 }
 
 /// What leaves the service is final.
-fn still_measured(run: &str) -> EngineError {
-    EngineError::NotFound(format!("The run {run:?} is still being measured; wait for its end."))
+pub fn still_measured() -> EngineError {
+    EngineError::NotFound("The run is still being measured; wait for its end.".into())
 }
 
 /// The name that the JSON has for it.

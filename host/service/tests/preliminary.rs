@@ -18,7 +18,7 @@ use ocb_lab::machine::{Machine, MeasuringRight};
 use ocb_lab::measure::{Measured, News, Part, Task, first_look, measure};
 use ocb_lab::pairing::Pairing;
 use ocb_service::model::{Heatmap, HeatmapRequest, Measure, RunEvent, RunSpec, StageKind, State};
-use ocb_service::{Engine, EngineConfig, EngineError, Profile, Stop};
+use ocb_service::{Engine, EngineConfig, EngineError, Profile, Stop, chart_csv};
 use tokio::sync::{Mutex, MutexGuard};
 
 /// One run at a time on a machine.
@@ -30,6 +30,19 @@ async fn alone() -> MutexGuard<'static, ()> {
 async fn times(engine: &Engine, run: &str, algorithm: &str) -> Result<Heatmap, EngineError> {
     let request = HeatmapRequest::new(algorithm, Measure::Time, Statistic::Median, Outliers::Keep);
     engine.heatmap(run, &request).await
+}
+
+/// The charts of a run under way say that they are preliminary, and are no files yet.
+async fn charts_so_far(engine: &Engine, run: &str, of: u64) {
+    for kind in ["accuracy", "ecdf", "distance", "triangles", "resolution"] {
+        let request = serde_json::from_value(serde_json::json!({ "kind": kind })).unwrap();
+        let chart = engine.chart(run, request, Some("guest")).await.unwrap();
+        assert!(chart.preliminary && chart.notes.iter().any(|note| note.starts_with("Preliminary:")), "{chart:?}");
+        let points = chart.series.iter().flat_map(|series| &series.points);
+        let most = points.map(|point| point.n).max().unwrap();
+        assert!((1..=of).contains(&most), "{kind}: {most} of {of}");
+        assert!(matches!(chart_csv(&chart), Err(EngineError::NotFound(_))), "{kind}");
+    }
 }
 
 /// Waits until no other process measures on this machine.
@@ -57,13 +70,14 @@ async fn a_fast_algorithm_is_seen_while_a_slow_one_builds_and_nothing_of_it_coun
     let run = engine.submit(spec, Some("guest")).await.unwrap().id;
     let mut events = Box::pin(engine.follow(&run, 0).await.unwrap());
     let mut seen: Vec<RunEvent> = Vec::new();
-    let mut n = Vec::new();
+    let (mut n, mut placed) = (Vec::new(), None);
     while let Some(event) = events.next().await {
         let event = event.unwrap();
         if let (_, Some(result)) = told(&event, "box-tree")
             && result.preliminary
         {
             n.push(result.n);
+            placed = result.place_so_far;
             if n.len() == 1 {
                 assert!(seen.iter().all(|event| told(event, "slow-0").0 == 0), "the slow one was waited for");
                 let map = times(&engine, &run, "box-tree").await.unwrap();
@@ -81,6 +95,7 @@ async fn a_fast_algorithm_is_seen_while_a_slow_one_builds_and_nothing_of_it_coun
                 let info = engine.run(&run, None).await.unwrap();
                 let so_far = info.results.iter().find(|r| r.algorithm == "box-tree").unwrap();
                 assert!(so_far.preliminary && so_far.rank.is_none() && so_far.of == 1000, "{so_far:?}");
+                charts_so_far(&engine, &run, 1000).await;
                 let median = so_far.time.unwrap().median_ns;
                 assert!(median.lo <= median.value && median.value <= median.hi && median.lo < median.hi);
             }
@@ -89,6 +104,7 @@ async fn a_fast_algorithm_is_seen_while_a_slow_one_builds_and_nothing_of_it_coun
     }
     assert!((1..=300).contains(&n[0]), "{n:?}");
     assert!(n.len() > 1 && n.last() > n.first(), "it becomes finer: {n:?}");
+    assert_eq!(placed, Some(1), "once the reference was asked, it has a place so far");
 
     let last = engine.run(&run, None).await.unwrap();
     assert_eq!(last.state, State::Done, "{:?}", last.message);

@@ -34,6 +34,7 @@ fn panel(title: String, mut members: Vec<&Row>, machine: &str) -> Chart {
     };
     Chart {
         kind: "algorithms".into(),
+        preliminary: false,
         title,
         finding: String::new(),
         x: Axis::new("median time per query with its 95 % interval (logarithmic)", "ns", Scale::Log),

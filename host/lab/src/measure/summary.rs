@@ -123,6 +123,7 @@ pub fn summarise(
         build_ms: set_up(|s| s.build_ns),
         memory_bytes: measured.memory_bytes,
         preliminary: false,
+        place_so_far: None,
         outcome,
     }
 }

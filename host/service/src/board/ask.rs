@@ -3,7 +3,7 @@
 use crate::board::{self, Circumstances, Measured};
 use crate::boxed;
 use crate::engine::{Engine, Inner};
-use crate::model::{Board, BoardRequest, State, Visibility};
+use crate::model::{AlgorithmResult, Board, BoardRequest, State, Visibility};
 use crate::runs::sql::RunRow;
 use crate::{Profile, Result, columns};
 
@@ -68,5 +68,20 @@ impl Inner {
         };
         let results = self.store.results(&row.id).await?.into_iter();
         Ok(results.map(|stored| Measured::of(&circumstances, &stored.plugin_sha256, stored.result)).collect())
+    }
+
+    /// The results so far of a run that is being measured here.
+    pub fn measured_so_far(&self, row: &RunRow, results: &[AlgorithmResult]) -> Vec<Measured> {
+        let circumstances = Circumstances {
+            run: &row.id,
+            finished_us: row.created_us,
+            spec: &row.spec,
+            names: [&row.object_a_name, &row.object_b_name],
+            machine: [&self.machine.cpu, &self.machine.hardware_class],
+            ranked: self.registry.profile() == Profile::Production,
+            preview: None,
+            set: row.set.as_ref(),
+        };
+        results.iter().map(|result| Measured::of(&circumstances, "", result.clone())).collect()
     }
 }

@@ -24,6 +24,7 @@ pub fn chart(rows: &[BoardRow], accuracy: Accuracy, kind: &str, finding: &str) -
     let hidden = rows.iter().filter(|row| row.n > 0).count() - shown.len();
     Chart {
         kind: kind.into(),
+        preliminary: false,
         title: "Speed against accuracy".into(),
         finding: finding.into(),
         x: axis(accuracy, &shown),

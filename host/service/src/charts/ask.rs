@@ -6,6 +6,7 @@ use super::columns::chart_parquet as parquet;
 use crate::boxed;
 use crate::engine::Engine;
 use crate::model::ChartRequest;
+use crate::results::still_measured;
 use crate::{Result, columns};
 
 impl Engine {
@@ -17,13 +18,16 @@ impl Engine {
 }
 
 /// The numbers of a chart as Parquet, one row per point.
+///
+/// # Errors
+/// `NotFound` while they are preliminary.
 pub fn chart_parquet(chart: &Chart) -> Result<Vec<u8>> {
-    Ok(parquet(chart)?)
+    if chart.preliminary { Err(still_measured()) } else { Ok(parquet(chart)?) }
 }
 
 /// The same rows as CSV with a header line.
 pub fn chart_csv(chart: &Chart) -> Result<Vec<u8>> {
-    Ok(columns::csv(&parquet(chart)?)?)
+    Ok(columns::csv(&chart_parquet(chart)?)?)
 }
 
 #[cfg(test)]

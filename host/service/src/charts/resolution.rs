@@ -18,6 +18,7 @@ pub fn chart(results: &[AlgorithmResult]) -> Chart {
     };
     Chart {
         kind: "resolution".into(),
+        preliminary: false,
         title: "Where decisions begin to fail".into(),
         finding: finding(results),
         x: Axis::new("crossing: margin / S  ←  |  →  apart: distance / S (logarithmic)", "of S", Scale::Signed),

@@ -7,13 +7,13 @@ use ocb_core::configuration::{ConfigurationSet, Placed, Separation};
 use ocb_core::statistics::{Statistic, maximum_interval};
 
 use super::{mean, series};
-use crate::Result;
 use crate::blocking::blocking;
 use crate::board::{Measured, Named};
 use crate::columns::RecordColumns;
 use crate::engine::Inner;
 use crate::model::{AlgorithmResult, ObjectId};
 use crate::runs::sql::RunRow;
+use crate::{EngineError, Result};
 
 /// Other runs beside this one, at most.
 const OTHERS: usize = 24;
@@ -101,11 +101,11 @@ impl Inner {
         run: &RunRow,
         algorithm: &str,
     ) -> Result<Option<(std::sync::Arc<ConfigurationSet>, std::sync::Arc<RecordColumns>)>> {
-        let results = self.store.results(&run.id).await?;
-        let measured = results.iter().any(|r| r.result.algorithm == algorithm && r.records.is_some());
-        let Some(blob) = run.set_blob.as_ref().filter(|_| measured) else { return Ok(None) };
-        let (_, records) = self.records(&run.id, algorithm).await?;
-        Ok(Some((self.set(blob).await?, records)))
+        match self.records_so_far(&run.id, algorithm).await {
+            Ok((_, records)) => Ok(Some((self.set_so_far(run).await?, records))),
+            Err(EngineError::NotFound(_)) => Ok(None),
+            Err(e) => Err(e),
+        }
     }
 }
 
@@ -162,6 +162,7 @@ fn chart(kind: &str, title: &str, x: Axis, series: Vec<Series>, runs: usize) -> 
     let from = if runs == 1 { "this run".to_owned() } else { format!("{runs} runs on this hardware class") };
     Chart {
         kind: kind.into(),
+        preliminary: false,
         title: title.into(),
         finding: String::new(),
         x,

@@ -33,6 +33,7 @@ impl Inner {
         }
         Ok(Chart {
             kind: "ecdf".into(),
+            preliminary: false,
             title: "Distribution of the time per query".into(),
             finding: String::new(),
             x: Axis::new("time per query (logarithmic)", "ns", Scale::Log),
@@ -52,7 +53,7 @@ impl Inner {
     ) -> Result<Chart> {
         let mut all = Vec::new();
         for (place, result) in results.iter().enumerate() {
-            let (_, records) = self.records(&row.id, &result.algorithm).await?;
+            let (_, records) = self.records_so_far(&row.id, &result.algorithm).await?;
             let chosen = chosen.clone();
             let points = blocking(move || {
                 let tests = if kind == ChartKind::BvTests { &records.bv_tests } else { &records.primitive_tests };
@@ -68,6 +69,7 @@ impl Inner {
             if kind == ChartKind::BvTests { ("bv_tests", "BV tests") } else { ("primitive_tests", "primitive tests") };
         Ok(Chart {
             kind: kind.into(),
+            preliminary: false,
             title: format!("Time against {what}"),
             finding: String::new(),
             x: Axis::new(&format!("{what} per query (logarithmic)"), "tests", Scale::Log),

@@ -59,7 +59,7 @@ impl Inner {
         let row = self.run_row(run).await?;
         let set = self.set(row.set_blob.as_deref().ok_or_else(|| not_yet(run))?).await?;
         let table = self.table_so_far(&row, set, looked_at, selection, all).await?;
-        if table.preliminary { Err(still_measured(run)) } else { Ok(table) }
+        if table.preliminary { Err(still_measured()) } else { Ok(table) }
     }
 
     /// The same, with what a run under way has so far, over its configurations so far.

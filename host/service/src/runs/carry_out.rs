@@ -36,8 +36,12 @@ pub async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, idle: Option<u64>)
     // Where the reference is none of the algorithms, it takes turns, too.
     let apart = reference(&row.spec, &inner.registry).filter(|apart| !row.spec.algorithms.contains(&apart.info.id));
     let algorithms = row.spec.algorithms.len() + usize::from(apart.is_some());
-    let shown = inner.under_way.begin(id, algorithms, row.expected_seconds);
-    let how = run_in_time(inner, attempt, &row, &stop).await;
+    let shown = inner.under_way.begin(id, inner.registry.profile(), algorithms, row.expected_seconds);
+    let how = match run_in_time(inner, attempt, &row, &stop).await {
+        // Whoever stopped it need not wait for another attempt.
+        Err(EngineError::Fault(_)) if stop.asked() => Ok(End::Stopped),
+        how => how,
+    };
     inner.unset_current();
     if let (Ok(End::Stopped), true) = (&how, inner.closing() || stop.for_now()) {
         if inner.store.put_back_run(attempt).await? {

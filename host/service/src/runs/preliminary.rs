@@ -5,8 +5,9 @@ use std::time::Instant;
 
 use ocb_core::configuration::ConfigurationSet;
 use ocb_lab::columns::RecordColumns;
-use ocb_lab::measure::Preliminary;
+use ocb_lab::measure::{Preliminary, rank};
 
+use crate::Profile;
 use crate::model::AlgorithmResult;
 use crate::runs::remaining::Remaining;
 
@@ -21,6 +22,8 @@ struct Showing {
     /// The configurations that the records are of, while the whole set is being found.
     beginning: Option<Arc<ConfigurationSet>>,
     results: Vec<SoFar>,
+    /// Places are given only under all layers of the jail.
+    profile: Profile,
     /// Grows with each change.
     version: u64,
     begun: Instant,
@@ -35,6 +38,20 @@ struct SoFar {
     records: Arc<RecordColumns>,
 }
 
+impl Showing {
+    /// The places that the results would have if the run ended now. One result moves others.
+    fn give_places(&mut self) {
+        let mut ranked: Vec<_> = self.results.iter().map(|it| it.result.clone()).collect();
+        rank(&mut ranked, self.profile);
+        for (so_far, AlgorithmResult { rank, .. }) in self.results.iter_mut().zip(ranked) {
+            if so_far.result.place_so_far != rank {
+                so_far.result.place_so_far = rank;
+                so_far.version = self.version;
+            }
+        }
+    }
+}
+
 /// Until it is dropped, this run may show something.
 pub struct Shown<'a> {
     under_way: &'a UnderWay,
@@ -47,13 +64,15 @@ impl Drop for Shown<'_> {
 }
 
 impl UnderWay {
-    /// This run is under way now. So many algorithms take turns, and earlier runs would have taken so many seconds.
-    pub fn begin(&self, run: &str, algorithms: usize, expected: f64) -> Shown<'_> {
+    /// This run is under way now, in a jail like this. So many algorithms take turns, and earlier runs would have taken so many
+    /// seconds.
+    pub fn begin(&self, run: &str, profile: Profile, algorithms: usize, expected: f64) -> Shown<'_> {
         let mut remaining = Remaining::new(algorithms, expected);
         *self.lock() = Some(Showing {
             run: run.to_owned(),
             beginning: None,
             results: Vec::new(),
+            profile,
             version: 0,
             begun: Instant::now(),
             seconds_left: remaining.tell(0.0),
@@ -92,6 +111,7 @@ impl UnderWay {
             showing.results.retain(|it| it.place != place);
             showing.results.push(SoFar { place, version: showing.version, result, records: Arc::new(records) });
             showing.results.sort_by_key(|it| it.place);
+            showing.give_places();
         }
     }
 
@@ -134,10 +154,12 @@ impl UnderWay {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Estimated;
     use crate::store::tests::fixtures;
 
     fn preliminary(algorithm: &str, n: u32) -> Preliminary {
-        let result = AlgorithmResult { preliminary: true, ..fixtures::result(algorithm, n).result };
+        let result =
+            AlgorithmResult { preliminary: true, ratio: None, rank: None, ..fixtures::result(algorithm, n).result };
         Preliminary { result, records: RecordColumns::default(), seconds: Some(f64::from(n)) }
     }
 
@@ -145,7 +167,7 @@ mod tests {
     fn preliminary_results_belong_to_one_run_and_end_with_it() {
         let under_way = UnderWay::default();
         under_way.show(0, preliminary("a", 9));
-        let shown = under_way.begin("run", 2, 50.0);
+        let shown = under_way.begin("run", Profile::Production, 2, 50.0);
         assert_eq!((under_way.seconds_left("run"), under_way.seconds_left("other")), (Some(50.0), None));
         assert!(under_way.results("run").is_empty(), "nothing is under way that it could be of");
         under_way.show(1, preliminary("b", 1));
@@ -156,6 +178,22 @@ mod tests {
         assert_eq!((n("run", 2), under_way.newer("run", 3)), (vec![5], (vec![], 3)));
         assert!(under_way.records("run", "b").is_some() && under_way.records("other", "b").is_none());
         assert_eq!(under_way.seconds_left("run"), Some(2.0 + 5.0));
+        let places = || under_way.results("run").iter().map(|r| r.place_so_far).collect::<Vec<_>>();
+        let timed = |algorithm: &str, ratio: f64, wrong: u32| {
+            let mut shown = preliminary(algorithm, 5);
+            shown.result.ratio = Some(Estimated { value: ratio, lo: 0.9 * ratio, hi: 1.1 * ratio });
+            shown.result.wrong = wrong;
+            shown
+        };
+        assert_eq!(places(), [None, None], "they were compared with nothing");
+        under_way.show(0, timed("a", 2.0, 0));
+        assert_eq!(places(), [Some(1), None]);
+        under_way.show(1, timed("b", 0.5, 0));
+        assert_eq!(places(), [Some(2), Some(1)]);
+        assert_eq!(n("run", under_way.newer("run", 0).1 - 1), [5, 5], "who was moved is new, too");
+        under_way.show(1, timed("b", 0.5, 1));
+        assert_eq!(places(), [Some(1), None], "who is wrong has no place");
+        assert!(under_way.results("run").iter().all(|r| r.rank.is_none()));
         drop(shown);
         assert!(under_way.results("run").is_empty() && under_way.records("run", "b").is_none());
     }

@@ -55,6 +55,8 @@ it('marks preliminary numbers, with n and interval', async () => {
   const table = await mount(ResultTable, { results: [so_far] })
   const row = table.host.querySelector('tr[data-algorithm=fast][data-preliminary=true]')
   expect(row?.querySelector('td')?.textContent).toBe('–')
+  const moved = await mount(ResultTable, { results: [{ ...so_far, place_so_far: 2 }] })
+  expect(moved.host.querySelector('tr[data-algorithm=fast] td')?.textContent).toBe('(2)')
   expect(row?.textContent).toMatch(/300.*of 5,000.*0\.45 × – 0\.55 ×1.µs0\.9–1\.1.*preliminary/)
   app?.unmount()
 

@@ -8,7 +8,7 @@ const point = (x: number | null, y: number, more: Partial<ChartPoint> = {}): Cha
   name: null, x, x_lo: null, x_hi: null, y, y_lo: y * 0.9, y_hi: y * 1.1, n: 40, filled: true, at_least: false, missed: 0, false_alarms: 0, words: '', ...more,
 })
 const chart: Chart = {
-  kind: 'board', title: 'Speed & accuracy', finding: 'A is fastest.', notes: [],
+  kind: 'board', title: 'Speed & accuracy', finding: 'A is fastest.', notes: [], preliminary: false,
   x: { label: 'wrong answers', unit: 'share', scale: 'log', lane: 'none seen (< 7.5e-2 at 95 %)' },
   y: { label: 'questions per second', unit: '1/s', scale: 'log', lane: null },
   series: [

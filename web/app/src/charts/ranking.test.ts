@@ -35,6 +35,13 @@ describe('rank', () => {
   })
 })
 
+it('lists what is still measured by its place so far, without giving it one', () => {
+  const soFar = (algorithm: string, place?: number) => result(algorithm, null, 1, { preliminary: true, ...(place && { place_so_far: place }) })
+  const { ranked, unranked } = rank([soFar('none'), soFar('second', 2), soFar('first', 1)])
+  expect(ranked).toEqual([])
+  expect(unranked.map((r) => r.result.algorithm)).toEqual(['first', 'second', 'none'])
+})
+
 it('compares only what had to deliver the same', () => {
   const alone = { delivered: 'distance', order: 'shuffled', cpus: 1, bits: 64 } as const
   const pair = { ...alone, delivered: 'distance_with_witness', cpus: 2, bits: 32 } as const

@@ -171,6 +171,7 @@ pub(crate) fn result(algorithm: &str, n: u32) -> StoredResult {
             load_ms: None,
             memory_bytes: Some(u64::from(u32::MAX) + 1),
             preliminary: false,
+            place_so_far: None,
         },
         records: None,
         triangle_tests: None,
