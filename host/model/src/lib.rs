@@ -63,7 +63,7 @@ pub use contract::{ContractClass, Delivered, Order};
 pub use deletion::{DeleteAccount, DeletionPreview, OwnedCounts};
 pub use environment::Environment;
 pub use estimate::{AlgorithmSeconds, Estimate};
-pub use example::{Example, ExampleInfo};
+pub use example::{Example, ExampleInfo, ExampleWork};
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
 pub use invitation::{Acceptance, InvitationInfo, InvitationRequest, InvitationState, NewInvitation};
 pub use machine::{

@@ -1,6 +1,7 @@
 //! Asking for advice, looking at it, taking it away.
 
 pub mod jailed;
+mod own;
 mod shelf;
 pub mod sql;
 pub mod work;
@@ -58,9 +59,7 @@ impl Engine {
             let message = format!("{whose} for advice are queued or running; try again when one of them has ended.");
             return Err(EngineError::TooMuch { message, retry_seconds: RETRY_SECONDS });
         }
-        let step = "waiting".to_owned();
-        let info =
-            AdviceInfo { id, spec, names, state: State::Queued, step, done: 0, total: 0, message: None, advice: None };
+        let info = waiting(id, spec, names);
         // Two that come at once under one key: the first stands.
         let Some(attempt) = inner.store.add_advice(&info, owner, &turn, &inner.worker).await? else {
             return Ok((self.advice(&info.id).await?, false));
@@ -172,6 +171,11 @@ impl Inner {
             Ok(turn) = self.advices.turn.acquire() => turn,
             () = job.ended() => return Ok(None),
         };
+        self.make_advice(attempt, job).await
+    }
+
+    /// `None` when it was stopped.
+    async fn make_advice(&self, attempt: &Attempt, job: &Arc<Job>) -> Result<Option<Found>> {
         let AdviceInfo { spec, names, .. } = job.info();
         if !self.store.begin_advice(attempt).await? {
             return Err(superseded());
@@ -226,6 +230,12 @@ impl Inner {
         let [mesh, certificate] = kept.try_into().expect("two blobs");
         Ok(StoredPaper { mesh, certificate, file: paper.file.clone() })
     }
+}
+
+/// A request that waits.
+fn waiting(id: String, spec: AdviceSpec, names: [String; 2]) -> AdviceInfo {
+    let (state, step) = (State::Queued, "waiting".to_owned());
+    AdviceInfo { id, spec, names, state, step, done: 0, total: 0, message: None, advice: None }
 }
 
 /// There is no such advice, or not for who asks: both sound alike.

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::idle::sql::{Tried, TriedSet};
-use crate::model::{Example, ExampleInfo, RunSpec};
+use crate::model::{Example, ExampleInfo, ExampleWork};
 use crate::{EngineError, Result};
 
 static EXAMPLES: LazyLock<Vec<Example>> =
@@ -17,36 +17,51 @@ impl Engine {
     pub async fn examples(&self) -> Result<Vec<ExampleInfo>> {
         let mut all = Vec::new();
         for example in self.inner.possible_examples() {
-            let run = match self.inner.store.run_that_tried(&self.inner.as_tried(&example)).await? {
-                Some(id) => match self.run(&id, None).await {
-                    Ok(run) => Some(run),
+            match self.inner.store.run_that_tried(&self.inner.as_tried(&example)).await? {
+                Some(id) => match self.found(example, &id).await {
+                    Ok(found) => all.push(found),
                     // It could not be queued, or was deleted.
-                    Err(EngineError::NotFound(_)) => continue,
+                    Err(EngineError::NotFound(_)) => {}
                     Err(e) => return Err(e),
                 },
                 // Without idle work it never comes.
-                None if !self.inner.config.idle => continue,
-                None => None,
-            };
-            all.push(ExampleInfo { example, run });
+                None if !self.inner.config.idle => {}
+                None => all.push(ExampleInfo { example, run: None, advice: None }),
+            }
         }
         Ok(all)
+    }
+
+    async fn found(&self, example: Example, id: &str) -> Result<ExampleInfo> {
+        let (mut run, mut advice) = (None, None);
+        match example.work {
+            ExampleWork::Run { .. } => run = Some(self.run(id, None).await?),
+            ExampleWork::Advice { .. } => advice = Some(self.advice(id).await?),
+        }
+        Ok(ExampleInfo { example, run, advice })
     }
 }
 
 impl Inner {
-    /// The next example that was not tried on this machine, and its entry in the list of tried work.
-    pub(crate) fn next_example(&self, tried: &TriedSet) -> Option<(RunSpec, Tried)> {
-        let mut all =
-            self.possible_examples().into_iter().map(|example| (example.spec.clone(), self.as_tried(&example)));
-        all.find(|(_, entry)| !tried.contains(entry))
+    /// The next example that was not tried on this machine, and its entry in the list of tried work. Advice takes longer than
+    /// runs, and comes after them.
+    pub(crate) fn next_example(&self, tried: &TriedSet) -> Option<(ExampleWork, Tried)> {
+        let all = self.possible_examples().into_iter().map(|example| (self.as_tried(&example), example.work));
+        let (runs, advice): (Vec<_>, Vec<_>) = all
+            .filter(|(entry, _)| !tried.contains(entry))
+            .partition(|(_, work)| matches!(work, ExampleWork::Run { .. }));
+        runs.into_iter().chain(advice).next().map(|(entry, work)| (work, entry))
     }
 
-    /// Those whose algorithms are installed.
+    /// Those whose algorithms are installed, or the advisor.
     fn possible_examples(&self) -> Vec<Example> {
         let installed = self.registry.installed();
         let has = |id: &String| installed.iter().any(|algorithm| algorithm.id == *id);
-        EXAMPLES.iter().filter(|example| example.spec.algorithms.iter().all(has)).cloned().collect()
+        let possible = |example: &&Example| match &example.work {
+            ExampleWork::Run { spec, .. } => spec.algorithms.iter().all(has),
+            ExampleWork::Advice { .. } => self.config.advisor.exists(),
+        };
+        EXAMPLES.iter().filter(possible).cloned().collect()
     }
 
     fn as_tried(&self, example: &Example) -> Tried {
@@ -64,9 +79,10 @@ mod tests {
     fn each_example_can_be_asked_and_shows_an_algorithm_of_its_own() {
         assert_eq!(EXAMPLES.len(), 5);
         for example in EXAMPLES.iter() {
-            let spec = &example.spec;
-            assert!(spec.algorithms.contains(&example.algorithm), "{example:?}");
-            assert!(sampling::count(&spec.method).is_ok() && sampling::check_separation(spec.separation).is_ok());
+            if let ExampleWork::Run { algorithm, spec, .. } = &example.work {
+                assert!(spec.algorithms.contains(algorithm), "{example:?}");
+                assert!(sampling::count(&spec.method).is_ok() && sampling::check_separation(spec.separation).is_ok());
+            }
             assert!(example.title.ends_with('?') && example.text.ends_with('.'), "{example:?}");
         }
     }

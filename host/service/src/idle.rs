@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use crate::engine::{Engine, Inner};
 use crate::idle::sql::{Tried, TriedSet};
 use crate::locks::Lock;
-use crate::model::{AlgorithmInfo, RunSpec, StabilitySpec, State};
+use crate::model::{AlgorithmInfo, ExampleWork, RunSpec, StabilitySpec, State};
 use crate::runs::RunContext;
 use crate::runs::carry_out::carry_out;
 use crate::runs::priority::IDLE;
@@ -56,7 +56,7 @@ impl Filling {
         }
         let tried = next_part(inner, IDLE, |id, stop| inner.set_current_idle(id, stop, asked)).await;
         inner.unset_current();
-        if tried? {
+        if tried? || inner.next_own_advice(asked).await? {
             return Ok(true);
         }
         if !inner.house.is_here() || self.next.is_some_and(|next| Instant::now() < next) {
@@ -73,8 +73,14 @@ async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
     // Another planner queues work, and then the service is not idle any more.
     let Some(_alone) = inner.store.locks.try_alone(Lock::Planning).await? else { return Ok(false) };
     let tried = inner.store.tried().await?;
-    if let Some((spec, what)) = inner.next_example(&tried) {
-        queue_run(inner, spec, &[what], None).await?;
+    if let Some((work, what)) = inner.next_example(&tried) {
+        match work {
+            ExampleWork::Run { spec, .. } => queue_run(inner, *spec, &[what], None).await?,
+            ExampleWork::Advice { spec } => {
+                let id = inner.ask_own_advice(spec).await?;
+                inner.store.note_tried(&what, &id).await?;
+            }
+        }
         return Ok(true);
     }
     if let Some(spec) = inner.next_of_the_suite(&tried).await? {

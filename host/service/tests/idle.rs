@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use ocb_service::model::{AdviceSpec, Asked, BoardRequest, Role, State, SuiteProgress};
-use ocb_service::{Engine, EngineConfig, Visitor};
+use ocb_service::{Engine, EngineConfig, EngineError, Visitor};
 
 /// The file of a suite of two scenarios, with so many processes and seconds for each algorithm.
 fn suite(data: &Path, passes: u32, budget_seconds: f64) -> std::path::PathBuf {
@@ -216,4 +216,46 @@ async fn examples_come_first_and_only_those_whose_algorithms_are_installed() {
     assert!(matches!(run.state, State::Queued | State::Running), "{run:?}");
     assert_eq!((run.visibility, run.spec.algorithms.len()), (ocb_service::model::Visibility::Public, 3));
     engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn advice_of_an_example_gives_way_and_ends_later() {
+    let _alone = ALONE.lock().await;
+    let data = tempfile::tempdir().unwrap();
+    let plain = common::config(data.path());
+    let advisor = common::built().join("ocb-advisor");
+    let config = EngineConfig { plugins: Vec::new(), advisor, quick_advice: true, idle: true, ..plain };
+    let engine = Engine::open(config).await.unwrap();
+    let database = common::database(data.path()).await;
+    until(&database, "SELECT COUNT(*) FROM advice WHERE attempts = 1", |begun: &i64| *begun == 1).await;
+    let made = async || {
+        let mut examples = engine.examples().await.unwrap();
+        assert_eq!((examples.len(), examples[0].example.id.as_str()), (1, "tolerance"), "no algorithm is installed");
+        examples.remove(0).advice.expect("it was begun")
+    };
+    let id = made().await.id;
+
+    // A visitor's advice comes first, and ends first.
+    let question = Asked::Distance { tolerance: 0.05 };
+    let spec = AdviceSpec { object_a: "stock:torus-knot@600".into(), object_b: None, question };
+    let visitor = Visitor { owner: "me".into(), address: None };
+    let asked = engine.ask_advice(spec, &visitor, None).await.unwrap().0.id;
+    let put_back = "SELECT COUNT(*) FROM attempts WHERE kind = 'advise' AND outcome = 'put back'";
+    until(&database, put_back, |times: &i64| *times == 1).await;
+    let refused = engine.cancel_advice(&id, Some("me")).await.unwrap_err();
+    assert!(matches!(refused, EngineError::Forbidden(_)), "it is nobody's: {refused}");
+    let ended = async |id: &str| loop {
+        let info = engine.advice(id).await.unwrap();
+        if !matches!(info.state, State::Queued | State::Running) {
+            return info;
+        }
+        tokio::time::sleep(Duration::from_millis(20)).await;
+    };
+    assert_eq!(ended(&asked).await.state, State::Done);
+    assert!(matches!(made().await.state, State::Queued | State::Running), "it waited for the visitor");
+    assert_eq!(ended(&id).await.state, State::Done);
+    assert!(made().await.advice.is_some());
+    assert_eq!(engine.examples().await.unwrap().len(), 1, "it is made once");
+    engine.shutdown().await;
+    database.close().await;
 }

@@ -1,6 +1,7 @@
 //! Requests for advice and what became of them.
 
 use serde::{Deserialize, Serialize};
+use sqlx::AnyConnection;
 
 use crate::Result;
 use crate::attempts::sql::{at_rest, begin, end, while_current, withdraw};
@@ -24,12 +25,22 @@ pub struct StoredPaper {
 pub struct AdviceRow {
     /// What everybody may see who knows the id.
     pub info: AdviceInfo,
-    /// Who asked.
+    /// Who asked; nobody: the service itself, while it is idle.
     pub owner: Option<String>,
     /// Reduced objects of A and of B, the coarsest first.
     pub papers: [Vec<StoredPaper>; 2],
     /// So often its work was begun.
     pub attempts: i64,
+}
+
+/// Requests without an end and without a current attempt.
+macro_rules! open {
+    () => {
+        concat!(
+            "SELECT info, owner, papers, attempts FROM advice WHERE ended = 0 AND ",
+            at_rest!("advise", "advice.id")
+        )
+    };
 }
 
 type Columns = (String, Option<String>, String, i64);
@@ -44,23 +55,17 @@ impl Store {
         worker: &Worker,
     ) -> Result<Option<Attempt>> {
         let mut transaction = self.pool.begin().await?;
-        let added = sqlx::query(
-            "INSERT INTO advice (id, owner, turn, ended, attempts, info, papers, created_us) \
-             VALUES ($1, $2, $3, 0, 0, $4, '[[],[]]', $5) ON CONFLICT (id) DO NOTHING",
-        )
-        .bind(&info.id)
-        .bind(owner)
-        .bind(turn)
-        .bind(to_json(info)?)
-        .bind(now_us())
-        .execute(&mut *transaction)
-        .await?;
-        if added.rows_affected() == 0 {
+        if !insert(&mut transaction, info, Some(owner), turn).await? {
             return Ok(None);
         }
         let attempt = begin(&mut transaction, Kind::Advise, &info.id, worker).await?;
         transaction.commit().await?;
         Ok(attempt)
+    }
+
+    /// Remembers a request of the service itself.
+    pub async fn add_own_advice(&self, info: &AdviceInfo) -> Result<()> {
+        insert(&mut *self.pool.acquire().await?, info, None, "").await.map(|_| ())
     }
 
     /// Takes up a request that has not ended; nothing when another worker was quicker.
@@ -130,16 +135,28 @@ impl Store {
         Ok([all as usize, own as usize])
     }
 
-    /// Requests without an end and without a current attempt, the oldest first.
+    /// Requests of visitors without an end and without a current attempt, the oldest first.
     pub async fn open_advice(&self) -> Result<Vec<AdviceRow>> {
-        let text = concat!(
-            "SELECT info, owner, papers, attempts FROM advice WHERE ended = 0 AND ",
-            at_rest!("advise", "advice.id"),
-            " ORDER BY created_us, id"
-        );
+        self.open_rows(concat!(open!(), " AND owner IS NOT NULL ORDER BY created_us, id")).await
+    }
+
+    /// The same of the service itself.
+    pub async fn open_own_advice(&self) -> Result<Vec<AdviceRow>> {
+        self.open_rows(concat!(open!(), " AND owner IS NULL ORDER BY created_us, id")).await
+    }
+
+    async fn open_rows(&self, text: &'static str) -> Result<Vec<AdviceRow>> {
         let rows: Vec<Columns> = sqlx::query_as(text).fetch_all(&self.pool).await?;
         rows.into_iter().map(read).collect()
     }
+}
+
+/// Remembers a request; false when there is one with its id.
+async fn insert(connection: &mut AnyConnection, info: &AdviceInfo, owner: Option<&str>, turn: &str) -> Result<bool> {
+    let text = "INSERT INTO advice (id, owner, turn, ended, attempts, info, papers, created_us) \
+                VALUES ($1, $2, $3, 0, 0, $4, '[[],[]]', $5) ON CONFLICT (id) DO NOTHING";
+    let insert = sqlx::query(text).bind(&info.id).bind(owner).bind(turn).bind(to_json(info)?).bind(now_us());
+    Ok(insert.execute(connection).await?.rows_affected() == 1)
 }
 
 fn read((info, owner, papers, attempts): Columns) -> Result<AdviceRow> {

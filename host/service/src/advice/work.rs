@@ -5,7 +5,6 @@
 //! process are. The work itself is done in the jail: `jailed.rs`.
 
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use ocb_advice::{Advice, CONFIGURATIONS, HELD_OUT, Paper, Question, Watch, usual_distances};
@@ -14,10 +13,10 @@ use tokio::sync::{Notify, Semaphore};
 
 use super::jailed::{Advised, Advisor, Level, Request};
 use crate::Result;
+use crate::measure::Stop;
 use crate::model::{AdviceInfo, Asked, State};
 
 /// The requests that wait or are at work, by id.
-#[derive(Debug)]
 pub struct Advices {
     jobs: Mutex<HashMap<String, Arc<Job>>>,
     /// Whose turn it is, first come, first served.
@@ -31,9 +30,9 @@ impl Default for Advices {
 }
 
 /// One request under way.
-#[derive(Debug)]
 pub struct Job {
-    stop: AtomicBool,
+    /// Ends it soon, or puts it off.
+    pub stop: Stop,
     /// Rung when it is stopped, for one that waits.
     changed: Notify,
     info: Mutex<AdviceInfo>,
@@ -51,7 +50,7 @@ impl Advices {
     /// A request that waits from now on.
     pub fn add(&self, info: AdviceInfo) -> Arc<Job> {
         let id = info.id.clone();
-        let job = Arc::new(Job { stop: AtomicBool::new(false), changed: Notify::new(), info: Mutex::new(info) });
+        let job = Arc::new(Job { stop: Stop::default(), changed: Notify::new(), info: Mutex::new(info) });
         locked(&self.jobs).insert(id, job.clone());
         job
     }
@@ -85,7 +84,7 @@ impl Job {
 
     /// Ends it soon.
     pub fn stop(&self) {
-        self.stop.store(true, Ordering::Relaxed);
+        self.stop.stop();
         self.changed.notify_one();
     }
 
@@ -128,7 +127,7 @@ impl Watch for Job {
     }
 
     fn stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+        self.stop.asked()
     }
 }
 

@@ -1,0 +1,40 @@
+//! Advice that the service makes by itself while it is idle, for an example of the start page.
+//!
+//! It gives way to any request and begins anew when the service is idle again; the certificates that it found are kept.
+
+use std::sync::Arc;
+
+use super::waiting;
+use crate::Result;
+use crate::engine::Inner;
+use crate::model::AdviceSpec;
+
+impl Inner {
+    /// Asks for it, and gives its id; the work begins when the service is idle.
+    pub(crate) async fn ask_own_advice(&self, spec: AdviceSpec) -> Result<String> {
+        let names = self.objects_of(&spec, None).await?;
+        let info = waiting(uuid::Uuid::now_v7().to_string(), spec, names);
+        self.store.add_own_advice(&info).await?;
+        Ok(info.id)
+    }
+
+    /// Works on the oldest that has no end; false when none waits, or visitors' advice is at work.
+    pub(crate) async fn next_own_advice(self: &Arc<Self>, asked: u64) -> Result<bool> {
+        let Ok(_turn) = self.advices.turn.try_acquire() else { return Ok(false) };
+        let Some(row) = self.store.open_own_advice().await?.into_iter().next() else { return Ok(false) };
+        // Another service may be quicker.
+        let Some(attempt) = self.store.take_up(&row.info.id, &self.worker).await? else { return Ok(false) };
+        let job = self.advices.add(row.info);
+        let lost = job.clone();
+        let _held = self.holding.hold(&attempt, move || lost.stop());
+        self.set_current_idle(&attempt.job, &job.stop, asked);
+        let found = self.make_advice(&attempt, &job).await;
+        self.unset_current();
+        let ended = match self.closing() || (job.stop.for_now() && matches!(found, Ok(None))) {
+            true => self.store.put_back_advice(&attempt).await,
+            false => self.end_advice(&attempt, job.info(), found).await,
+        };
+        self.advices.remove(&attempt.job);
+        ended.map(|()| true)
+    }
+}
