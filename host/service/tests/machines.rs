@@ -219,6 +219,31 @@ async fn what_the_jail_of_a_machine_lacks_is_no_result() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn a_run_that_the_service_cannot_begin_fails_and_holds_up_nobody() {
+    let _alone = alone().await;
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(config(data.path())).await.unwrap();
+    engine.add_machine("alpha").await.unwrap();
+    let facts = common::here(&config(data.path())).facts().clone();
+    let database = common::database(data.path()).await;
+    let damaged = engine.submit(small(&["box-tree"]), None).await.unwrap();
+    let damage = "UPDATE runs SET set_info = NULL WHERE prepared = 1";
+    while sqlx::query(damage).execute(&database).await.unwrap().rows_affected() == 0 {
+        tokio::time::sleep(Duration::from_millis(20)).await;
+    }
+    let next = engine.submit(small(&["box-tree"]), None).await.unwrap();
+    for _ in 0..3 {
+        assert!(matches!(engine.next_order("alpha", &facts, NOW).await, Err(EngineError::Fault(_))));
+    }
+    let run = engine.run(&damaged.id, None).await.unwrap();
+    assert_eq!((run.state, run.attempts), (State::Failed, 3));
+    assert!(run.message.as_ref().is_some_and(|why| why.contains("no fault of the algorithms")), "{:?}", run.message);
+    assert_eq!(order(&engine, "alpha", &facts).await.run, next.id);
+    database.close().await;
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn a_machine_finds_what_the_service_itself_would_find() {
     let _alone = alone().await;
     let [here, there] = [(); 2].map(|()| tempfile::tempdir().unwrap());

@@ -54,7 +54,7 @@ impl Engine {
         while !self.inner.closing() {
             let prepared = self.inner.orders.prepared.notified();
             if let Some(attempt) = self.inner.store.begin_prepared_run(&worker).await? {
-                match self.begun(&attempt).await? {
+                match self.begun(machine, &attempt).await? {
                     Some(order) => return Ok(Some(order)),
                     None => continue,
                 }
@@ -66,7 +66,7 @@ impl Engine {
     }
 
     /// The order of an attempt; nothing when its run cannot be measured, or not yet.
-    async fn begun(&self, attempt: &Attempt) -> Result<Option<WorkOrder>> {
+    async fn begun(&self, machine: &str, attempt: &Attempt) -> Result<Option<WorkOrder>> {
         self.inner.run_events.queue_moved();
         match self.try_begin(attempt).await {
             Ok(order) => Ok(order),
@@ -78,11 +78,21 @@ impl Engine {
             }
             // It was ended meanwhile.
             Err(EngineError::Busy(_)) => Ok(None),
+            // A fault of ours, which may last: the run is not the first in the queue for ever.
             Err(e) => {
-                self.inner.store.put_back_run(attempt).await?;
+                self.lose(machine, attempt).await?;
                 Err(e)
             }
         }
+    }
+
+    /// The attempt came to nothing: its run waits again, or has failed after three. What it is now, if the attempt was current.
+    async fn lose(&self, machine: &str, attempt: &Attempt) -> Result<Option<State>> {
+        let state = self.inner.store.lose_run(attempt, Some(&worker(machine, ""))).await?;
+        if let Some(state) = state {
+            run_was_lost(&self.inner, &attempt.job, state).await?;
+        }
+        Ok(state)
     }
 
     async fn try_begin(&self, attempt: &Attempt) -> Result<Option<WorkOrder>> {
@@ -207,11 +217,7 @@ impl Engine {
         tracing::error!("run {}: the machine {machine} failed: {why}", row.id);
         let until = now_us() + REST.as_micros() as i64;
         self.inner.store.machine_has_trouble(machine, why, until).await?;
-        let state = self.inner.store.lose_run(attempt, Some(&worker(machine, ""))).await?;
-        if let Some(state) = state {
-            run_was_lost(&self.inner, &row.id, state).await?;
-        }
-        Ok(state.is_some())
+        Ok(self.lose(machine, attempt).await?.is_some())
     }
 
     /// The results of a machine, if they are of what was ordered.
