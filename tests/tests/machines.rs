@@ -9,9 +9,11 @@ use std::time::{Duration, Instant};
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::{Pid, geteuid};
 use ocb_tests::place::built;
+use ocb_tests::postgres::Postgres;
 use ocb_tests::process::{command, output};
 use ocb_tests::service::{Guest, Service, free_address, runner_below};
 use serde_json::{Value, json};
+use tempfile::TempDir;
 
 const PLUGINS: [&str; 3] = ["libocb_brute_force.so", "libocb_box_tree.so", "libocb_parry.so"];
 /// How long the service believes that a silent machine lives.
@@ -79,12 +81,7 @@ impl Site {
     }
 
     fn submit(&self, budget_seconds: f64) -> String {
-        let spec = json!({
-            "object_a": "stock:torus-knot@2000", "query": "proximity", "passes": 2, "budget_seconds": budget_seconds,
-            "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 300 } },
-            "algorithms": ["brute-force", "box-tree", "parry"],
-        });
-        self.guest.submit(self.service(), &spec)
+        self.guest.submit(self.service(), &spec(budget_seconds))
     }
 
     fn wait(&self, run: &str, what: &str, enough: impl Fn(&Value) -> bool) -> Value {
@@ -92,23 +89,41 @@ impl Site {
     }
 
     fn ended(&self, run: &str) -> Value {
-        let run = self.wait(run, "the run has ended", |r| !["queued", "running"].iter().any(|s| r["state"] == *s));
-        assert_eq!(run["state"], "done", "{run}");
-        let results = run["results"].as_array().expect("results");
-        let names: Vec<_> = results.iter().map(|r| r["algorithm"].as_str().expect("a name")).collect();
-        assert_eq!(names, ["brute-force", "box-tree", "parry"], "each once");
-        for result in results {
-            assert_eq!((&result["outcome"]["name"], &result["wrong"]), (&json!("Completed"), &json!(0)), "{result}");
-        }
-        run
+        ended(&self.guest, self.service(), run)
     }
 
     /// Waits until the machine asks a plugin for this run.
     fn measures(&self, run: &str, machine: &Machine) {
-        self.wait(run, "it is measured", |r| {
-            r["state"] == "running" && r["stages"][2]["state"] == "running" && runner_below(machine.pid()).is_some()
-        });
+        measures(&self.guest, self.service(), run, machine);
     }
+}
+
+fn spec(budget_seconds: f64) -> Value {
+    json!({
+        "object_a": "stock:torus-knot@2000", "query": "proximity", "passes": 2, "budget_seconds": budget_seconds,
+        "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 300 } },
+        "algorithms": ["brute-force", "box-tree", "parry"],
+    })
+}
+
+/// Waits for the end of a run, and checks that nothing of it is missing or twice.
+fn ended(guest: &Guest, service: &Service, run: &str) -> Value {
+    let over = |run: &Value| !["queued", "running"].iter().any(|state| run["state"] == *state);
+    let run = guest.wait(service, run, "the run has ended", over);
+    assert_eq!(run["state"], "done", "{run}");
+    let results = run["results"].as_array().expect("results");
+    let names: Vec<_> = results.iter().map(|r| r["algorithm"].as_str().expect("a name")).collect();
+    assert_eq!(names, ["brute-force", "box-tree", "parry"], "each once");
+    for result in results {
+        assert_eq!((&result["outcome"]["name"], &result["wrong"]), (&json!("Completed"), &json!(0)), "{result}");
+    }
+    run
+}
+
+fn measures(guest: &Guest, service: &Service, run: &str, machine: &Machine) {
+    guest.wait(service, run, "it is measured", |r| {
+        r["state"] == "running" && r["stages"][2]["state"] == "running" && runner_below(machine.pid()).is_some()
+    });
 }
 
 /// `ocb work`, killed when it goes out of use.
@@ -273,6 +288,41 @@ fn a_machine_outlives_its_service() {
     // The next run finds the machine waiting.
     let next = site.submit(0.5);
     site.ended(&next);
+}
+
+#[test]
+fn a_run_outlives_the_database_of_its_service() {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let (postgres, folder, internal) = (Postgres::start(), TempDir::new().expect("a folder"), free_address());
+    let url = postgres.url();
+    let mut admin = command(built("ocb"));
+    admin.arg("--data").arg(folder.path().join("admin")).args(["--database", &url, "admin", "machine", "alpha"]);
+    let token = folder.path().join("token");
+    fs::write(&token, output(&mut admin)).expect("the token is written");
+    let more = ["--internal", &internal, "--database", &url];
+    let service = Service::start_saying(&folder.path().join("service"), &PLUGINS, &more);
+    let machine = Machine::start(&internal, &token, &folder.path().join("log"), &[]);
+    let guest = Guest::default();
+    guest.wait_for_quiet(&service);
+
+    // Away for a moment while the run is prepared, and for longer than the lease while it is measured and handed in.
+    let run = guest.submit(&service, &spec(5.0));
+    postgres.stop();
+    std::thread::sleep(Duration::from_secs(3));
+    postgres.start_again();
+    measures(&guest, &service, &run, &machine);
+    postgres.stop();
+    std::thread::sleep(LEASE + Duration::from_secs(5));
+    postgres.start_again();
+    let back = Instant::now();
+    let run = ended(&guest, &service, &run);
+    println!(
+        "from the database's return to the end: {:.1} s, attempts: {}",
+        back.elapsed().as_secs_f64(),
+        run["attempts"]
+    );
+    let next = guest.submit(&service, &spec(0.5));
+    ended(&guest, &service, &next);
 }
 
 #[test]

@@ -252,6 +252,34 @@ async fn a_run_ends_as_soon_as_the_database_can_record_it() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn a_run_that_the_service_cannot_carry_out_waits_again_and_fails_after_three_attempts() {
+    let data = tempfile::tempdir().unwrap();
+    let engine = Engine::open(EngineConfig { featured: false, ..common::config(data.path()) }).await.unwrap();
+    let database = common::database(data.path()).await;
+    // The configurations are found, and cannot be stored.
+    let refuse = "CREATE TRIGGER refuse BEFORE INSERT ON blobs BEGIN SELECT RAISE(ABORT, 'disk I/O error'); END";
+    sqlx::query(refuse).execute(&database).await.unwrap();
+    let spec = |seed| RunSpec { algorithms: vec!["brute-force".into()], ..common::spec("proximity", 20, seed) };
+    let run = engine.submit(spec(1), Some("guest")).await.unwrap();
+    let failed = tokio::time::timeout(Duration::from_secs(60), common::finish(&engine, &run.id)).await.unwrap().0;
+    assert_eq!((failed.state, failed.attempts), (State::Failed, 3));
+    let message = failed.message.unwrap();
+    assert!(message.contains("no fault of the algorithms") && !message.contains("disk"), "{message}");
+
+    let run = engine.submit(spec(2), Some("guest")).await.unwrap();
+    let begun = Instant::now();
+    while engine.run(&run.id, None).await.unwrap().attempts == 0 {
+        assert!(begun.elapsed() < Duration::from_secs(60), "it is not begun");
+        tokio::time::sleep(Duration::from_millis(20)).await;
+    }
+    sqlx::query("DROP TRIGGER refuse").execute(&database).await.unwrap();
+    let done = tokio::time::timeout(Duration::from_secs(60), common::finish(&engine, &run.id)).await.unwrap().0;
+    assert_eq!((done.state, done.attempts, done.results.len()), (State::Done, 2, 1), "{:?}", done.message);
+    database.close().await;
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn a_replaced_plugin_file_is_reported_as_such() {
     let (data, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let mut config = common::config(data.path());

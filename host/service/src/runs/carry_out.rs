@@ -6,6 +6,7 @@ use std::time::Duration;
 use tokio::runtime::Handle;
 
 use crate::attempts::Attempt;
+use crate::attempts::lost::run_was_lost;
 use crate::engine::Inner;
 use crate::measure::Stop;
 use crate::model::State;
@@ -49,7 +50,26 @@ pub async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, idle: Option<u64>)
         }
         return Ok(());
     }
+    if let Err(e @ EngineError::Fault(_)) = how {
+        drop(shown);
+        return failed_here(inner, attempt, &e).await;
+    }
     ended(inner, attempt, &row, &how, stop.reason().as_deref(), Some(shown)).await.map(|_| ())
+}
+
+/// The service could not carry out a run: its database was away, its disk is full. The run waits again, and has failed after three
+/// such attempts. While the database is away, this is tried again: the run would count as running until the next start.
+async fn failed_here(inner: &Arc<Inner>, attempt: &Attempt, fault: &EngineError) -> Result<()> {
+    tracing::error!("run {}, attempt {}: {fault}", attempt.job, attempt.number);
+    loop {
+        tokio::time::sleep(BACK_OFF).await;
+        match inner.store.lose_run(attempt, Some(&inner.worker)).await {
+            Ok(Some(state)) => return run_was_lost(inner, &attempt.job, state).await,
+            Ok(None) => return Ok(()),
+            Err(e) if inner.closing() => return Err(e),
+            Err(e) => tracing::error!("the end of run {} cannot be recorded: {e}", attempt.job),
+        }
+    }
 }
 
 /// Records how an attempt at a run ended, here or on a measuring machine; false when it was not the current one, and then nothing
