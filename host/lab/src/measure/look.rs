@@ -89,6 +89,13 @@ pub fn first_look(
     let task = &Task { set, controls: &[], passes: 1, budget: TIME, part, ..*task };
     let (shown, base) = (task.instance(PROCESS), (0..set.placed.len() as u32).collect::<Vec<_>>());
     let mut of_reference: Option<Measured> = None;
+    // Seen before the reference was.
+    let mut earlier: Vec<(usize, Measured)> = Vec::new();
+    let seen = |index: usize, measured: &Measured, of_reference: Option<&Measured>| {
+        let mut seen = task.preliminary(measured, of_reference, &base);
+        seen.records.configuration.iter_mut().for_each(|place| *place = numbers[*place as usize]);
+        Preliminary { seconds: Some(whole.seconds(index, measured)), ..seen }
+    };
     for (index, algorithm) in task.with_reference().enumerate() {
         let mut state = MeasuringState::new(algorithm.clone(), &task.slack(algorithm), base.len());
         // How far it is stays untold: it is not under way yet.
@@ -117,14 +124,18 @@ pub fn first_look(
             continue;
         }
         let measured = state.so_far(base);
-        if index < task.algorithms.len() {
-            let mut seen = task.preliminary(&measured, of_reference.as_ref(), base);
-            seen.records.configuration.iter_mut().for_each(|place| *place = numbers[*place as usize]);
-            seen.seconds = Some(whole.seconds(index, &measured));
-            show(index, seen);
+        let is_reference = task.reference.is_some_and(|reference| reference.info.id == algorithm.info.id);
+        if is_reference {
+            earlier.drain(..).for_each(|(index, before)| show(index, seen(index, &before, Some(&measured))));
         }
-        if task.reference.is_some_and(|reference| reference.info.id == algorithm.info.id) {
+        let compared_with = if is_reference { Some(&measured) } else { of_reference.as_ref() };
+        if index < task.algorithms.len() {
+            show(index, seen(index, &measured, compared_with));
+        }
+        if is_reference {
             of_reference = Some(measured);
+        } else if of_reference.is_none() {
+            earlier.push((index, measured));
         }
     }
 }
@@ -158,15 +169,18 @@ impl<'a> Showing<'a> {
         if !self.task.watched || !worth_a_look(self.numbers.len() as u64) {
             return;
         }
-        if index < self.task.algorithms.len() && !self.waiting.contains(&index) {
+        let named =
+            |state: &&MeasuringState| self.task.reference.is_some_and(|it| it.info.id == state.algorithm.info.id);
+        if states.get(index).is_some_and(|state| named(&state)) {
+            // All others are compared with it.
+            self.waiting = (0..self.task.algorithms.len()).collect();
+        } else if !self.waiting.contains(&index) {
             self.waiting.push(index);
         }
         if self.shown.elapsed() < SHOW_EVERY.max(SHARE * self.took) {
             return;
         }
         let begun = Instant::now();
-        let named =
-            |state: &&MeasuringState| self.task.reference.is_some_and(|it| it.info.id == state.algorithm.info.id);
         let of_reference = states.iter().find(named).map(|state| state.so_far(self.numbers));
         for index in self.waiting.drain(..) {
             let measured = states[index].so_far(self.numbers);
