@@ -19,7 +19,7 @@ const PLUGINS: [&str; 3] = ["libocb_brute_force.so", "libocb_box_tree.so", "libo
 /// How long the service believes that a silent machine lives.
 const LEASE: Duration = Duration::from_secs(20);
 
-/// The tests share a data folder, one after the other: the start page of a new one would be measured first.
+/// Most tests share a data folder, one after the other: the start page of a new one would be measured first.
 static ALONE: Mutex<()> = Mutex::new(());
 
 /// A service that does not measure by itself, on the shared data folder.
@@ -292,7 +292,6 @@ fn a_machine_outlives_its_service() {
 
 #[test]
 fn a_run_outlives_the_database_of_its_service() {
-    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let (postgres, folder, internal) = (Postgres::start(), TempDir::new().expect("a folder"), free_address());
     let url = postgres.url();
     let mut admin = command(built("ocb"));
@@ -306,7 +305,7 @@ fn a_run_outlives_the_database_of_its_service() {
     guest.wait_for_quiet(&service);
 
     // Away for a moment while the run is prepared, and for longer than the lease while it is measured and handed in.
-    let run = guest.submit(&service, &spec(5.0));
+    let run = guest.submit(&service, &spec(3.0));
     postgres.stop();
     std::thread::sleep(Duration::from_secs(3));
     postgres.start_again();

@@ -268,13 +268,15 @@ async fn a_run_that_the_service_cannot_carry_out_waits_again_and_fails_after_thr
 
     let run = engine.submit(spec(2), Some("guest")).await.unwrap();
     let begun = Instant::now();
-    while engine.run(&run.id, None).await.unwrap().attempts == 0 {
-        assert!(begun.elapsed() < Duration::from_secs(60), "it is not begun");
+    let lost = "SELECT COUNT(*) FROM attempts WHERE job = $1 AND outcome = 'lost'";
+    while sqlx::query_scalar::<_, i64>(lost).bind(&run.id).fetch_one(&database).await.unwrap() == 0 {
+        assert!(begun.elapsed() < Duration::from_secs(60), "no attempt was lost");
         tokio::time::sleep(Duration::from_millis(20)).await;
     }
     sqlx::query("DROP TRIGGER refuse").execute(&database).await.unwrap();
     let done = tokio::time::timeout(Duration::from_secs(60), common::finish(&engine, &run.id)).await.unwrap().0;
-    assert_eq!((done.state, done.attempts, done.results.len()), (State::Done, 2, 1), "{:?}", done.message);
+    assert_eq!((done.state, done.results.len()), (State::Done, 1), "{:?}", done.message);
+    assert!((2..=3).contains(&done.attempts), "{}", done.attempts);
     database.close().await;
     engine.shutdown().await;
 }
