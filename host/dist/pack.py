@@ -22,7 +22,7 @@ if [ -d /run/systemd/system ]; then systemctl daemon-reload; fi
 
 PRERM = '''#!/bin/sh
 set -e
-if [ "$1" = remove ] && [ -d /run/systemd/system ]; then systemctl stop opencollbench; fi
+if [ "$1" = remove ] && [ -d /run/systemd/system ]; then systemctl stop opencollbench opencollbench-work; fi
 '''
 
 
@@ -37,13 +37,13 @@ def archive(path, folder, files, stamp):
 def deb(path, version, glibc, files, stamp):
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder) / "root"
-        unit = (HERE.parent / "opencollbench.service").read_bytes()
+        units = ["opencollbench.service", "opencollbench-work.service"]
         user = b'u opencollbench - "OpenCollBench" /var/lib/opencollbench\n'
         control = CONTROL.format(version=version, glibc=".".join(map(str, glibc))).encode()
         copyright = next(data for name, data, _ in files if name == "LICENCES.txt")
         for name, data, program in [
             *((f"opt/opencollbench/{name}", data, program) for name, data, program in files),
-            ("usr/lib/systemd/system/opencollbench.service", unit, False),
+            *((f"usr/lib/systemd/system/{unit}", (HERE.parent / unit).read_bytes(), False) for unit in units),
             ("usr/lib/sysusers.d/opencollbench.conf", user, False),
             ("usr/share/doc/opencollbench/copyright", copyright, False),
             ("DEBIAN/control", control, False), ("DEBIAN/postinst", POSTINST.encode(), True),

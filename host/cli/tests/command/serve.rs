@@ -98,11 +98,22 @@ fn what_is_wrong_with_a_mail_server_is_told_without_its_password() {
 }
 
 #[test]
-fn the_systemd_unit_starts_a_command_that_exists() {
-    let unit = Path::new(env!("CARGO_MANIFEST_DIR")).join("../opencollbench.service");
-    let unit = std::fs::read_to_string(unit).unwrap();
-    let start = unit.lines().find_map(|line| line.strip_prefix("ExecStart=/opt/opencollbench/ocb ")).unwrap();
-    let Ended { code, stdout, stderr } = Desk::new().run(&start.split(' ').chain(["--help"]).collect::<Vec<_>>());
-    assert_eq!(code, 0, "{stderr}");
-    assert!(stdout.contains("Usage: ocb serve"), "{stdout}");
+fn the_systemd_units_start_commands_that_exist_with_the_same_hardening() {
+    let unit =
+        |name: &str| std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name)).unwrap();
+    let units = ["opencollbench.service", "opencollbench-work.service"].map(unit);
+    for (unit, command) in units.iter().zip(["serve", "work"]) {
+        let start = unit.lines().find_map(|line| line.strip_prefix("ExecStart=/opt/opencollbench/ocb ")).unwrap();
+        let Ended { code, stdout, stderr } = Desk::new().run(&start.split(' ').chain(["--help"]).collect::<Vec<_>>());
+        assert_eq!(code, 0, "{stderr}");
+        assert!(stdout.contains(&format!("Usage: ocb {command}")), "{stdout}");
+        // What the machine's unit hands over by its environment.
+        let variables = ["OCB_INTERNAL_SERVER", "OCB_MACHINE_TOKEN"];
+        assert!(command == "serve" || variables.iter().all(|it| unit.contains(it) && stdout.contains(it)), "{stdout}");
+    }
+    let hardening = units.each_ref().map(|unit| {
+        let settings = unit.lines().skip_while(|line| !line.starts_with("NoNewPrivileges"));
+        settings.take_while(|line| *line != "[Install]").filter(|line| line.contains('=')).collect::<Vec<_>>()
+    });
+    assert!(hardening[0].len() > 15 && hardening[0] == hardening[1], "{hardening:?}");
 }
