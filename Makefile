@@ -2,7 +2,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help serve build dist beside runner pages stock plugins-cpp recorders plugins-native check check-oracle test bench soak clean tools
+.PHONY: help serve build dist beside runner pages stock plugins-cpp recorders plugins-native check check-oracle test aarch64 bench soak clean tools
 
 PORT ?= 8080
 DATA ?= data
@@ -77,6 +77,9 @@ check-oracle: ## the oracle against CGAL, integers and planted faults (some 20 m
 	@tests/setup/tools.sh test
 	cargo test $(CARGO_FLAGS) --test oracle -- --nocapture
 	tests/oracle-check/faults.py all
+
+aarch64: ## build what is portable for aarch64 and run its tests under qemu (some minutes)
+	tests/setup/aarch64.sh
 
 bench: build ## every algorithm side by side (OBJECTS=files), the clock, finding positions against peers, first pictures and selections on pages
 	cargo bench --workspace --bench algorithms -- $(abspath $(OBJECTS))

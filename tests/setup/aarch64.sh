@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# aarch64.sh [all] [PACKAGE...]: builds the tests of the portable packages, or of these, for aarch64 and runs them under qemu-user.
-# Like tools.sh it installs what it can and says what. Rust's library for aarch64 comes from rustup, or else from Debian beside
-# Debian's own compiler. Prints how long each test program took; the last line counts the tests. It fails if a test fails or none ran.
+# aarch64.sh [all] [PACKAGE...]: builds tests of portable packages, or of these, for aarch64 and runs them under qemu-user. Like
+# tools.sh it installs what it can and says what. Rust's library for aarch64 comes from rustup, or else from Debian beside Debian's
+# own compiler. Prints how long each package took; the last line counts the tests. It fails if a test fails or none ran.
 #
-# qemu computes floating point in software, some twenty times slower than the machine does. Without `all`, checks are left out that
-# spend nearly all of their time on the brute-force answers they compare with: the same code answers in the others (see `slow`).
+# qemu computes floating point in software, some ten times slower than the machine does. Without `all`, the other plugins are left
+# out, which share their code with those that are tested, and checks that spend nearly all of their time on brute-force answers or
+# on sheer numbers: what they call is called by others too (see `slow`).
 set -euo pipefail
-export DEBIAN_FRONTEND=noninteractive PATH="$PATH:$HOME/.cargo/bin"
+export DEBIAN_FRONTEND=noninteractive PATH="$HOME/.cargo/bin:$PATH"
 target=aarch64-unknown-linux-gnu
 
 # Cargo calls it so with a test program, in the folder of the program's package. The template in C is built with CC.
@@ -58,25 +59,41 @@ have cc || missing+=(build-essential)
 have python3 || missing+=(python3)
 [ ${#missing[@]} -eq 0 ] || install "${missing[@]}"
 
-if ! { have rustup && rustup target add "$target"; }; then
+# The toolchain of rust-toolchain.toml may be missing as well.
+from_rustup() {
+  local wanted
+  wanted=$(sed -n 's/^channel = "\(.*\)"/\1/p' rust-toolchain.toml)
+  rustup target list --toolchain "$wanted" --installed 2>/dev/null | grep -qx "$target" ||
+    rustup toolchain install "$wanted" --profile minimal --no-self-update --target "$target"
+}
+
+if ! { have rustup && from_rustup; }; then
   say "no rustup that can get Rust's library for aarch64: taking Debian's compiler"
   missing=()
-  [ -x /usr/bin/rustc ] && dpkg-query -W rustc-web >/dev/null 2>&1 || missing+=(rustc-web)
+  dpkg-query -W -f '${Status}' rustc-web 2>/dev/null | grep -q ' installed$' || missing+=(rustc-web)
   have cargo || missing+=(cargo-web)
   [ ${#missing[@]} -eq 0 ] || install "${missing[@]}"
   debian_library
   export RUSTC=/usr/bin/rustc CARGO_ENCODED_RUSTFLAGS="--sysroot=$PWD/.tools/aarch64/usr"
 fi
 
-# `lanes` and `hierarchy` have no tests of their own: ocb-fast, simdop and the trees are theirs.
-packages=(ocb-lanes ocb-triangles ocb-hierarchy ocb-wide ocb-core ocb-fields ocb-fast ocb-simdop ocb-auto ocb-box-tree ocb-brute-force
-  ocb-dop-tree ocb-obb-tree ocb-restricted-box-tree ocb-rss-tree ocb-sphere-tree ocb-convex ocb-v-clip ocb-convex-parts
-  ocb-distance-field ocb-inner-spheres ocb-voxmap-pointshell ocb-parry ocb-chart ocb-citation ocb-stability ocb-advice ocb-model
-  opencollbench-plugin)
-slow=(at_every_gap in_odd_units_and_places whatever_the_winding_and_the_order with_rotations_not_quite)
-# Compilers of this machine: C++ and Rust build for x86-64.
+# `lanes` and `hierarchy` have no tests of their own: ocb-fast, simdop and box-tree are theirs.
+packages=(ocb-lanes ocb-triangles ocb-hierarchy ocb-wide ocb-core ocb-fields ocb-fast ocb-simdop ocb-box-tree
+  ocb-chart ocb-citation ocb-stability ocb-advice ocb-model opencollbench-plugin)
+others=(ocb-auto ocb-brute-force ocb-dop-tree ocb-obb-tree ocb-restricted-box-tree ocb-rss-tree ocb-sphere-tree ocb-convex
+  ocb-v-clip ocb-convex-parts ocb-distance-field ocb-inner-spheres ocb-voxmap-pointshell ocb-parry)
+slow=(at_every_gap in_odd_units_and_places whatever_the_winding_and_the_order with_rotations_not_quite
+  counts_between_the_steps counts_shape_and_winding half_of_the_controls_cross the_same_winner_at the_grid_covers_more
+  random_poses_agree_with_the_winding_number brute_force:: cgal:: distances_agree_with_four every_kind_of_pair)
+# The compilers that these call build for this machine.
 skip=(the_cpp_ the_rust_template_answers)
-if [ "${1:-}" = all ]; then shift; else skip+=("${slow[@]}"); fi
+if [ "${1:-}" = all ]; then
+  shift
+  packages+=("${others[@]}")
+else
+  skip+=("${slow[@]}")
+  export OCB_PAIRS=${OCB_PAIRS:-10000}
+fi
 [ $# -eq 0 ] || packages=("$@")
 
 export CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc
