@@ -112,7 +112,9 @@ fn the_layout_is_the_one_that_was_reviewed() {
     // Where a struct stands in its file, and which version this package has, are not the ABI.
     let stable = |line: &&str| !line.trim_start().starts_with("line:") && !line.trim_start().starts_with("package:");
     let lines: Vec<&str> = text.lines().filter(stable).map(str::trim_end).collect();
-    insta::assert_snapshot!(lines.join("\n"));
+    // C's `char` is `i8` or `u8`, as the processor's convention has it; nothing of ours points to a `u8`.
+    let text = lines.join("\n").replace(&format!("*const {}", std::any::type_name::<std::ffi::c_char>()), "*const i8");
+    insta::assert_snapshot!(text);
 }
 
 #[test]
