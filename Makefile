@@ -78,7 +78,7 @@ check-oracle: ## the oracle against CGAL, integers and planted faults (some 20 m
 	cargo test $(CARGO_FLAGS) --test oracle -- --nocapture
 	tests/oracle-check/faults.py all
 
-aarch64: ## build what is portable for aarch64 and run its tests under qemu (some minutes)
+aarch64: ## build what is portable for aarch64 and run its tests under qemu (some 20 minutes)
 	tests/setup/aarch64.sh
 
 bench: build ## every algorithm side by side (OBJECTS=files), the clock, finding positions against peers, first pictures and selections on pages
