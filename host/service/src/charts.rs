@@ -45,7 +45,7 @@ impl Inner {
     async fn charted_runs(&self, row: &RunRow, kind: ChartKind, viewer: Option<&str>) -> Result<Vec<RunRow>> {
         match kind {
             // Its results are compared with no other run's.
-            _ if row.state != State::Done => Ok(vec![row.clone()]),
+            _ if matches!(row.state, State::Queued | State::Running) => Ok(vec![row.clone()]),
             ChartKind::Distance => self.at_other_distances(row, viewer).await,
             ChartKind::Triangles => self.of_other_sizes(row, viewer).await,
             _ => Ok(vec![row.clone()]),
@@ -54,7 +54,8 @@ impl Inner {
 
     async fn draw(&self, row: &RunRow, runs: &[RunRow], request: ChartRequest) -> Result<Chart> {
         let run = &row.id;
-        let results = self.results_so_far(row).await?;
+        let mut results = self.results_so_far(run).await?;
+        results.retain(|result| result.n > 0);
         let preliminary = results.iter().any(|result| result.preliminary);
         if results.is_empty() {
             return Err(EngineError::NotFound(format!("The run {run:?} cannot be charted: no algorithm has a time.")));
@@ -111,15 +112,6 @@ impl Inner {
         let only = if let [one] = results { one.algorithm.as_str() } else { "" };
         let algorithm = request.algorithm.as_deref().unwrap_or(only);
         Ok(Some(self.chosen(&row.id, algorithm, selection).await?))
-    }
-
-    /// The summaries of a run that come with a time; of a run under way those so far.
-    async fn results_so_far(&self, row: &RunRow) -> Result<Vec<AlgorithmResult>> {
-        let mut all: Vec<_> = self.store.results(&row.id).await?.into_iter().map(|stored| stored.result).collect();
-        let so_far = self.under_way.results(&row.id).into_iter();
-        all.extend(so_far.filter(|new| all.iter().all(|old| old.algorithm != new.algorithm)).collect::<Vec<_>>());
-        all.retain(|result| result.n > 0);
-        Ok(all)
     }
 }
 

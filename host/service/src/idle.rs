@@ -76,10 +76,7 @@ async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
     if let Some((work, what)) = inner.next_example(&tried) {
         match work {
             ExampleWork::Run { spec, .. } => queue_run(inner, *spec, &[what], None).await?,
-            ExampleWork::Advice { spec } => {
-                let id = inner.ask_own_advice(spec).await?;
-                inner.store.note_tried(&what, &id).await?;
-            }
+            ExampleWork::Advice { spec } => note(inner, inner.ask_own_advice(spec).await, &[what]).await?,
         }
         return Ok(true);
     }
@@ -100,16 +97,21 @@ async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
 async fn queue_run(inner: &Arc<Inner>, spec: RunSpec, tried: &[Tried], suite: Option<&str>) -> Result<()> {
     let engine = Engine { inner: inner.clone() };
     let context = RunContext { priority: IDLE, suite, ..RunContext::default() };
-    let run = match engine.enqueue(spec, context).await {
-        Ok((run, _)) => run,
+    note(inner, engine.enqueue(spec, context).await.map(|(run, _)| run), tried).await
+}
+
+/// Notes what was tried and in which run or advice. What cannot be asked for is not asked for again.
+async fn note(inner: &Inner, queued: Result<String>, tried: &[Tried]) -> Result<()> {
+    let id = match queued {
+        Ok(id) => id,
         Err(e @ EngineError::Fault(_)) => return Err(e),
         Err(e) => {
-            tracing::warn!("idle work: a run cannot be queued: {e}");
+            tracing::warn!("idle work cannot be queued: {e}");
             String::new()
         }
     };
     for what in tried {
-        inner.store.note_tried(what, &run).await?;
+        inner.store.note_tried(what, &id).await?;
     }
     Ok(())
 }

@@ -186,7 +186,16 @@ impl Inner {
         Ok((mesh, map))
     }
 
-    /// The same, or what a run under way has so far.
+    /// The summaries of a run, also those that one under way has so far.
+    pub async fn results_so_far(&self, run: &str) -> Result<Vec<AlgorithmResult>> {
+        let mut all: Vec<_> = self.store.results(run).await?.into_iter().map(|stored| stored.result).collect();
+        let is_new = |new: &AlgorithmResult| all.iter().all(|old| old.algorithm != new.algorithm);
+        let so_far: Vec<_> = self.under_way.results(run).into_iter().filter(is_new).collect();
+        all.extend(so_far);
+        Ok(all)
+    }
+
+    /// Summary and records of one algorithm, also those that a run under way has so far.
     pub async fn records_so_far(&self, run: &str, algorithm: &str) -> Result<(AlgorithmResult, Arc<RecordColumns>)> {
         match self.records(run, algorithm).await {
             Ok((stored, records)) => Ok((stored.result, records)),

@@ -31,9 +31,7 @@ use std::time::{Duration, Instant};
 use crate::boxed;
 use crate::engine::Engine;
 use crate::locks::Lock;
-use crate::model::{
-    AccountInfo, AlgorithmResult, Cursor, Page, Part, Role, RunInfo, RunSpec, Stage, State, Visibility,
-};
+use crate::model::{AccountInfo, Cursor, Page, Part, Role, RunInfo, RunSpec, Stage, State, Visibility};
 use crate::quotas::{Visitor, granted, turn};
 use crate::runs::log::{fresh_stages, plain_event};
 use crate::runs::priority::INTERACTIVE;
@@ -275,9 +273,7 @@ impl Engine {
             let open = |stage: &&mut Stage| matches!(stage.state, State::Queued | State::Running);
             stages.iter_mut().filter(open).for_each(|stage| stage.state = State::Cancelled);
         }
-        let mut results: Vec<_> = store.results(&row.id).await?.into_iter().map(|stored| stored.result).collect();
-        let so_far = self.inner.under_way.results(&row.id).into_iter();
-        results.extend(so_far.filter(|new| store_has_none(&results, new)).collect::<Vec<_>>());
+        let results = self.inner.results_so_far(&row.id).await?;
         let seconds_left = self.inner.under_way.seconds_left(&row.id);
         Ok(RunInfo {
             stages,
@@ -303,8 +299,4 @@ impl Engine {
             spec: row.spec,
         })
     }
-}
-
-fn store_has_none(stored: &[AlgorithmResult], new: &AlgorithmResult) -> bool {
-    stored.iter().all(|known| known.algorithm != new.algorithm)
 }

@@ -10,8 +10,9 @@ use ocb_service::model::{
     AccountInfo, Ended, MachineFacts, MachineState, MeasuredAlgorithm, OutcomeName, PluginState, Role, RunInfo,
     RunSpec, State, Told, WorkOrder,
 };
-use ocb_service::worker::Handed;
+use ocb_service::worker::{Handed, Worker};
 use ocb_service::{Ceilings, Engine, EngineConfig, EngineError, Handing, Profile, Visitor};
+use tempfile::TempDir;
 use tokio::sync::{Mutex, MutexGuard};
 
 /// No wait for work.
@@ -32,6 +33,15 @@ fn small(algorithms: &[&str]) -> RunSpec {
     RunSpec { algorithms, budget_seconds: 5.0, ..common::spec("proximity", 40, 1) }
 }
 
+/// A service on a folder of its own, which is there as long as the first of the three, and the machine that it has allowed.
+async fn site() -> ((MutexGuard<'static, ()>, TempDir), Engine, Worker) {
+    let here = (alone().await, tempfile::tempdir().unwrap());
+    let engine = Engine::open(config(here.1.path())).await.unwrap();
+    engine.add_machine("alpha").await.unwrap();
+    let worker = common::here(&config(here.1.path()));
+    (here, engine, worker)
+}
+
 /// The next order, which comes once the run is prepared.
 async fn order(engine: &Engine, machine: &str, facts: &MachineFacts) -> WorkOrder {
     let order = engine.next_order(machine, facts, Duration::from_secs(60)).await.unwrap();
@@ -48,13 +58,8 @@ async fn state(engine: &Engine, run: &RunInfo) -> State {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn results_of_something_else_are_refused_and_those_of_the_order_kept_once() {
-    let _alone = alone().await;
-    let data = tempfile::tempdir().unwrap();
-    let engine = Engine::open(config(data.path())).await.unwrap();
-    for name in ["alpha", "beta"] {
-        engine.add_machine(name).await.unwrap();
-    }
-    let worker = common::here(&config(data.path()));
+    let (_here, engine, worker) = site().await;
+    engine.add_machine("beta").await.unwrap();
     let run = engine.submit(small(&["box-tree", "brute-force"]), None).await.unwrap();
     let order = order(&engine, "alpha", worker.facts()).await;
     assert_eq!((order.run.as_str(), order.draw.secret.as_deref()), (run.id.as_str(), None), "the secret stays here");
@@ -120,11 +125,7 @@ async fn results_of_something_else_are_refused_and_those_of_the_order_kept_once(
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_machine_that_fails_three_times_does_not_keep_the_run_for_ever() {
-    let _alone = alone().await;
-    let data = tempfile::tempdir().unwrap();
-    let engine = Engine::open(config(data.path())).await.unwrap();
-    engine.add_machine("alpha").await.unwrap();
-    let worker = common::here(&config(data.path()));
+    let (_here, engine, worker) = site().await;
     let run = engine.submit(small(&["box-tree"]), None).await.unwrap();
     for number in 1..=3 {
         assert_ne!(state(&engine, &run).await, State::Failed, "attempt {number}");
@@ -188,11 +189,7 @@ async fn machines_that_would_measure_otherwise_are_refused() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn what_the_jail_of_a_machine_lacks_is_no_result() {
-    let _alone = alone().await;
-    let data = tempfile::tempdir().unwrap();
-    let engine = Engine::open(config(data.path())).await.unwrap();
-    engine.add_machine("alpha").await.unwrap();
-    let worker = common::here(&config(data.path()));
+    let (_here, engine, worker) = site().await;
     let facts = worker.facts().clone();
     let run = engine.submit(small(&["box-tree"]), None).await.unwrap();
     let first = order(&engine, "alpha", &facts).await;
@@ -220,12 +217,9 @@ async fn what_the_jail_of_a_machine_lacks_is_no_result() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_run_that_the_service_cannot_begin_fails_and_holds_up_nobody() {
-    let _alone = alone().await;
-    let data = tempfile::tempdir().unwrap();
-    let engine = Engine::open(config(data.path())).await.unwrap();
-    engine.add_machine("alpha").await.unwrap();
-    let facts = common::here(&config(data.path())).facts().clone();
-    let database = common::database(data.path()).await;
+    let (here, engine, worker) = site().await;
+    let facts = worker.facts();
+    let database = common::database(here.1.path()).await;
     let damaged = engine.submit(small(&["box-tree"]), None).await.unwrap();
     let damage = "UPDATE runs SET set_info = NULL WHERE prepared = 1";
     while sqlx::query(damage).execute(&database).await.unwrap().rows_affected() == 0 {
@@ -233,12 +227,12 @@ async fn a_run_that_the_service_cannot_begin_fails_and_holds_up_nobody() {
     }
     let next = engine.submit(small(&["box-tree"]), None).await.unwrap();
     for _ in 0..3 {
-        assert!(matches!(engine.next_order("alpha", &facts, NOW).await, Err(EngineError::Fault(_))));
+        assert!(matches!(engine.next_order("alpha", facts, NOW).await, Err(EngineError::Fault(_))));
     }
     let run = engine.run(&damaged.id, None).await.unwrap();
     assert_eq!((run.state, run.attempts), (State::Failed, 3));
     assert!(run.message.as_ref().is_some_and(|why| why.contains("no fault of the algorithms")), "{:?}", run.message);
-    assert_eq!(order(&engine, "alpha", &facts).await.run, next.id);
+    assert_eq!(order(&engine, "alpha", facts).await.run, next.id);
     database.close().await;
     engine.shutdown().await;
 }

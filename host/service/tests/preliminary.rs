@@ -198,7 +198,13 @@ async fn a_first_look_changes_neither_questions_nor_ratios() {
             rounds_only: false,
         };
         if watched {
-            first_look(&task, &runner, &machine, &stop, &mut |_, _| seen += 1);
+            let mut compared = Vec::new();
+            first_look(&task, &runner, &machine, &stop, &mut |place, seen| {
+                compared.push((place, seen.result.ratio.is_some()));
+            });
+            // Who is seen before the reference is seen again, compared with it.
+            assert_eq!(compared, [(0, false), (0, true), (1, true)]);
+            seen += compared.len();
         }
         measure(&task, &runner, &machine, &stop, &sender);
         drop(sender);

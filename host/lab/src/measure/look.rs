@@ -17,7 +17,7 @@ use ocb_sandbox::Policy;
 use super::process_pass::{ProcessPass, Purpose};
 use super::summary::preliminary;
 use super::{Asked, Measured, MeasuringState, News, Part, Stop, Task, pace};
-use crate::algorithm::Runner;
+use crate::algorithm::{Algorithm, Runner};
 use crate::columns::RecordColumns;
 use crate::machine::Machine;
 use crate::model::AlgorithmResult;
@@ -124,7 +124,7 @@ pub fn first_look(
             continue;
         }
         let measured = state.so_far(base);
-        let is_reference = task.reference.is_some_and(|reference| reference.info.id == algorithm.info.id);
+        let is_reference = task.is_reference(algorithm);
         if is_reference {
             earlier.drain(..).for_each(|(index, before)| show(index, seen(index, &before, Some(&measured))));
         }
@@ -169,9 +169,7 @@ impl<'a> Showing<'a> {
         if !self.task.watched || !worth_a_look(self.numbers.len() as u64) {
             return;
         }
-        let named =
-            |state: &&MeasuringState| self.task.reference.is_some_and(|it| it.info.id == state.algorithm.info.id);
-        if states.get(index).is_some_and(|state| named(&state)) {
+        if self.task.is_reference(&states[index].algorithm) {
             // All others are compared with it.
             self.waiting = (0..self.task.algorithms.len()).collect();
         } else if !self.waiting.contains(&index) {
@@ -181,7 +179,8 @@ impl<'a> Showing<'a> {
             return;
         }
         let begun = Instant::now();
-        let of_reference = states.iter().find(named).map(|state| state.so_far(self.numbers));
+        let reference = states.iter().find(|state| self.task.is_reference(&state.algorithm));
+        let of_reference = reference.map(|state| state.so_far(self.numbers));
         for index in self.waiting.drain(..) {
             let measured = states[index].so_far(self.numbers);
             if !measured.records.is_empty() {
@@ -194,6 +193,10 @@ impl<'a> Showing<'a> {
 }
 
 impl Task<'_> {
+    fn is_reference(&self, algorithm: &Algorithm) -> bool {
+        self.reference.is_some_and(|reference| reference.info.id == algorithm.info.id)
+    }
+
     /// Seconds that the algorithm will take for everything, by what it took in a first look.
     fn seconds(&self, index: usize, seen: &Measured) -> f64 {
         let counted = seen.algorithm.info.counters && index < self.algorithms.len();

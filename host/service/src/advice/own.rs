@@ -2,8 +2,6 @@
 //!
 //! It gives way to any request and begins anew when the service is idle again; the certificates that it found are kept.
 
-use std::sync::Arc;
-
 use super::waiting;
 use crate::Result;
 use crate::engine::Inner;
@@ -19,7 +17,7 @@ impl Inner {
     }
 
     /// Works on the oldest that has no end; false when none waits, or visitors' advice is at work.
-    pub(crate) async fn next_own_advice(self: &Arc<Self>, asked: u64) -> Result<bool> {
+    pub(crate) async fn next_own_advice(&self, asked: u64) -> Result<bool> {
         let Ok(_turn) = self.advices.turn.try_acquire() else { return Ok(false) };
         let Some(row) = self.store.open_own_advice().await?.into_iter().next() else { return Ok(false) };
         // Another service may be quicker.

@@ -55,10 +55,11 @@ pub async fn run_was_lost(inner: &Arc<Inner>, run: &str, now: State) -> Result<(
 }
 
 impl Store {
-    /// The run of a lost attempt waits again, or has failed after so many; nothing when the attempt was not lost.
-    pub async fn lose_run(&self, attempt: &Attempt, just_started: Option<&Worker>) -> Result<Option<State>> {
+    /// The run of a lost attempt waits again, or has failed after so many; nothing when the attempt was not lost. Attempts of a
+    /// worker that is given up are lost whatever their lease.
+    pub async fn lose_run(&self, attempt: &Attempt, given_up: Option<&Worker>) -> Result<Option<State>> {
         let mut transaction = self.pool.begin().await?;
-        if !sql::lose(&mut transaction, attempt, just_started).await? {
+        if !sql::lose(&mut transaction, attempt, given_up).await? {
             return Ok(None);
         }
         let Some(run) = find_run(&mut *transaction, &attempt.job).await?.filter(|run| run.state == State::Running)
@@ -86,9 +87,9 @@ impl Store {
     }
 
     /// The check of a lost attempt waits again; false when the attempt was not lost.
-    pub async fn lose_check(&self, attempt: &Attempt, just_started: Option<&Worker>) -> Result<bool> {
+    pub async fn lose_check(&self, attempt: &Attempt, given_up: Option<&Worker>) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
-        if !sql::lose(&mut transaction, attempt, just_started).await? {
+        if !sql::lose(&mut transaction, attempt, given_up).await? {
             return Ok(false);
         }
         let text = "UPDATE submissions SET state = 'uploaded' WHERE id = $1 AND state = 'vetted'";
@@ -98,8 +99,8 @@ impl Store {
     }
 
     /// Ends a lost attempt at a job that waits by itself; false when it was not lost.
-    pub async fn lose(&self, attempt: &Attempt, just_started: Option<&Worker>) -> Result<bool> {
+    pub async fn lose(&self, attempt: &Attempt, given_up: Option<&Worker>) -> Result<bool> {
         let mut connection = self.pool.acquire().await?;
-        sql::lose(&mut connection, attempt, just_started).await
+        sql::lose(&mut connection, attempt, given_up).await
     }
 }

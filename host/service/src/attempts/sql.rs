@@ -89,16 +89,12 @@ pub(crate) async fn end(connection: &mut AnyConnection, attempt: &Attempt, outco
     Ok(done.rows_affected() == 1)
 }
 
-/// Ends an attempt whose worker is gone; false when it has renewed its lease meanwhile.
-pub(crate) async fn lose(
-    connection: &mut AnyConnection,
-    attempt: &Attempt,
-    just_started: Option<&Worker>,
-) -> Result<bool> {
+/// Ends an attempt whose worker is gone; false when it has renewed its lease meanwhile, unless that worker is given up.
+pub(crate) async fn lose(connection: &mut AnyConnection, attempt: &Attempt, given_up: Option<&Worker>) -> Result<bool> {
     let text = "UPDATE attempts SET ended_us = (SELECT now_us FROM database_clock), outcome = $1 \
                 WHERE id = $2 AND ended_us IS NULL \
                 AND (machine = $3 OR lease_us < (SELECT now_us FROM database_clock))";
-    let machine = just_started.map(|worker| worker.machine.as_str());
+    let machine = given_up.map(|worker| worker.machine.as_str());
     let done = sqlx::query(text).bind(Outcome::Lost.name()).bind(&attempt.id).bind(machine);
     Ok(done.execute(connection).await?.rows_affected() == 1)
 }

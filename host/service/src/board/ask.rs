@@ -56,32 +56,29 @@ impl Inner {
     #[boxed]
     pub async fn measured_of(&self, row: &RunRow) -> Result<Vec<Measured>> {
         let Some(machine) = &row.environment else { return Ok(Vec::new()) };
-        let circumstances = Circumstances {
-            run: &row.id,
-            finished_us: row.finished_us.unwrap_or(row.created_us),
-            spec: &row.spec,
-            names: [&row.object_a_name, &row.object_b_name],
-            machine: [&machine.cpu, &machine.hardware_class],
-            ranked: machine.profile == Profile::Production.as_str(),
-            preview: row.preview.as_ref(),
-            set: row.set.as_ref(),
-        };
+        let ranked = machine.profile == Profile::Production.as_str();
+        let circumstances = circumstances(row, [&machine.cpu, &machine.hardware_class], ranked);
         let results = self.store.results(&row.id).await?.into_iter();
         Ok(results.map(|stored| Measured::of(&circumstances, &stored.plugin_sha256, stored.result)).collect())
     }
 
     /// The results so far of a run that is being measured here.
     pub fn measured_so_far(&self, row: &RunRow, results: &[AlgorithmResult]) -> Vec<Measured> {
-        let circumstances = Circumstances {
-            run: &row.id,
-            finished_us: row.created_us,
-            spec: &row.spec,
-            names: [&row.object_a_name, &row.object_b_name],
-            machine: [&self.machine.cpu, &self.machine.hardware_class],
-            ranked: self.registry.profile() == Profile::Production,
-            preview: None,
-            set: row.set.as_ref(),
-        };
+        let ranked = self.registry.profile() == Profile::Production;
+        let circumstances = circumstances(row, [&self.machine.cpu, &self.machine.hardware_class], ranked);
         results.iter().map(|result| Measured::of(&circumstances, "", result.clone())).collect()
+    }
+}
+
+fn circumstances<'a>(row: &'a RunRow, machine: [&'a str; 2], ranked: bool) -> Circumstances<'a> {
+    Circumstances {
+        run: &row.id,
+        finished_us: row.finished_us.unwrap_or(row.created_us),
+        spec: &row.spec,
+        names: [&row.object_a_name, &row.object_b_name],
+        machine,
+        ranked,
+        preview: row.preview.as_ref(),
+        set: row.set.as_ref(),
     }
 }

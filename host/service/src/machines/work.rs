@@ -80,6 +80,7 @@ impl Engine {
             Err(EngineError::Busy(_)) => Ok(None),
             // A fault of ours, which may last: the run is not the first in the queue for ever.
             Err(e) => {
+                tracing::error!("run {}, attempt {} cannot begin: {e}", attempt.job, attempt.number);
                 self.lose(machine, attempt).await?;
                 Err(e)
             }

@@ -40,13 +40,13 @@ export function rankings(results: readonly AlgorithmResult[]): Ranking[] {
  * compared with the reference gets one.
  */
 export function rank(results: readonly AlgorithmResult[]): Omit<Ranking, 'words'> {
-  const soFar = ({ place_so_far: place }: AlgorithmResult) => place ?? Number.POSITIVE_INFINITY
+  const soFar = ({ place_so_far: place }: AlgorithmResult) => place ?? Number.MAX_VALUE
   const unranked = results
     .flatMap((result) => {
       const reason = whyNot(result)
       return reason ? [{ result, reason }] : []
     })
-    .toSorted((a, b) => (soFar(a.result) === soFar(b.result) ? 0 : soFar(a.result) - soFar(b.result)))
+    .toSorted((a, b) => soFar(a.result) - soFar(b.result))
   const placed = results.flatMap((result) => (result.rank == null || whyNot(result) ? [] : [{ result, rank: result.rank }]))
   const ranked = placed
     .toSorted((a, b) => a.rank - b.rank || (a.result.ratio?.value ?? 0) - (b.result.ratio?.value ?? 0))
