@@ -205,7 +205,11 @@ fn a_machine_measures_what_the_service_has_prepared() {
     let still = site.wait(&run, "anything", |_| true);
     assert_eq!(still["state"], "queued", "the service measures nothing by itself: {still}");
     let machine = site.machine("alpha");
+    let shown =
+        |run: &Value| run["results"].as_array().is_some_and(|all| all.iter().any(|it| it["preliminary"] == true));
+    site.wait(&run, "something is seen before the end", shown);
     let run = site.ended(&run);
+    assert!(!shown(&run), "{run}");
     machine.says("is handed in", Duration::from_secs(5));
     drop(machine);
     // The seed follows from a secret that the machine never had.

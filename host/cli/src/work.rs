@@ -8,10 +8,11 @@ use std::time::{Duration, Instant};
 
 use ocb_service::doctor::examine;
 use ocb_service::model::{Ended, Told, WorkOrder};
-use ocb_service::worker::{Handed, Worker};
+use ocb_service::worker::{Handed, Report, Seen, Worker};
 use ocb_service::{LabError, Runner, Stop};
 use tokio::runtime::Handle;
 use tokio::sync::watch;
+use tokio::time::MissedTickBehavior;
 
 use crate::args::{Store, WorkArgs};
 use crate::failure::{Failure, Result};
@@ -96,26 +97,28 @@ async fn pause(time: Duration, stopped: &watch::Receiver<bool>) {
 
 /// Measures one run and hands it in.
 async fn carry_out(worker: Worker, link: &Arc<Link>, order: WorkOrder, stopped: &watch::Receiver<bool>) -> Result<()> {
-    let (stop, steps, order) = (Stop::default(), Arc::new(Mutex::new(Some(Vec::new()))), Arc::new(order));
+    let (stop, news, order) = (Stop::default(), Arc::new(Mutex::new(Some(News::default()))), Arc::new(order));
     eprintln!("ocb: measuring the run {}", order.run);
     let begun = Instant::now();
     let measuring = {
-        let (link, order, stop, steps) = (link.clone(), order.clone(), stop.clone(), steps.clone());
+        let (link, order, stop, news) = (link.clone(), order.clone(), stop.clone(), news.clone());
         let (handle, stopped) = (Handle::current(), stopped.clone());
         tokio::task::spawn_blocking(move || {
             let fetch = |name: &str| {
                 let fetched = handle.block_on(fetched(&link, &order.attempt, name, &stopped));
                 fetched.map_err(|e| LabError::Fault(format!("The file {name:?} of the run cannot be had. {e}")))
             };
-            worker.measure(&order, &stop, &fetch, &mut |told| note(&steps, told))
+            worker.measure(&order, &stop, &fetch, &mut |report| note(&news, report))
         })
     };
-    let beating = tokio::spawn(beat(link.clone(), order.clone(), stop.clone(), steps.clone()));
+    let beating = tokio::spawn(beat(link.clone(), order.clone(), stop.clone(), news.clone()));
+    let showing = tokio::spawn(show(link.clone(), order.clone(), news.clone()));
     let watching = tokio::spawn(watch_over(stop.clone(), stopped.clone(), order.most_seconds));
     let measured = measuring.await.map_err(|e| Failure::Fault(format!("the measuring thread ended: {e}.")))?;
     watching.abort();
+    showing.abort();
     // What is told from now on would come behind the end.
-    steps.lock().unwrap_or_else(PoisonError::into_inner).take();
+    news.lock().unwrap_or_else(PoisonError::into_inner).take();
     let Handed { ended, files } = match measured {
         Ok(Some(handed)) => handed,
         _ if *stopped.borrow() => plain(Ended::PutBack),
@@ -174,25 +177,60 @@ fn plain(ended: Ended) -> Handed {
     Handed { ended, files: Vec::new() }
 }
 
-/// Keeps a step for the next beat, of the progress of an algorithm the newest alone; nothing once the measuring has ended.
-fn note(steps: &Mutex<Option<Vec<Told>>>, told: Told) {
-    let mut steps = steps.lock().unwrap_or_else(PoisonError::into_inner);
-    let Some(steps) = &mut *steps else { return };
-    if let Told::Progress { place: of, .. } = &told {
-        steps.retain(|known| !matches!(known, Told::Progress { place, .. } if place == of));
+/// What the service is to hear next.
+#[derive(Default)]
+struct News {
+    steps: Vec<Told>,
+    seen: Vec<Seen>,
+}
+
+/// Keeps what is told for the next beat, the newest of an algorithm alone; nothing once the measuring has ended.
+fn note(news: &Mutex<Option<News>>, report: Report) {
+    let mut news = news.lock().unwrap_or_else(PoisonError::into_inner);
+    let Some(news) = &mut *news else { return };
+    match report {
+        Report::Told(told) => {
+            if let Told::Progress { place: of, .. } = &told {
+                news.steps.retain(|known| !matches!(known, Told::Progress { place, .. } if place == of));
+            }
+            news.steps.push(told);
+        }
+        Report::Seen(seen) => {
+            news.seen.retain(|known| known.place != seen.place);
+            news.seen.push(*seen);
+        }
     }
-    steps.push(told);
+}
+
+fn taken<T: Default>(news: &Mutex<Option<News>>, part: impl FnOnce(&mut News) -> &mut T) -> T {
+    news.lock()
+        .unwrap_or_else(PoisonError::into_inner)
+        .as_mut()
+        .map(|news| std::mem::take(part(news)))
+        .unwrap_or_default()
 }
 
 /// Tells the service every two seconds that the work goes on, and how far it is; stops the work when the service has ended it. While
 /// the service is not reached, the work goes on: it may have been started again.
-async fn beat(link: Arc<Link>, order: Arc<WorkOrder>, stop: Stop, steps: Arc<Mutex<Option<Vec<Told>>>>) {
+async fn beat(link: Arc<Link>, order: Arc<WorkOrder>, stop: Stop, news: Arc<Mutex<Option<News>>>) {
     let mut ticks = tokio::time::interval(BEAT);
     loop {
         ticks.tick().await;
-        let told = steps.lock().unwrap_or_else(PoisonError::into_inner).as_mut().map(std::mem::take);
-        if matches!(link.beat(&order.attempt, told.unwrap_or_default()).await, Ok(false) | Err(Refused::For(_))) {
+        let steps = taken(&news, |news| &mut news.steps);
+        if matches!(link.beat(&order.attempt, steps).await, Ok(false) | Err(Refused::For(_))) {
             return stop.stop();
+        }
+    }
+}
+
+/// Sends what there is to see so far, as often. What cannot be sent is left out: there will be more.
+async fn show(link: Arc<Link>, order: Arc<WorkOrder>, news: Arc<Mutex<Option<News>>>) {
+    let mut ticks = tokio::time::interval(BEAT / 2);
+    ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    loop {
+        ticks.tick().await;
+        for seen in taken(&news, |news| &mut news.seen) {
+            let _ = link.show(&order.attempt, &seen).await;
         }
     }
 }

@@ -24,6 +24,8 @@ const TICK: Duration = Duration::from_millis(200);
 pub struct Job<'a> {
     /// The task; its control questions are drawn here.
     pub task: Task<'a>,
+    /// The seed of the processes that look at the algorithms before the rounds, if that is wanted.
+    pub look: Option<u64>,
     /// The configuration set as it is stored.
     pub set: &'a SetInfo,
     /// Id of the run.
@@ -86,12 +88,10 @@ pub struct Results {
     pub preview: Option<Preview>,
 }
 
-/// Measures the job; `None` when it was stopped. `before` is called with the machine's measuring lock held, before the rounds. An
-/// error of `tell` ends the job with it, when its thread has ended.
+/// Measures the job; `None` when it was stopped. An error of `tell` ends the job with it, when its thread has ended.
 pub fn measure<E: From<LabError>>(
     job: Job<'_>,
     place: &Place<'_>,
-    before: impl FnOnce() + Send,
     tell: &mut dyn FnMut(Step) -> Result<(), E>,
 ) -> Result<Option<Results>, E> {
     let Place { runner, machine, stop } = *place;
@@ -105,7 +105,12 @@ pub fn measure<E: From<LabError>>(
         let task = &task;
         let worker = worker
             .spawn_scoped(scope, move || {
-                before();
+                if let Some(seed) = job.look.filter(|_| measure::worth_a_look(task.part.most(task.set) as u64)) {
+                    let task = Task { seed, controls: &[], ..*task };
+                    measure::first_look(&task, runner, machine, stop, &mut |index, seen| {
+                        let _ = sender.send(News::Preliminary { index, preliminary: Box::new(seen) });
+                    });
+                }
                 measure::measure(task, runner, machine, stop, &sender);
             })
             .map_err(|e| LabError::fault("Starting the measuring thread failed", e))?;

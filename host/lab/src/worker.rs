@@ -4,13 +4,14 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
 use tempfile::TempDir;
 
 use crate::algorithm::{Algorithm, Runner, plugin_files, plugin_hash};
 use crate::columns::read_set;
 use crate::job::{self, Job, Place, Results, Step};
 use crate::machine::Machine;
-use crate::measure::{Part, Stop, Task};
+use crate::measure::{Part, Preliminary, Stop, Task};
 use crate::mesh_file::from_bytes;
 use crate::model::{Ended, MachineFacts, MeasuredAlgorithm, OrderedAlgorithm, Told, WorkOrder};
 use crate::pairing::Pairing;
@@ -31,6 +32,23 @@ pub struct Handed {
     pub ended: Ended,
     /// In the order in which [`Ended::Measured`] names them.
     pub files: Vec<Vec<u8>>,
+}
+
+/// What an algorithm has found so far.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Seen {
+    /// Its place in the list of algorithms.
+    pub place: usize,
+    /// Numbers and records.
+    pub preliminary: Preliminary,
+}
+
+/// What a machine tells while it measures.
+pub enum Report {
+    /// How far it is.
+    Told(Told),
+    /// What there is to see.
+    Seen(Box<Seen>),
 }
 
 /// Gives the file that an order names.
@@ -75,7 +93,7 @@ impl Worker {
         order: &WorkOrder,
         stop: &Stop,
         fetch: &Fetch<'_>,
-        tell: &mut dyn FnMut(Told),
+        tell: &mut dyn FnMut(Report),
     ) -> Result<Option<Handed>> {
         let spec = &order.spec;
         let pairing = pairing(order, fetch)?;
@@ -86,14 +104,13 @@ impl Worker {
             order.algorithms.iter().map(|it| self.algorithm(it, &brought, fetch)).collect::<Result<_>>()?;
         let reference = order.reference.as_ref().map(|it| self.algorithm(it, &brought, fetch)).transpose()?;
         let part = Part::of(spec, &set);
-        let task =
-            Task { seed: order.draw.seed, ..Task::of(spec, (&pairing, &set, part), &algorithms, reference.as_ref()) };
-        let job = Job { task, set: &order.set, run: &order.run, draw: order.draw.clone() };
+        let watched = order.look.is_some();
+        let task = Task::of(spec, (&pairing, &set, part), &algorithms, reference.as_ref());
+        let task = Task { seed: order.draw.seed, watched, ..task };
+        let job = Job { task, look: order.look, set: &order.set, run: &order.run, draw: order.draw.clone() };
         let place = Place { runner: &self.runner, machine: &self.machine, stop };
-        let found: Result<Option<Results>> = job::measure(job, &place, || {}, &mut |step| {
-            if let Some(told) = told(&step) {
-                tell(told);
-            }
+        let found: Result<Option<Results>> = job::measure(job, &place, &mut |step| {
+            tell(report(step));
             Ok(())
         });
         Ok(found?.map(handed))
@@ -145,13 +162,13 @@ fn checked<T>(what: &str, ordered: &str, found: String, arrived: T) -> Result<T>
     Err(LabError::Fault(format!("The {what} that the service sent is not the ordered one: {found}, not {ordered}.")))
 }
 
-fn told(step: &Step) -> Option<Told> {
-    match *step {
-        Step::Waiting(waiting) => Some(Told::Waiting { waiting }),
+fn report(step: Step) -> Report {
+    match step {
+        Step::Waiting(waiting) => Report::Told(Told::Waiting { waiting }),
         Step::Progress { place, done, total, worked } => {
-            Some(Told::Progress { place, done, total, worked_us: worked.as_micros() as u64 })
+            Report::Told(Told::Progress { place, done, total, worked_us: worked.as_micros() as u64 })
         }
-        Step::Preliminary(..) => None,
+        Step::Preliminary(place, seen) => Report::Seen(Box::new(Seen { place, preliminary: *seen })),
     }
 }
 

@@ -124,6 +124,8 @@ pub struct WorkOrder {
     pub algorithms: Vec<OrderedAlgorithm>,
     /// What all of them are compared with.
     pub reference: Option<OrderedAlgorithm>,
+    /// Somebody may watch the run: the seed of the processes that look at its algorithms before the rounds.
+    pub look: Option<u64>,
     /// The run is stopped after so many seconds.
     pub most_seconds: Option<f64>,
 }

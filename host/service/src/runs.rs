@@ -258,6 +258,7 @@ impl Engine {
             }
             tokio::time::sleep(Duration::from_millis(20)).await;
         }
+        self.inner.under_way.forget(id);
         if let Some(campaign) = &row.campaign {
             self.inner.end_campaign_when_through(campaign).await?;
         }
@@ -273,8 +274,13 @@ impl Engine {
             let open = |stage: &&mut Stage| matches!(stage.state, State::Queued | State::Running);
             stages.iter_mut().filter(open).for_each(|stage| stage.state = State::Cancelled);
         }
-        let results = self.inner.results_so_far(&row.id).await?;
-        let seconds_left = self.inner.under_way.seconds_left(&row.id);
+        let mut results = self.inner.results_so_far(&row.id).await?;
+        let mut seconds_left = self.inner.under_way.seconds_left(&row.id);
+        // Ended at another service, or it waits again, since its machine was heard from here.
+        if row.state != State::Running {
+            results.retain(|result| !result.preliminary);
+            seconds_left = None;
+        }
         Ok(RunInfo {
             stages,
             results,

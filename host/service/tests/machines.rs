@@ -3,16 +3,20 @@
 mod common;
 
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
 use ocb_core::query::Query;
+use ocb_core::statistics::{Outliers, Statistic};
 use ocb_service::model::{
-    AccountInfo, Ended, MachineFacts, MachineState, MeasuredAlgorithm, OutcomeName, PluginState, Role, RunInfo,
-    RunSpec, State, Told, WorkOrder,
+    AccountInfo, Claim, Ended, HeatmapRequest, MachineFacts, MachineState, Measure, MeasuredAlgorithm, OutcomeName,
+    PluginState, Role, RunInfo, RunSpec, State, Told, WorkOrder,
 };
-use ocb_service::worker::{Handed, Worker};
+use ocb_service::worker::{Handed, Seen, Worker};
 use ocb_service::{Ceilings, Engine, EngineConfig, EngineError, Handing, Profile, Visitor};
 use tempfile::TempDir;
+use tokio::runtime::Handle;
 use tokio::sync::{Mutex, MutexGuard};
 
 /// No wait for work.
@@ -120,6 +124,59 @@ async fn results_of_something_else_are_refused_and_those_of_the_order_kept_once(
     assert!(run.results.iter().all(|result| result.rank.is_some() && result.wrong == 0), "{:?}", run.results);
     let draw = run.environment.unwrap().draw.unwrap();
     assert_eq!((draw.seed, draw.secret.is_some()), (order.draw.seed, true), "published with the result");
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_a_machine_has_found_so_far_is_seen_and_nothing_of_something_else() {
+    let (_here, engine, worker) = site().await;
+    let spec = RunSpec { method: common::spec("collision_first", 300, 7).method, ..small(&["parry", "box-tree"]) };
+    let run = engine.submit(spec, Some("me")).await.unwrap();
+    let order = order(&engine, "alpha", worker.facts()).await;
+    let (looks, attempt, of) = (engine.clone(), order.attempt.clone(), run.id.clone());
+    let seen = Arc::new(AtomicU32::new(0));
+    let counted = seen.clone();
+    let look = move |seen: Seen| {
+        let here = Handle::current();
+        let show = |machine: &str, seen: Seen| here.block_on(looks.seen_of(machine, &attempt, seen));
+        assert!(!show("beta", seen.clone()).unwrap(), "of another machine");
+        let with = |change: &dyn Fn(&mut Seen)| {
+            let mut changed = seen.clone();
+            change(&mut changed);
+            changed
+        };
+        let wrong = [
+            with(&|it| it.place = 1 - it.place),
+            with(&|it| it.place = 2),
+            with(&|it| it.preliminary.result.algorithm = "sphere-tree".into()),
+            with(&|it| it.preliminary.records.configuration[0] = 300),
+            with(&|it| it.preliminary.records.time_ns.truncate(1)),
+            with(&|it| {
+                it.preliminary.records.claims.insert(300, Claim { triangles: Some([0, 0]), points: None });
+            }),
+        ];
+        for wrong in wrong {
+            assert!(matches!(show("alpha", wrong), Err(EngineError::Invalid(_))));
+        }
+        // What a machine says of ranks is not believed.
+        let ranked = with(&|it| (it.preliminary.result.rank, it.preliminary.result.preliminary) = (Some(1), false));
+        assert!(show("alpha", ranked).unwrap());
+        let (info, algorithm) = (here.block_on(looks.run(&of, None)).unwrap(), &seen.preliminary.result.algorithm);
+        let shown = info.results.iter().find(|it| it.algorithm == *algorithm).expect("it is shown");
+        assert!(shown.preliminary && shown.rank.is_none() && shown.n == seen.preliminary.result.n, "{shown:?}");
+        let request = HeatmapRequest::new(algorithm, Measure::Time, Statistic::Median, Outliers::Keep);
+        let map = here.block_on(looks.heatmap(&of, &request)).unwrap();
+        assert_eq!((map.preliminary, map.n), (true, shown.n));
+        assert!(info.seconds_left.is_some_and(|left| left > 0.0), "from the first look on");
+        counted.fetch_add(1, Ordering::Relaxed);
+    };
+    let (_, handed) = common::watched(&engine, "alpha", worker, &order, look).await;
+    assert!(seen.load(Ordering::Relaxed) >= 2, "a first look at each");
+    let so_far = engine.run(&run.id, None).await.unwrap().results;
+    assert!(so_far.len() == 2 && so_far.iter().any(|result| result.place_so_far == Some(1)), "{so_far:?}");
+    assert!(hand_in(&engine, "alpha", &order, handed).await);
+    let done = engine.run(&run.id, None).await.unwrap();
+    assert!(done.results.iter().all(|it| !it.preliminary && it.place_so_far.is_none() && it.n == 300), "{done:?}");
     engine.shutdown().await;
 }
 

@@ -11,6 +11,7 @@ use axum::routing::{get, post};
 use axum::{Json, Router};
 use ocb_service::Handing;
 use ocb_service::model::{Beat, Ended, GoOn, MachineFacts};
+use ocb_service::worker::Seen;
 use tokio::sync::Semaphore;
 
 use crate::App;
@@ -22,6 +23,8 @@ const WAIT: Duration = Duration::from_secs(15);
 const MAX_RESULTS: usize = 1 << 30;
 /// So many results are taken at a time; others wait.
 static TAKING: Semaphore = Semaphore::const_new(2);
+/// Largest preliminary result: the records of ten thousand configurations.
+const MAX_SEEN: usize = 16 << 20;
 /// Largest of the other requests.
 const MAX_JSON: usize = 1 << 20;
 
@@ -29,12 +32,15 @@ const MAX_JSON: usize = 1 << 20;
 pub(crate) fn router(app: App) -> Router {
     let large =
         Router::new().route("/internal/v1/attempts/{id}/end", post(end)).layer(DefaultBodyLimit::max(MAX_RESULTS));
+    let shown =
+        Router::new().route("/internal/v1/attempts/{id}/seen", post(seen)).layer(DefaultBodyLimit::max(MAX_SEEN));
     Router::new()
         .route("/internal/v1/attempts", post(begin))
         .route("/internal/v1/attempts/{id}/beat", post(beat))
         .route("/internal/v1/attempts/{id}/files/{name}", get(file))
         .layer(DefaultBodyLimit::max(MAX_JSON))
         .merge(large)
+        .merge(shown)
         .with_state(app)
 }
 
@@ -69,6 +75,17 @@ async fn beat(
     Json(beat): Json<Beat>,
 ) -> Result<Json<GoOn>> {
     let current = app.engine.beat_of(&name, &attempt, beat.steps).await?;
+    Ok(Json(GoOn { current }))
+}
+
+/// What an algorithm has found so far.
+async fn seen(
+    State(app): State<App>,
+    Machine(name): Machine,
+    Path(attempt): Path<String>,
+    Json(seen): Json<Seen>,
+) -> Result<Json<GoOn>> {
+    let current = app.engine.seen_of(&name, &attempt, seen).await?;
     Ok(Json(GoOn { current }))
 }
 

@@ -4,6 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use ocb_service::model::{Beat, Ended, GoOn, MachineFacts, Told, WorkOrder};
+use ocb_service::worker::Seen;
 use reqwest::header::RETRY_AFTER;
 use reqwest::multipart::{Form, Part};
 use reqwest::{Client, RequestBuilder, Response, StatusCode};
@@ -87,6 +88,13 @@ impl Link {
     pub async fn beat(&self, attempt: &str, steps: Vec<Told>) -> Answer<bool> {
         let request =
             self.client.post(self.at(&format!("/{attempt}/beat"))).json(&Beat { steps }).timeout(PATIENCE / 6);
+        let response = self.granted(request).await?;
+        self.read(response).await.map(|GoOn { current }| current)
+    }
+
+    /// An algorithm has found this so far; false when the attempt has ended at the service.
+    pub async fn show(&self, attempt: &str, seen: &Seen) -> Answer<bool> {
+        let request = self.client.post(self.at(&format!("/{attempt}/seen"))).json(seen).timeout(PATIENCE);
         let response = self.granted(request).await?;
         self.read(response).await.map(|GoOn { current }| current)
     }

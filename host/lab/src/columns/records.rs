@@ -6,6 +6,7 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, BooleanArray, Float64Array, RecordBatch, StringArray, UInt32Array, UInt64Array};
 use ocb_core::agreement::Said;
 use ocb_core::record::{ContactScore, Record, Verdict};
+use serde::{Deserialize, Serialize};
 
 use super::answers::{Flat, Pointers};
 use super::{SCHEMA_VERSION, batch, column, from_parquet, to_parquet};
@@ -47,7 +48,7 @@ impl RecordsOf<'_> {
 }
 
 /// What the heatmap and the charts need of the records, in the file's order.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RecordColumns {
     /// Index of the configuration in its set.
     pub configuration: Vec<u32>,
@@ -86,6 +87,15 @@ impl RecordColumns {
             }
         }
         all
+    }
+
+    /// Do the columns belong together, and their rows to a set of so many configurations?
+    pub fn fits(&self, configurations: u32) -> bool {
+        let n = self.configuration.len();
+        let lengths = [self.time_ns.len(), self.bv_tests.len(), self.primitive_tests.len(), self.verdict.len()];
+        lengths.into_iter().chain([self.said.len(), self.flips.len()]).all(|length| length == n)
+            && self.configuration.iter().all(|number| *number < configurations)
+            && self.claims.keys().all(|row| *row < n)
     }
 
     /// All rows, or those of the configurations that are `chosen`.

@@ -13,6 +13,7 @@ use std::time::{Duration, Instant};
 use ocb_core::comparison::compare;
 use ocb_core::configuration::ConfigurationSet;
 use ocb_sandbox::Policy;
+use serde::{Deserialize, Serialize};
 
 use super::process_pass::{ProcessPass, Purpose};
 use super::summary::preliminary;
@@ -44,7 +45,7 @@ const START: f64 = 0.2;
 const PROCESS: u32 = u32::MAX;
 
 /// Preliminary results of one algorithm.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Preliminary {
     /// Its numbers, without a rank.
     pub result: AlgorithmResult,

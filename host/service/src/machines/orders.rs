@@ -6,7 +6,7 @@ use crate::attempts::Attempt;
 use crate::engine::Inner;
 use crate::model::{Draw, OrderedAlgorithm, WorkOrder};
 use crate::runs::sql::RunRow;
-use crate::runs::{draw, spec};
+use crate::runs::{draw, looking, spec};
 use crate::suite::drawn_anew;
 use crate::{EngineError, Result};
 
@@ -39,6 +39,7 @@ pub async fn order(inner: &Inner, attempt: &Attempt, row: &RunRow) -> Result<Opt
         draw,
         algorithms: algorithms.iter().map(|it| ordered(it)).collect(),
         reference: spec::reference(&row.spec, &inner.registry).map(|it| ordered(&it)),
+        look: looking::seed(row, &algorithms),
         most_seconds: inner.longest_run(row).map(|longest| longest.as_secs_f64()),
     }))
 }

@@ -2,37 +2,67 @@
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use tokio::sync::Notify;
 
 use crate::Result;
+use crate::attempts::LEASE_US;
 use crate::runs::log::RunLog;
+use crate::runs::preliminary::Shown;
 
-/// The logs of these runs by attempt, each used by one request at a time.
+const LEASE: Duration = Duration::from_micros(LEASE_US as u64);
+
+/// A run that a machine measures.
+pub struct Working {
+    /// Used by one request at a time.
+    pub log: Mutex<RunLog>,
+    shown: Shown,
+}
+
+impl Working {
+    /// Its machine was heard from just now.
+    pub fn heard(&self) {
+        self.shown.heard(LEASE);
+    }
+}
+
+/// These runs by attempt.
 #[derive(Default)]
 pub struct Orders {
-    logs: Mutex<HashMap<String, Arc<Mutex<RunLog>>>>,
+    working: Mutex<HashMap<String, Arc<Working>>>,
     /// Rung when a run was prepared.
     pub prepared: Notify,
 }
 
 impl Orders {
-    /// The log of this attempt; one that is not known here is made, which may take a while and keeps no other waiting.
-    pub fn log(&self, attempt: &str, make: impl FnOnce() -> Result<RunLog>) -> Result<Arc<Mutex<RunLog>>> {
-        let known = self.logs().get(attempt).cloned();
-        if let Some(log) = known {
-            return Ok(log);
+    /// The run of this attempt. One that is not known here is made: reading its log may take a while and keeps no other waiting.
+    pub fn working(
+        &self,
+        attempt: &str,
+        log: impl FnOnce() -> Result<RunLog>,
+        show: impl FnOnce() -> Shown,
+    ) -> Result<Arc<Working>> {
+        let known = self.all().get(attempt).cloned();
+        if let Some(working) = known {
+            working.heard();
+            return Ok(working);
         }
-        let log = Arc::new(Mutex::new(make()?));
-        Ok(self.logs().entry(attempt.to_owned()).or_insert(log).clone())
+        let log = Mutex::new(log()?);
+        let mut all = self.all();
+        // Of a machine that died nobody says that it has ended.
+        all.retain(|_, working| working.shown.is_heard());
+        let working = all.entry(attempt.to_owned()).or_insert_with(|| Arc::new(Working { log, shown: show() })).clone();
+        working.heard();
+        Ok(working)
     }
 
     /// The attempt has ended.
     pub fn forget(&self, attempt: &str) {
-        self.logs().remove(attempt);
+        self.all().remove(attempt);
     }
 
-    fn logs(&self) -> MutexGuard<'_, HashMap<String, Arc<Mutex<RunLog>>>> {
-        self.logs.lock().unwrap_or_else(PoisonError::into_inner)
+    fn all(&self) -> MutexGuard<'_, HashMap<String, Arc<Working>>> {
+        self.working.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

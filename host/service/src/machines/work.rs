@@ -1,21 +1,26 @@
 //! The work of measuring machines, from asking for a run to handing in its results.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
 use ocb_lab::job::{Found, Results, Step};
+use ocb_lab::worker::Seen;
 use tokio::runtime::Handle;
 use tokio::time::Instant;
 
 use super::orders::order;
 use super::sql::worker;
+use super::under_way::Working;
 use crate::attempts::Attempt;
 use crate::attempts::lost::run_was_lost;
 use crate::blocking::blocking;
 use crate::boxed;
 use crate::columns::{read_records, read_triangle_tests};
 use crate::engine::{Engine, Inner};
-use crate::model::{Ended, Environment, MachineFacts, MeasuredAlgorithm, OutcomeName, Preview, State, Told, WorkOrder};
+use crate::measure::Preliminary;
+use crate::model::{
+    AlgorithmResult, Ended, Environment, MachineFacts, MeasuredAlgorithm, OutcomeName, Preview, State, Told, WorkOrder,
+};
 use crate::runs::accept::End;
 use crate::runs::carry_out::{ended, too_long};
 use crate::runs::log::RunLog;
@@ -109,7 +114,7 @@ impl Engine {
         let told = (inner.store.clone(), inner.run_events.clone(), inner.under_way.clone());
         blocking(move || {
             let log = || RunLog::go_on(&attempt, &row.spec.algorithms, told, Handle::current());
-            inner.orders.log(&attempt.id, log).map(|_| ())
+            inner.orders.working(&attempt.id, log, || inner.show(&row)).map(|_| ())
         })
         .await?;
         Ok(Some(order))
@@ -135,23 +140,45 @@ impl Engine {
         if !self.inner.store.beat(&attempt.id).await? {
             return Ok(false);
         }
-        if steps.is_empty() {
-            return Ok(true);
-        }
         let row = self.inner.run_row(&attempt.job).await?;
         let inner = self.inner.clone();
         let telling = blocking(move || {
-            let log = inner.log_of(&attempt)?;
-            let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
+            let working = inner.working(&attempt, &row)?;
+            let mut log = working.log.lock().unwrap_or_else(PoisonError::into_inner);
             let reference = spec::reference(&row.spec, &inner.registry);
             let name = reference.as_ref().map_or("", |reference| reference.info.name.as_str());
-            steps.into_iter().try_for_each(|step| hand_in::tell(&mut log, &told(step), name))
+            for step in steps.into_iter().map(told) {
+                if let Step::Progress { place, done, total, worked } = step {
+                    inner.under_way.estimate(&row.id, |it| it.progress(place, done, total, worked.as_secs_f64()));
+                }
+                hand_in::tell(&mut log, &step, name)?;
+            }
+            Ok(())
         });
         match telling.await {
             // It was ended between the lines.
             Err(EngineError::Busy(_)) => Ok(false),
             told => told.map(|()| true),
         }
+    }
+
+    /// Shows what a machine has found so far; false when its attempt has ended here.
+    #[boxed]
+    pub async fn seen_of(&self, machine: &str, attempt: &str, seen: Seen) -> Result<bool> {
+        let Some((attempt, order)) = self.inner.store.order_of(machine, attempt).await? else { return Ok(false) };
+        let Seen { place, preliminary: Preliminary { result, records, seconds } } = seen;
+        let ordered = order.algorithms.get(place).is_some_and(|it| it.info.id == result.algorithm);
+        if !ordered || !records.fits(order.set.configurations) {
+            return Err(wrong("a preliminary one is of another algorithm or of other configurations"));
+        }
+        let row = self.inner.run_row(&attempt.job).await?;
+        let (inner, of) = (self.inner.clone(), (attempt, row));
+        blocking(move || inner.working(&of.0, &of.1).map(|_| ())).await?;
+        // Ranks are given here, at the end.
+        let result = AlgorithmResult { preliminary: true, rank: None, place_so_far: None, ..result };
+        self.inner.under_way.show(&order.run, place, Preliminary { result, records, seconds });
+        self.inner.run_events.ring(&order.run);
+        Ok(true)
     }
 
     /// Takes what a machine hands in; false, and nothing is kept, when its attempt is not the current one.
@@ -192,17 +219,17 @@ impl Engine {
                 let results = self.results(row, order, algorithms, (environment, preview), files)?;
                 let (here, of) = (self.inner.clone(), (attempt.clone(), row.clone()));
                 let end = blocking(move || {
-                    let log = here.log_of(&of.0)?;
-                    let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
+                    let working = here.working(&of.0, &of.1)?;
+                    let mut log = working.log.lock().unwrap_or_else(PoisonError::into_inner);
                     hand_in::keep(&here, &mut log, &of.1, results)
                 });
                 ended(inner, attempt, row, &Ok(end.await?), None, None).await
             }
             Ended::TooLong => {
-                let (here, of) = (self.inner.clone(), attempt.clone());
+                let (here, of) = (self.inner.clone(), (attempt.clone(), row.clone()));
                 let closing = blocking(move || {
-                    let log = here.log_of(&of)?;
-                    log.lock().unwrap_or_else(PoisonError::into_inner).end_open(State::Cancelled, None)
+                    let working = here.working(&of.0, &of.1)?;
+                    working.log.lock().unwrap_or_else(PoisonError::into_inner).end_open(State::Cancelled, None)
                 });
                 closing.await?;
                 let reason = inner.longest_run(row).map(too_long);
@@ -252,10 +279,11 @@ impl Engine {
 }
 
 impl Inner {
-    /// The log of an attempt that has begun; blocks.
-    fn log_of(&self, attempt: &Attempt) -> Result<Arc<Mutex<RunLog>>> {
+    /// An attempt that has begun, and was heard from just now; blocks.
+    fn working(&self, attempt: &Attempt, row: &RunRow) -> Result<Arc<Working>> {
         let told = (self.store.clone(), self.run_events.clone(), self.under_way.clone());
-        self.orders.log(&attempt.id, || RunLog::resume(attempt, told, Handle::current()))
+        let log = || RunLog::resume(attempt, told, Handle::current());
+        self.orders.working(&attempt.id, log, || self.show(row))
     }
 }
 

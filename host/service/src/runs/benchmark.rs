@@ -173,13 +173,15 @@ impl<'a> Bench<'a> {
                 }
                 // A grid looks for some more than wanted.
                 let done = gauge.done.load(Ordering::Relaxed).min(total);
-                self.inner.under_way.estimate(|it| it.finding(done, total, begun.elapsed().as_secs_f64()));
+                self.inner
+                    .under_way
+                    .estimate(&self.row.id, |it| it.finding(done, total, begun.elapsed().as_secs_f64()));
                 self.log.progress_slowly(CONFIGURATIONS, done, total)?;
             }
             let found = worker.join();
             Ok(found.map_err(|_| EngineError::Fault("Finding the configurations failed.".into()))??)
         })?;
-        self.inner.under_way.estimate(|it| it.finding(total, total, 0.0));
+        self.inner.under_way.estimate(&self.row.id, |it| it.finding(total, total, 0.0));
         if set.is_some() {
             self.log.progress(CONFIGURATIONS, total, total)?;
         }
@@ -197,11 +199,12 @@ impl<'a> Bench<'a> {
         let reference = crate::runs::spec::reference(&self.row.spec, &self.inner.registry);
         let (seed, part) = (draw::seed(&self.row, &info.sha256, &algorithms), Part::of(&self.row.spec, set));
         let task = Task { seed, ..looking.task(pairing, set, part) };
-        let job = Job { task, set: info, run: &self.row.id, draw: draw::drawn(&self.row, seed) };
+        let (look, draw) = (looking.to_come(), draw::drawn(&self.row, seed));
+        let job = Job { task, look, set: info, run: &self.row.id, draw };
         let place = Place { runner: self.inner.registry.runner(), machine: &self.inner.machine, stop: self.stop };
         let name = reference.as_ref().map_or("", |reference| reference.info.name.as_str());
         let log = &mut self.log;
-        job::measure(job, &place, || looking.before_the_rounds(pairing, set, part), &mut |step| {
+        job::measure(job, &place, &mut |step| {
             match &step {
                 Step::Progress { place, done, total, worked } => looking.progress(*place, *done, *total, *worked),
                 Step::Preliminary(place, seen) => looking.show(*place, Preliminary::clone(seen)),

@@ -13,7 +13,6 @@ use crate::model::State;
 use crate::runs::accept::{End, RunEnd};
 use crate::runs::benchmark;
 use crate::runs::preliminary::Shown;
-use crate::runs::spec::reference;
 use crate::runs::sql::RunRow;
 use crate::{EngineError, Result};
 
@@ -34,10 +33,7 @@ pub async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, idle: Option<u64>)
     }
     inner.run_events.queue_moved();
     let row = inner.run_row(id).await?;
-    // Where the reference is none of the algorithms, it takes turns, too.
-    let apart = reference(&row.spec, &inner.registry).filter(|apart| !row.spec.algorithms.contains(&apart.info.id));
-    let algorithms = row.spec.algorithms.len() + usize::from(apart.is_some());
-    let shown = inner.under_way.begin(id, inner.registry.profile(), algorithms, row.expected_seconds);
+    let shown = inner.show(&row);
     let how = match run_in_time(inner, attempt, &row, &stop).await {
         // Whoever stopped it need not wait for another attempt.
         Err(EngineError::Fault(_)) if stop.asked() => Ok(End::Stopped),
@@ -80,7 +76,7 @@ pub async fn ended(
     row: &RunRow,
     how: &Result<End>,
     reason: Option<&str>,
-    shown: Option<Shown<'_>>,
+    shown: Option<Shown>,
 ) -> Result<bool> {
     if let Ok(End::Prepared) = how {
         let prepared = inner.store.run_is_prepared(attempt).await?;

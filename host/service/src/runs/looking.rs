@@ -13,6 +13,8 @@ use crate::machine::MeasuringRight;
 use crate::measure::{self, Part, Preliminary, Stop, Task};
 use crate::model::RunSpec;
 use crate::runs::draw;
+use crate::runs::preliminary::Shown;
+use crate::runs::spec::reference;
 use crate::runs::sql::RunRow;
 
 /// One run while it is looked at.
@@ -23,15 +25,30 @@ pub struct Looking<'a> {
     spec: RunSpec,
     algorithms: Vec<Arc<Algorithm>>,
     reference: Option<Arc<Algorithm>>,
-    /// Of the processes that look; those that measure have another.
-    seed: u64,
-    watched: bool,
+    /// Of the processes that look, if somebody may watch the run; those that measure have another.
+    seed: Option<u64>,
     looked: AtomicBool,
 }
 
+/// The seed of the processes that look at a run before its rounds; nothing when nobody watches it. Runs of the suite and of campaigns
+/// have no visitor who waits, and a refined run has results already.
+pub fn seed(row: &RunRow, algorithms: &[Arc<Algorithm>]) -> Option<u64> {
+    let watched = row.suite.is_none() && row.campaign.is_none() && !row.is_refined();
+    watched.then(|| draw::seed(row, "first look", algorithms))
+}
+
+impl Inner {
+    /// This run is under way now and may show something.
+    pub(crate) fn show(&self, row: &RunRow) -> Shown {
+        // Where the reference is none of the algorithms, it takes turns, too.
+        let apart = reference(&row.spec, &self.registry).filter(|apart| !row.spec.algorithms.contains(&apart.info.id));
+        let algorithms = row.spec.algorithms.len() + usize::from(apart.is_some());
+        self.under_way.begin(&row.id, self.registry.profile(), algorithms, row.expected_seconds)
+    }
+}
+
 impl<'a> Looking<'a> {
-    /// Runs of the suite and of campaigns have no visitor who waits, and a refined run has results already: none of them is shown
-    /// early.
+    /// Where machines measure, the service looks at no run itself.
     pub fn new(
         inner: &'a Inner,
         stop: &'a Stop,
@@ -44,10 +61,9 @@ impl<'a> Looking<'a> {
             stop,
             run: row.id.clone(),
             spec: row.spec.clone(),
-            seed: draw::seed(row, "first look", &algorithms),
+            seed: seed(row, &algorithms).filter(|_| !inner.config.elsewhere),
             algorithms,
             reference,
-            watched: !inner.config.elsewhere && row.suite.is_none() && row.campaign.is_none() && !row.is_refined(),
             looked: AtomicBool::new(false),
         }
     }
@@ -55,40 +71,32 @@ impl<'a> Looking<'a> {
     /// The run's task on this set, without controls.
     pub fn task<'t>(&'t self, pairing: &'t Pairing, set: &'t ConfigurationSet, part: Part) -> Task<'t> {
         let task = Task::of(&self.spec, (pairing, set, part), &self.algorithms, self.reference.as_ref());
-        Task { seed: self.seed, watched: self.watched, ..task }
+        Task { watched: self.seed.is_some(), ..task }
+    }
+
+    /// The seed of the processes that look before the rounds, unless that was done.
+    pub fn to_come(&self) -> Option<u64> {
+        self.seed.filter(|_| !self.looked.swap(true, Ordering::Relaxed))
     }
 
     /// Where the rest of the set takes long: looks at its beginning. The machine may belong to another process now.
     pub fn at_beginning(&self, pairing: &Pairing, set: &ConfigurationSet, of: u64) {
         let Ok(Some(_right)) = MeasuringRight::try_take() else { return };
-        self.inner.under_way.begins_with(set.clone());
-        self.look(pairing, set, Part { precision: None, at_most: usize::MAX, of });
-    }
-
-    /// Looks, unless that was done.
-    pub fn before_the_rounds(&self, pairing: &Pairing, set: &ConfigurationSet, part: Part) {
-        if measure::worth_a_look(part.most(set) as u64) {
-            self.look(pairing, set, part);
-        }
-    }
-
-    fn look(&self, pairing: &Pairing, set: &ConfigurationSet, part: Part) {
-        if !self.watched || self.looked.swap(true, Ordering::Relaxed) {
-            return;
-        }
-        let task = self.task(pairing, set, part);
+        let Some(seed) = self.to_come() else { return };
+        self.inner.under_way.begins_with(&self.run, set.clone());
+        let task = Task { seed, ..self.task(pairing, set, Part { precision: None, at_most: usize::MAX, of }) };
         let (runner, machine) = (self.inner.registry.runner(), &self.inner.machine);
         measure::first_look(&task, runner, machine, self.stop, &mut |place, seen| self.show(place, seen));
     }
 
     /// An algorithm is so far in the rounds.
     pub fn progress(&self, index: usize, done: u64, total: u64, worked: Duration) {
-        self.inner.under_way.estimate(|it| it.progress(index, done, total, worked.as_secs_f64()));
+        self.inner.under_way.estimate(&self.run, |it| it.progress(index, done, total, worked.as_secs_f64()));
     }
 
     /// The algorithm at this place of the run's list has something to show.
     pub fn show(&self, place: usize, seen: Preliminary) {
-        self.inner.under_way.show(place, seen);
+        self.inner.under_way.show(&self.run, place, seen);
         self.inner.run_events.ring(&self.run);
     }
 }

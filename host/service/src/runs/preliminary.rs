@@ -1,7 +1,8 @@
-//! The preliminary results of the run under way. They are kept in memory only and dropped when the run ends, in whatever way.
+//! The preliminary results of the runs under way. They are kept in memory only and dropped when their run ends, in whatever way.
 
+use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use ocb_core::configuration::ConfigurationSet;
 use ocb_lab::columns::RecordColumns;
@@ -11,14 +12,15 @@ use crate::Profile;
 use crate::model::AlgorithmResult;
 use crate::runs::remaining::Remaining;
 
-/// One run is under way at a time, so there is one at most.
+/// Runs by id: one that is carried out here, and those of measuring machines that this process hears from.
 #[derive(Default)]
 pub struct UnderWay {
-    run: Mutex<Option<Showing>>,
+    runs: Mutex<HashMap<String, Showing>>,
 }
 
 struct Showing {
-    run: String,
+    /// Set while its machine is heard from: nothing is shown after that.
+    until: Option<Instant>,
     /// The configurations that the records are of, while the whole set is being found.
     beginning: Option<Arc<ConfigurationSet>>,
     results: Vec<SoFar>,
@@ -57,37 +59,64 @@ impl Showing {
 }
 
 /// Until it is dropped, this run may show something.
-pub struct Shown<'a> {
-    under_way: &'a UnderWay,
+pub struct Shown {
+    under_way: Arc<UnderWay>,
+    run: String,
+    begun: Instant,
 }
 
-impl Drop for Shown<'_> {
+impl Shown {
+    /// The machine that measures the run is at work; if it is not heard from for so long, the run shows nothing any more.
+    pub fn heard(&self, lease: Duration) {
+        if let Some(showing) = self.under_way.lock().get_mut(&self.run).filter(|it| it.begun == self.begun) {
+            showing.until = Some(Instant::now() + lease);
+        }
+    }
+
+    /// Does it still show something?
+    pub fn is_heard(&self) -> bool {
+        self.under_way.of(&self.run, |showing| showing.begun == self.begun).unwrap_or(false)
+    }
+}
+
+impl Drop for Shown {
     fn drop(&mut self) {
-        *self.under_way.lock() = None;
+        let mut runs = self.under_way.lock();
+        // Another attempt may have begun.
+        if runs.get(&self.run).is_some_and(|it| it.begun == self.begun) {
+            runs.remove(&self.run);
+        }
     }
 }
 
 impl UnderWay {
     /// This run is under way now, in a jail like this. So many algorithms take turns, and earlier runs would have taken so many
     /// seconds.
-    pub fn begin(&self, run: &str, profile: Profile, algorithms: usize, expected: f64) -> Shown<'_> {
+    pub fn begin(self: &Arc<Self>, run: &str, profile: Profile, algorithms: usize, expected: f64) -> Shown {
         let mut remaining = Remaining::new(algorithms, expected);
-        *self.lock() = Some(Showing {
-            run: run.to_owned(),
+        let begun = Instant::now();
+        let showing = Showing {
+            until: None,
             beginning: None,
             results: Vec::new(),
             profile,
             version: 0,
-            begun: Instant::now(),
+            begun,
             seconds_left: remaining.tell(0.0),
             remaining,
-        });
-        Shown { under_way: self }
+        };
+        self.lock().insert(run.to_owned(), showing);
+        Shown { under_way: self.clone(), run: run.to_owned(), begun }
+    }
+
+    /// The run was ended.
+    pub fn forget(&self, run: &str) {
+        self.lock().remove(run);
     }
 
     /// Updates the estimate of the remaining time.
-    pub fn estimate(&self, from: impl FnOnce(&mut Remaining)) {
-        if let Some(showing) = &mut *self.lock() {
+    pub fn estimate(&self, run: &str, from: impl FnOnce(&mut Remaining)) {
+        if let Some(showing) = self.lock().get_mut(run) {
             from(&mut showing.remaining);
             showing.seconds_left = showing.remaining.tell(showing.begun.elapsed().as_secs_f64());
         }
@@ -99,18 +128,18 @@ impl UnderWay {
     }
 
     /// The records will be of these configurations, until the whole set is stored.
-    pub fn begins_with(&self, set: ConfigurationSet) {
-        if let Some(showing) = &mut *self.lock() {
+    pub fn begins_with(&self, run: &str, set: ConfigurationSet) {
+        if let Some(showing) = self.lock().get_mut(run) {
             showing.beginning = Some(Arc::new(set));
         }
     }
 
     /// The algorithm at this place of the run's list has something to show.
-    pub fn show(&self, place: usize, Preliminary { result, records, seconds }: Preliminary) {
+    pub fn show(&self, run: &str, place: usize, Preliminary { result, records, seconds }: Preliminary) {
         if let Some(seconds) = seconds {
-            self.estimate(|remaining| remaining.looked(place, seconds));
+            self.estimate(run, |remaining| remaining.looked(place, seconds));
         }
-        if let Some(showing) = &mut *self.lock() {
+        if let Some(showing) = self.lock().get_mut(run) {
             showing.version += 1;
             showing.results.retain(|it| it.place != place);
             showing.results.push(SoFar { place, version: showing.version, result, records: Arc::new(records) });
@@ -147,11 +176,16 @@ impl UnderWay {
     }
 
     fn of<T>(&self, run: &str, read: impl FnOnce(&Showing) -> T) -> Option<T> {
-        self.lock().as_ref().filter(|showing| showing.run == run).map(read)
+        let mut runs = self.lock();
+        let silent = |showing: &Showing| showing.until.is_some_and(|until| until < Instant::now());
+        if runs.get(run).is_some_and(silent) {
+            runs.remove(run);
+        }
+        runs.get(run).map(read)
     }
 
-    fn lock(&self) -> MutexGuard<'_, Option<Showing>> {
-        self.run.lock().unwrap_or_else(PoisonError::into_inner)
+    fn lock(&self) -> MutexGuard<'_, HashMap<String, Showing>> {
+        self.runs.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -169,16 +203,16 @@ mod tests {
 
     #[test]
     fn preliminary_results_belong_to_one_run_and_end_with_it() {
-        let under_way = UnderWay::default();
-        under_way.show(0, preliminary("a", 9));
+        let under_way = Arc::new(UnderWay::default());
+        under_way.show("run", 0, preliminary("a", 9));
         let shown = under_way.begin("run", Profile::Production, 2, 50.0);
         assert_eq!((under_way.seconds_left("run"), under_way.seconds_left("other")), (Some(50.0), None));
         assert!(under_way.results("run").is_empty(), "nothing is under way that it could be of");
-        under_way.show(1, preliminary("b", 1));
-        under_way.show(0, preliminary("a", 2));
+        under_way.show("run", 1, preliminary("b", 1));
+        under_way.show("run", 0, preliminary("a", 2));
         let n = |run, than| under_way.newer(run, than).0.iter().map(|r| r.n).collect::<Vec<_>>();
         assert_eq!((n("run", 0), n("run", 1), n("other", 0)), (vec![2, 1], vec![2], vec![]));
-        under_way.show(1, preliminary("b", 5));
+        under_way.show("run", 1, preliminary("b", 5));
         assert_eq!((n("run", 2), under_way.newer("run", 3)), (vec![5], (vec![], 3)));
         assert!(under_way.records("run", "b").is_some() && under_way.records("other", "b").is_none());
         assert_eq!(under_way.seconds_left("run"), Some(2.0 + 5.0));
@@ -190,15 +224,34 @@ mod tests {
             shown
         };
         assert_eq!(places(), [None, None], "they were compared with nothing");
-        under_way.show(0, timed("a", 2.0, 0));
+        under_way.show("run", 0, timed("a", 2.0, 0));
         assert_eq!(places(), [None, None], "the other one may be faster");
-        under_way.show(1, timed("b", 0.5, 0));
+        under_way.show("run", 1, timed("b", 0.5, 0));
         assert_eq!(places(), [Some(2), Some(1)]);
         assert_eq!(n("run", under_way.newer("run", 0).1 - 1), [5, 5], "who was moved is new, too");
-        under_way.show(1, timed("b", 0.5, 1));
+        under_way.show("run", 1, timed("b", 0.5, 1));
         assert_eq!(places(), [Some(1), None], "who is wrong has no place");
         assert!(under_way.results("run").iter().all(|r| r.rank.is_none()));
         drop(shown);
         assert!(under_way.results("run").is_empty() && under_way.records("run", "b").is_none());
+    }
+
+    #[test]
+    fn a_run_is_shown_while_its_machine_is_heard_from() {
+        let under_way = Arc::new(UnderWay::default());
+        let begin = |run| under_way.begin(run, Profile::Production, 1, 50.0);
+        let (first, other) = (begin("run"), begin("other"));
+        under_way.show("run", 0, preliminary("a", 2));
+        first.heard(Duration::from_secs(60));
+        assert_eq!((first.is_heard(), under_way.results("run").len()), (true, 1));
+        first.heard(Duration::ZERO);
+        std::thread::sleep(Duration::from_millis(2));
+        assert!(!first.is_heard() && other.is_heard() && under_way.results("run").is_empty());
+        // Another machine takes the run, and the first one is forgotten later.
+        let second = begin("run");
+        under_way.show("run", 0, preliminary("a", 3));
+        first.heard(Duration::ZERO);
+        drop(first);
+        assert_eq!((second.is_heard(), under_way.results("run").len()), (true, 1));
     }
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use ocb_core::query::Query;
 use ocb_service::model::{Manifest, RunEvent, RunInfo, RunSpec, WorkOrder};
-use ocb_service::worker::{Handed, Worker};
+use ocb_service::worker::{Handed, Report, Seen, Worker};
 use ocb_service::{Engine, EngineConfig, LabError, Runner, Stop};
 use tokio::runtime::Handle;
 
@@ -104,18 +104,49 @@ pub fn here(config: &EngineConfig) -> Worker {
     Worker::observe(runner, &config.plugins, None).unwrap()
 }
 
-/// Measures what is ordered in this process.
+/// Measures what is ordered in this process, and shows what there is to see meanwhile.
 pub async fn measured(engine: &Engine, machine: &str, worker: Worker, order: &WorkOrder) -> (Worker, Handed) {
+    let (shows, machine_that_shows, attempt) = (engine.clone(), machine.to_owned(), order.attempt.clone());
+    let show = move |seen| {
+        let shown = Handle::current().block_on(shows.seen_of(&machine_that_shows, &attempt, seen));
+        assert!(shown.unwrap(), "the attempt is current");
+    };
+    watched(engine, machine, worker, order, show).await
+}
+
+/// The same, with whoever looks at what there is to see.
+pub async fn watched(
+    engine: &Engine,
+    machine: &str,
+    worker: Worker,
+    order: &WorkOrder,
+    mut look: impl FnMut(Seen) + Send + 'static,
+) -> (Worker, Handed) {
     let (engine, machine, order, handle) = (engine.clone(), machine.to_owned(), order.clone(), Handle::current());
+    // Other tests may measure for longer than a lease.
+    let (beats, of) = (engine.clone(), (machine.clone(), order.attempt.clone()));
+    let beating = tokio::spawn(async move {
+        loop {
+            tokio::time::sleep(Duration::from_secs(2)).await;
+            let _ = beats.beat_of(&of.0, &of.1, Vec::new()).await;
+        }
+    });
     let work = move || {
         let fetch = |name: &str| {
             let file = handle.block_on(engine.file_of_order(&machine, &order.attempt, name));
             file.map_err(|e| LabError::Fault(e.to_string()))
         };
-        let handed = worker.measure(&order, &Stop::default(), &fetch, &mut |_| {}).unwrap().unwrap();
+        let mut tell = |report| {
+            if let Report::Seen(seen) = report {
+                look(*seen);
+            }
+        };
+        let handed = worker.measure(&order, &Stop::default(), &fetch, &mut tell).unwrap().unwrap();
         (worker, handed)
     };
-    tokio::task::spawn_blocking(work).await.unwrap()
+    let done = tokio::task::spawn_blocking(work).await;
+    beating.abort();
+    done.unwrap()
 }
 
 /// What the author of [`slow`] says of it.
