@@ -68,7 +68,10 @@ impl Algorithm for Faulty {
         }
         if self.fault == 17 && scene.deep() {
             let begun = Instant::now();
-            while begun.elapsed() < Duration::from_millis(60) {}
+            // Any other answer looks at each pair once at most: this one is very long on this machine, however busy it is.
+            std::hint::black_box(scene.contacts().count());
+            let long = Duration::from_millis(60).max(60 * begun.elapsed());
+            while begun.elapsed() < long {}
         }
         let near = |limit: f64| scene.nearest().is_some_and(|(closest, _)| closest.squared.sqrt() <= limit);
         let found = scene.first().map_or(Collision::Apart, |[i, j]| Collision::Pair(i, j));
