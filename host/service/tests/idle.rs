@@ -82,7 +82,7 @@ async fn it_gives_way_to_a_visitor_at_once_and_finishes_later() {
     let _alone = ALONE.lock().await;
     let data = tempfile::tempdir().unwrap();
     // Long enough to be interrupted.
-    let suite = suite(data.path(), 30, 30.0);
+    let suite = suite(data.path(), 15, 30.0);
     let engine = opened(data.path(), &suite, true).await;
     let database = common::database(data.path()).await;
     let running = "SELECT id FROM runs WHERE priority = 9 AND state = 'running'";
