@@ -10,16 +10,19 @@ use std::process::{Command, ExitCode, ExitStatus, Stdio};
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use ocb_service::LabError;
-use ocb_service::recording::{Packed, pack};
+use ocb_service::recording::{Packed, Recording, from_json, from_pair, pack};
 use serde_json::json;
 use tempfile::TempDir;
 use tokio::signal::unix::{SignalKind, signal};
 
 use crate::args::RecordArgs;
 use crate::failure::{BAD_INPUT, Failure, Result};
+use crate::open::read_bounded;
 use crate::output;
 use recorders::Recorders;
 
+/// Largest file of poses, bytes.
+const MOST_POSES: usize = 1 << 30;
 /// Bytes of the program's name in a recording.
 const LONGEST_NAME: usize = 200;
 
@@ -27,6 +30,12 @@ const LONGEST_NAME: usize = 200;
 pub async fn record(args: &RecordArgs, json: bool) -> Result<ExitCode> {
     if let Some(spool) = &args.spool {
         say(&args.out, &pack(spool, &args.out)?, json)?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    if let Some(poses) = &args.poses {
+        let recording = of_poses(poses, args)?;
+        recording.write(&args.out)?;
+        say(&args.out, &recording.packed(), json)?;
         return Ok(ExitCode::SUCCESS);
     }
     let recorders = Recorders::find()?;
@@ -54,6 +63,18 @@ pub async fn record(args: &RecordArgs, json: bool) -> Result<ExitCode> {
         }
     };
     Ok(ExitCode::from(if code == 0 && !recorded { BAD_INPUT } else { code as u8 }))
+}
+
+/// The recording of a file with poses.
+fn of_poses(file: &Path, args: &RecordArgs) -> Result<Recording> {
+    let bytes = read_bounded(file, MOST_POSES)?;
+    match &args.object[..] {
+        [] => Ok(from_json(&bytes, file.parent().unwrap_or(Path::new("")))?),
+        [a, b] => Ok(from_pair([a, b], &bytes, args.query.kind())?),
+        _ => Err(Failure::Input(
+            "A pair has two objects: give --object twice, also for an object and itself.".to_owned(),
+        )),
+    }
 }
 
 /// A folder beside the recording, so that it can be packed with `--spool` should we be killed.

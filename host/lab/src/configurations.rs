@@ -21,6 +21,7 @@ use crate::{LabError, Result};
 pub(crate) use affordable::specks;
 use coverage::Coverage;
 pub use file::{ConfigurationFile, read_file, read_matrices, read_text};
+pub(crate) use file::{Matrix, rotations};
 
 /// What a set depends on beside the request. Stored sets of other versions stay readable but are not used again.
 #[derive(Clone, Copy)]

@@ -4,6 +4,7 @@
 //! that only grows, so that a killed program leaves what it had asked; [`pack`] makes a recording of it.
 
 mod merge;
+mod poses;
 mod spool;
 
 use std::path::Path;
@@ -16,6 +17,7 @@ use crate::scene_file::{Reader, SceneFile};
 use crate::{LabError, Result};
 
 pub use merge::{Packed, pack};
+pub use poses::{from_json, from_pair};
 
 /// The queries in the archive.
 const QUERIES: &str = "queries.parquet";
@@ -80,6 +82,13 @@ impl Recording {
             .map_err(|why| bad(format!("{QUERIES} cannot be read ({why})")))?;
         queries.sort_by_key(|query| query.sequence);
         Ok(Self { scene, about, queries })
+    }
+
+    /// How much is in it.
+    pub fn packed(&self) -> Packed {
+        let Self { scene, about, queries } = self;
+        let dropped = about.dropped.clone();
+        Packed { objects: scene.scene.objects.len(), queries: queries.len(), seen: about.seen, dropped }
     }
 
     /// Writes it; a file of that name is replaced as a whole.

@@ -3,7 +3,30 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
+use ocb_core::workload::Kind;
+
+/// What a pair is asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum AskedArg {
+    /// Do they collide?
+    Collide,
+    /// Where do they collide?
+    Contacts,
+    /// How far apart are they?
+    Distance,
+}
+
+impl AskedArg {
+    /// As recordings say it.
+    pub fn kind(self) -> Kind {
+        match self {
+            Self::Collide => Kind::Collide,
+            Self::Contacts => Kind::Contacts,
+            Self::Distance => Kind::Distance,
+        }
+    }
+}
 
 /// `ocb record`
 #[derive(Debug, Args)]
@@ -17,7 +40,17 @@ pub struct RecordArgs {
     /// Instead of running a program: make a recording of what a recorder wrote into this folder.
     #[arg(long, value_name = "DIR", conflicts_with = "limit")]
     pub spool: Option<PathBuf>,
+    /// Instead of running a program: make a recording of poses that it wrote down, as JSON with objects and queries; with --object, as
+    /// a configuration file (CSV, JSON, f64 matrices or Parquet) of a pair.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["limit", "spool"])]
+    pub poses: Option<PathBuf>,
+    /// Object of the pair, twice: A, then B, which may be the same file.
+    #[arg(long, value_name = "FILE", requires = "poses")]
+    pub object: Vec<PathBuf>,
+    /// What was asked of the pair.
+    #[arg(long, value_enum, default_value = "distance", requires = "object", value_name = "QUERY")]
+    pub query: AskedArg,
     /// Program to run, with its arguments.
-    #[arg(last = true, required_unless_present = "spool", conflicts_with = "spool", value_name = "PROGRAM")]
+    #[arg(last = true, required_unless_present_any = ["spool", "poses"], conflicts_with_all = ["spool", "poses"], value_name = "PROGRAM")]
     pub program: Vec<OsString>,
 }

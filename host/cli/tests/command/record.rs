@@ -273,3 +273,113 @@ fn what_cannot_be_recorded_is_told() {
         std::fs::read_dir(desk.path("")).expect("a folder").map(|entry| entry.expect("one").file_name()).collect();
     assert!(left.iter().all(|name| !name.to_string_lossy().ends_with(".spool")), "{left:?}");
 }
+
+#[test]
+fn poses_that_were_written_down_are_a_recording() {
+    let desk = Desk::new();
+    let box_of = |side: f64| {
+        let corner = |i: usize| [i & 1, i >> 1 & 1, i >> 2].map(|bit| side * (bit as f64 - 0.5));
+        let faces = [
+            [1, 3, 2],
+            [2, 3, 4],
+            [5, 6, 7],
+            [6, 8, 7],
+            [1, 2, 5],
+            [2, 6, 5],
+            [3, 7, 4],
+            [4, 7, 8],
+            [1, 5, 3],
+            [3, 5, 7],
+            [2, 4, 6],
+            [4, 8, 6],
+        ];
+        let lines = (0..8).map(corner).map(|[x, y, z]| format!("v {x} {y} {z}\n"));
+        lines.chain(faces.map(|[a, b, c]| format!("f {a} {b} {c}\n"))).collect::<String>()
+    };
+    let write = |name: &str, text: &str| std::fs::write(desk.path(name), text).expect("written");
+    write("cube.obj", &box_of(1.0));
+    let moved = |x: f64| format!("[1,0,0,{x}, 0,1,0,0, 0,0,1,0]");
+    let queries = format!(
+        r#"{{"program": "mine", "library": "Mine 1.0",
+            "objects": [{{"name": "cube", "file": "cube.obj"}}, {{"name": "ball", "geometry": {{"kind": "sphere", "radius": 0.5}}}}],
+            "queries": [{{"objects": ["cube", "ball"], "query": "distance", "pose_b": {}, "group": 7, "distance": 1.0, "seconds": 1e-6}},
+                        {{"objects": ["ball", "cube"], "query": "collide", "pose_a": {}, "hit": false}},
+                        {{"objects": ["ball", "cube"], "query": "tolerance", "limit": 0.25, "pose_a": {}}}]}}"#,
+        moved(2.0),
+        moved(0.9),
+        moved(1.2),
+    );
+    write("queries.json", &queries);
+    let out = desk.path("mine.ocbrec");
+    let run = |args: &[&str]| {
+        let out = out.to_str().expect("text");
+        said(desk.command(&[&["record", "--out", out, "--json"][..], args].concat()).output().expect("it starts"))
+    };
+    let poses = desk.path("queries.json");
+    let (code, stdout, stderr) = run(&["--poses", poses.to_str().expect("text")]);
+    assert_eq!(code, 0, "{stderr}");
+    assert!(stdout.contains("\"queries\": 3") && stdout.contains("\"objects\": 2"), "{stdout}");
+    let recording = read(&desk, "mine.ocbrec");
+    assert_eq!(
+        (recording.about.program.as_str(), &recording.about.libraries[..]),
+        ("mine", &["Mine 1.0".to_owned()][..])
+    );
+    let told: Vec<_> = recording
+        .queries
+        .iter()
+        .map(|q| (q.kind, q.objects, q.group, q.limit, q.answered.hit, q.answered.distance))
+        .collect();
+    let expected = [
+        (Kind::Distance, [0, 1], 7, 0.0, None, Some(1.0)),
+        (Kind::Collide, [1, 0], 1, 0.0, Some(false), None),
+        (Kind::Tolerance, [1, 0], 2, 0.25, None, None),
+    ];
+    assert_eq!(told, expected);
+    assert_eq!(recording.queries[1].configuration.pose_a.translation.x, 0.9);
+    // The replay judges what was written: the ball does touch the cube at 0.9.
+    let replay = desk.command(&[
+        "bench",
+        "--workload",
+        out.to_str().expect("text"),
+        "--algorithm",
+        "box-tree",
+        "--passes",
+        "1",
+        "--json",
+    ]);
+    let (_, stdout, stderr) = said({ replay }.output().expect("it starts"));
+    let result: serde_json::Value = serde_json::from_str(&stdout).unwrap_or_else(|e| panic!("{e}: {stderr}"));
+    println!("{}", result["recorded"]);
+    assert!(result.to_string().contains("missed"), "{result:#}");
+
+    // A pair in the poses of a configuration file.
+    write("poses.csv", "1,0,0,3, 0,1,0,0, 0,0,1,0\n1,0,0,0.5, 0,1,0,0, 0,0,1,0\n");
+    let (csv, cube) = (desk.path("poses.csv"), desk.path("cube.obj"));
+    let [csv, cube] = [&csv, &cube].map(|path| path.to_str().expect("text"));
+    let (code, _, stderr) = run(&["--poses", csv, "--object", cube, "--object", cube, "--query", "collide"]);
+    assert_eq!(code, 0, "{stderr}");
+    let recording = read(&desk, "mine.ocbrec");
+    let names: Vec<_> = recording.scene.scene.objects.iter().map(|object| object.name.as_str()).collect();
+    assert_eq!((names, recording.queries.len()), (vec!["cube A", "cube B"], 2));
+    assert!(recording.queries.iter().all(|query| query.kind == Kind::Collide && query.answered == Default::default()));
+
+    let refused = |text: &str, words: &str| {
+        write("bad.json", text);
+        let bad = desk.path("bad.json");
+        let (code, _, stderr) = run(&["--poses", bad.to_str().expect("text")]);
+        assert_eq!(code, 2, "{text}: {stderr}");
+        assert!(stderr.contains(words) && stderr.lines().count() == 1, "{words:?}: {stderr}");
+    };
+    refused("{}", "missing field `objects`");
+    refused(&queries.replace("\"library\"", "\"books\""), "unknown field `books`");
+    refused(&queries.replace("cube.obj", "cube.stl"), "cube.stl cannot be read");
+    refused(&queries.replace("[\"ball\", \"cube\"]", "[\"ball\", \"cup\"]"), "query 2: there is no object \"cup\"");
+    refused(&queries.replace("[\"ball\", \"cube\"]", "[\"ball\", \"ball\"]"), "asked about itself");
+    refused(&queries.replace("[1,0,0,0.9,", "[2,0,0,0.9,"), "row 2: the 3x3 part");
+    refused(&queries.replace("[1,0,0,0.9,", "[0.9,"), "query 2: a matrix has 16 numbers");
+    refused(&queries.replace("0.25", "-1"), "query 3: `limit`");
+    refused(&queries.replace("\"radius\": 0.5", "\"radius\": -1"), "radius");
+    refused(&queries.replace("\"file\": \"cube.obj\"", "\"solid\": true"), "either a file");
+    let (code, _, stderr) = run(&["--poses", csv, "--object", cube]);
+    assert!(code == 2 && stderr.contains("--object twice"), "{stderr}");
+}

@@ -41,7 +41,7 @@ impl ConfigurationFile {
 
 /// Reads a configuration file for a run, in which plugins are promised rotations.
 pub fn read_file(bytes: &[u8]) -> Result<ConfigurationFile> {
-    read(bytes).and_then(checked).and_then(straightened).map_err(invalid)
+    read(bytes).and_then(rotations).map_err(invalid)
 }
 
 /// The same of a stranger's file: all formats but Parquet, whose pages may claim to hold any amount.
@@ -55,6 +55,11 @@ pub fn read_text(bytes: &[u8]) -> Result<ConfigurationFile> {
 /// Reads a configuration file for the oracle alone, which accepts any matrix.
 pub fn read_matrices(bytes: &[u8]) -> Result<Vec<Configuration>> {
     read(bytes).and_then(checked).map_err(invalid)
+}
+
+/// Rotations as they are or the nearest to them; numbers of rows in errors count from one.
+pub(crate) fn rotations(poses: Vec<Configuration>) -> std::result::Result<ConfigurationFile, String> {
+    checked(poses).and_then(straightened)
 }
 
 fn invalid(why: String) -> LabError {
@@ -198,15 +203,19 @@ enum Row {
     PoseB { pose_b: Matrix },
 }
 
+/// A row-major matrix.
 #[derive(Deserialize)]
 #[serde(untagged)]
-enum Matrix {
+pub(crate) enum Matrix {
+    /// Four rows of four numbers.
     Rows(Vec<Vec<f64>>),
+    /// 16 or 12 numbers.
     Numbers(Vec<f64>),
 }
 
 impl Matrix {
-    fn pose(self) -> std::result::Result<Pose, String> {
+    /// The pose, if it has as many numbers as a matrix.
+    pub(crate) fn pose(self) -> std::result::Result<Pose, String> {
         match self {
             Self::Numbers(numbers) => pose(&numbers),
             Self::Rows(rows) if rows.iter().any(|row| row.len() != 4) => {

@@ -39,8 +39,7 @@ pub fn pack(folder: &Path, to: &Path) -> Result<Packed> {
         LabError::Invalid(format!("{name:?} holds no recording: {why}."))
     })?;
     recording.write(to)?;
-    let Recording { scene, about, queries } = recording;
-    Ok(Packed { objects: scene.scene.objects.len(), queries: queries.len(), seen: about.seen, dropped: about.dropped })
+    Ok(recording.packed())
 }
 
 fn read(folder: &Path) -> std::result::Result<Recording, String> {
