@@ -132,9 +132,11 @@ async fn machines(engine: &Engine, json: bool) -> Result<()> {
         };
         let facts = it.facts.as_ref();
         let told = |of: fn(&MachineFacts) -> &String| facts.map_or(String::new(), |facts| of(facts).clone());
-        vec![it.name.clone(), state, told(|facts| &facts.hardware_class), told(|facts| &facts.cpu)]
+        let drift = it.drift.map_or(String::new(), |ratio| format!("{:+.1} %", 100.0 * (ratio - 1.0)));
+        vec![it.name.clone(), state, drift, told(|facts| &facts.hardware_class), told(|facts| &facts.cpu)]
     };
-    output::print(&output::table(&["machine", "state", "hardware class", "CPU"], all.iter().map(row).collect(), &[]))
+    let headings = ["machine", "state", "drift", "hardware class", "CPU"];
+    output::print(&output::table(&headings, all.iter().map(row).collect(), &[]))
 }
 
 async fn revoke_machine(engine: &Engine, name: &str, json: bool) -> Result<()> {

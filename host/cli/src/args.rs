@@ -245,6 +245,10 @@ pub struct ServeArgs {
     /// by these machines alone, and idle work is not done [default: none; runs are measured here].
     #[arg(long, env = "OCB_INTERNAL", value_name = "ADDRESS", hide_env_values = true)]
     pub internal: Option<SocketAddr>,
+    /// A machine gets no run while the sentinel, a short measurement that each repeats every hour, takes so many percent more or less
+    /// on it than on the others.
+    #[arg(long, default_value_t = 3.0, value_parser = percent, env = "OCB_MOST_DRIFT", value_name = "PERCENT", hide_env_values = true, requires = "internal")]
+    pub most_drift: f64,
     /// The machines are nodes of this partition of a Slurm cluster: while runs wait, jobs are submitted.
     #[arg(long, env = "OCB_SLURM", value_name = "PARTITION", hide_env_values = true, requires_all = ["internal", "slurm_job"])]
     pub slurm: Option<String>,
@@ -279,6 +283,12 @@ pub struct CeilingArgs {
     /// The same for all visitors from one IP address (IPv6: from one /64 network).
     #[arg(long, default_value_t = 1440, value_parser = minutes(), env = "OCB_ADDRESS_MINUTES", value_name = "MINUTES", hide_env_values = true)]
     pub address_minutes: u32,
+}
+
+/// A positive number of percent.
+fn percent(text: &str) -> Result<f64, String> {
+    let percent = text.parse::<f64>().ok().filter(|percent| *percent > 0.0 && percent.is_finite());
+    percent.ok_or_else(|| "this is a number above 0, such as 3".to_owned())
 }
 
 fn minutes() -> clap::builder::RangedI64ValueParser<u32> {

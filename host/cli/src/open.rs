@@ -42,6 +42,7 @@ pub async fn open_to_serve(store: &Store, args: &ServeArgs, url: &str) -> Result
         guest_days: args.guest_days,
         idle: args.idle == Switch::On,
         elsewhere: args.internal.is_some(),
+        most_drift: args.most_drift / 100.0,
         slurm: slurm(args),
         ceilings,
         mail,

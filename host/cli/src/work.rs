@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use ocb_service::doctor::examine;
-use ocb_service::model::{Ended, Told, WorkOrder};
+use ocb_service::model::{Ended, NextWork, OrderedAlgorithm, Sentinel, Told, WorkOrder};
 use ocb_service::worker::{Handed, Report, Seen, Worker};
 use ocb_service::{LabError, Runner, Stop};
 use tokio::runtime::Handle;
@@ -51,11 +51,15 @@ pub async fn work(store: &Store, args: &WorkArgs) -> Result<ExitCode> {
             _ = end.wait_for(|stopped| *stopped) => break,
         };
         match next {
-            Ok(Some(order)) => {
+            Ok(NextWork::Run(order)) => {
                 said = None;
-                carry_out(worker, &link, order, &stopped).await?;
+                carry_out(worker, &link, *order, &stopped).await?;
             }
-            Ok(None) => said = None,
+            Ok(NextWork::Sentinel(algorithm)) => {
+                sentinel(worker, &link, *algorithm, &stopped).await?;
+                continue;
+            }
+            Ok(NextWork::Nothing) => said = None,
             Err(Refused::For(sentence)) => return Err(Failure::Input(sentence)),
             Err(refused) => {
                 let rest = refused.rest().unwrap_or(PAUSE);
@@ -93,6 +97,30 @@ fn stopped() -> Result<watch::Receiver<bool>> {
 async fn pause(time: Duration, stopped: &watch::Receiver<bool>) {
     let mut stopped = stopped.clone();
     let _ = tokio::time::timeout(time, stopped.wait_for(|stopped| *stopped)).await;
+}
+
+/// Measures the sentinel. Whether it arrives is seen when this machine asks for its next run.
+async fn sentinel(
+    worker: Worker,
+    link: &Link,
+    algorithm: OrderedAlgorithm,
+    stopped: &watch::Receiver<bool>,
+) -> Result<()> {
+    let stop = Stop::default();
+    let watching = tokio::spawn(watch_over(stop.clone(), stopped.clone(), None));
+    let measured = tokio::task::spawn_blocking(move || worker.sentinel(&algorithm, &stop)).await;
+    watching.abort();
+    let sentinel = match measured.map_err(|e| Failure::Fault(format!("the measuring thread ended: {e}.")))? {
+        Ok(Some(median_ns)) => Sentinel::Measured { median_ns },
+        Ok(None) => return Ok(()),
+        Err(e) => Sentinel::Failed { message: e.to_string() },
+    };
+    eprintln!("ocb: the sentinel: {}", serde_json::to_string(&sentinel).unwrap_or_default());
+    if let Err(refused) = link.sentinel(&sentinel).await {
+        eprintln!("ocb: {refused}");
+        pause(PAUSE, stopped).await;
+    }
+    Ok(())
 }
 
 /// Measures one run and hands it in.

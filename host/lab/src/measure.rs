@@ -36,7 +36,8 @@ mod waiting;
 mod weave;
 
 use std::sync::Arc;
-use std::sync::mpsc::Sender;
+use std::sync::mpsc::{Sender, channel};
+use std::thread;
 use std::time::Duration;
 
 use ocb_core::configuration::{Configuration, ConfigurationSet, Method, Placed};
@@ -53,6 +54,7 @@ use crate::algorithm::{Algorithm, Runner};
 use crate::machine::Machine;
 use crate::model::{OutcomeInfo, OutcomeName, Preview, RunSpec};
 use crate::pairing::{Pairing, Sides};
+use crate::{LabError, Result};
 
 pub use by_unit::asked_in_another_unit;
 pub use controls::draw as draw_controls;
@@ -190,6 +192,29 @@ impl Task<'_> {
     fn coherent(&self) -> bool {
         self.in_order
     }
+}
+
+/// Measures all algorithms, with nobody who looks on; `None` when stopped.
+///
+/// # Errors
+/// `Fault` when the measuring thread fails.
+pub fn to_end(task: &Task, runner: &Runner, machine: &Machine, stop: &Stop) -> Result<Option<Vec<(usize, Measured)>>> {
+    let (sender, news) = channel();
+    let mut finished = Vec::new();
+    thread::scope(|scope| {
+        // A thread of its own: a jail ends with the thread that started it.
+        let worker = scope.spawn(|| {
+            let sender = sender;
+            measure(task, runner, machine, stop, &sender);
+        });
+        while let Ok(news) = news.recv() {
+            if let News::Finished { index, measured } = news {
+                finished.push((index, *measured));
+            }
+        }
+        worker.join().map_err(|_| LabError::Fault("The measuring thread failed.".into()))
+    })?;
+    Ok((!stop.asked()).then_some(finished))
 }
 
 /// Measures all algorithms and sends what happens; returns early when stopped.

@@ -1,5 +1,7 @@
 //! A measuring machine: it turns the order of a service and the files that the order names into results.
 
+mod sentinel;
+
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -118,14 +120,18 @@ impl Worker {
 
     /// The algorithm with its file: the installed one, or the one that the order brings.
     fn algorithm(&self, ordered: &OrderedAlgorithm, brought: &TempDir, fetch: &Fetch<'_>) -> Result<Arc<Algorithm>> {
-        let OrderedAlgorithm { info, id_in_plugin, settings, threads } = ordered.clone();
-        let hash = &info.plugin_sha256;
+        let hash = &ordered.info.plugin_sha256;
         let file = match self.plugins.get(hash) {
             Some(installed) => installed.clone(),
             None => write_plugin(brought.path(), hash, fetch)?,
         };
+        Ok(self.with_file(ordered, file))
+    }
+
+    fn with_file(&self, ordered: &OrderedAlgorithm, file: PathBuf) -> Arc<Algorithm> {
+        let OrderedAlgorithm { info, id_in_plugin, settings, threads } = ordered.clone();
         let trusted = self.runner.trusts(&file);
-        Ok(Arc::new(Algorithm { info, id_in_plugin, settings, threads, file, trusted }))
+        Arc::new(Algorithm { info, id_in_plugin, settings, threads, file, trusted })
     }
 }
 

@@ -16,8 +16,6 @@ mod timeline;
 use std::collections::HashSet;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::sync::mpsc::channel;
-use std::thread;
 use std::time::Duration;
 
 use ocb_core::configuration::{ConfigurationSet, Method, Placed};
@@ -26,7 +24,7 @@ use ocb_core::query::Semantics;
 use crate::algorithm::{Algorithm, Runner};
 use crate::configurations::{Gauge, specks};
 use crate::machine::Machine;
-use crate::measure::{self, Measured, News, Part, Stop, Task};
+use crate::measure::{self, Part, Stop, Task};
 use crate::model::{LeftOut, Track, TrackResult, WorkloadResult, order_gains};
 use crate::pairing::Pairing;
 use crate::recording::Recording;
@@ -252,28 +250,10 @@ impl Measuring<'_> {
             in_order: self.track == Track::Recorded,
             rounds_only: true,
         };
-        for (index, measured) in self.measured(&task)? {
+        let measured = measure::to_end(&task, self.runner, self.machine, self.stop)?.ok_or(LabError::Stopped)?;
+        for (index, measured) in measured {
             tallies[asked[index]].add(part.objects, certified, &measured);
         }
         Ok(())
-    }
-
-    fn measured(&self, task: &Task) -> Result<Vec<(usize, Measured)>> {
-        let (sender, news) = channel();
-        let mut finished = Vec::new();
-        thread::scope(|scope| {
-            // A thread of its own: a jail ends with the thread that started it.
-            let worker = scope.spawn(|| {
-                let sender = sender;
-                measure::measure(task, self.runner, self.machine, self.stop, &sender);
-            });
-            while let Ok(news) = news.recv() {
-                if let News::Finished { index, measured } = news {
-                    finished.push((index, *measured));
-                }
-            }
-            worker.join().map_err(|_| LabError::Fault("The measuring thread failed.".into()))
-        })?;
-        if self.stop.asked() { Err(LabError::Stopped) } else { Ok(finished) }
     }
 }

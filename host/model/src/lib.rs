@@ -67,8 +67,8 @@ pub use example::{Example, ExampleInfo, ExampleWork};
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
 pub use invitation::{Acceptance, InvitationInfo, InvitationRequest, InvitationState, NewInvitation};
 pub use machine::{
-    Beat, Ended, GoOn, MachineFacts, MachineInfo, MachineState, MachineStatus, MeasuredAlgorithm, OrderedAlgorithm,
-    Told, WorkOrder,
+    Beat, Ended, GoOn, MachineFacts, MachineInfo, MachineState, MachineStatus, MeasuredAlgorithm, NextWork,
+    OrderedAlgorithm, Sentinel, Told, WorkOrder,
 };
 pub use notice::NoticeInfo;
 pub use object::{ObjectInfo, Rounding};

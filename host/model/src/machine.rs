@@ -62,6 +62,35 @@ pub struct MachineInfo {
     pub run: Option<String>,
     /// Why it gets no run.
     pub trouble: Option<String>,
+    /// Its last sentinel divided by the median of its hardware class; absent before there are enough of them.
+    pub drift: Option<f64>,
+}
+
+/// What the sentinel took on a machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "sentinel", rename_all = "snake_case")]
+pub enum Sentinel {
+    /// It was measured.
+    Measured {
+        /// Nanoseconds of its median query.
+        median_ns: f64,
+    },
+    /// It could not be measured.
+    Failed {
+        /// Why.
+        message: String,
+    },
+}
+
+/// What a machine has to do next.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NextWork {
+    /// A run.
+    Run(Box<WorkOrder>),
+    /// The sentinel, with this algorithm; then it asks again.
+    Sentinel(Box<OrderedAlgorithm>),
+    /// To ask again.
+    Nothing,
 }
 
 /// A measuring machine, as everybody sees it.
@@ -228,6 +257,7 @@ fn a_machine_is_silent_after_a_minute_without_a_run() {
         revoked_us,
         run: run.map(str::to_owned),
         trouble: None,
+        drift: None,
     };
     let state = |info: MachineInfo| info.status(100_000_000).map(|status| status.state);
     assert_eq!(state(info(None, Some(50_000_000), None)), Some(MachineState::Waiting));

@@ -72,6 +72,8 @@ pub struct EngineConfig {
     pub dispatch: bool,
     /// Runs are only prepared here; measuring machines take them over HTTP.
     pub elsewhere: bool,
+    /// A machine whose sentinel is off by more than this share gets no run.
+    pub most_drift: f64,
     /// The measuring machines are nodes of a Slurm cluster.
     pub slurm: Option<SlurmJobs>,
     /// When nothing is asked for, measure what of the suite is missing, and try the installed algorithms for stability.
@@ -109,6 +111,7 @@ impl EngineConfig {
             quick_advice: false,
             dispatch: true,
             elsewhere: false,
+            most_drift: 0.03,
             slurm: None,
             idle: false,
             featured: false,

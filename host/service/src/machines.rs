@@ -5,6 +5,7 @@
 
 mod files;
 mod orders;
+mod sentinel;
 mod slurm;
 pub mod sql;
 pub mod under_way;
@@ -22,6 +23,7 @@ use crate::runs::draw;
 use crate::store::now_us;
 use crate::{EngineError, Result, sha256_hex};
 
+use sentinel::drift;
 pub use work::Handing;
 
 /// Longest name of a machine.
@@ -37,6 +39,8 @@ impl Engine {
             return Err(EngineError::Invalid(format!("A machine has a name of 1 to {MAX_NAME} characters.")));
         }
         let token = draw::secret();
+        // It may be another machine now, or have another kernel.
+        self.inner.store.forget_readings(name).await?;
         self.inner.store.keep_machine(name, &sha256_hex(token.as_bytes())).await?;
         Ok(token)
     }
@@ -44,7 +48,10 @@ impl Engine {
     /// All machines by name, also the revoked ones.
     #[boxed]
     pub async fn machines(&self) -> Result<Vec<MachineInfo>> {
-        self.inner.store.machines().await
+        let mut all = self.inner.store.machines().await?;
+        let readings = self.inner.store.readings(&self.inner.hardware_class()).await?;
+        all.iter_mut().for_each(|machine| machine.drift = drift(&readings, &machine.name));
+        Ok(all)
     }
 
     /// Revokes the token of a machine. What it works on waits again.
@@ -55,6 +62,7 @@ impl Engine {
                 "There is no machine {name:?} with a valid token; `ocb admin machines` lists them."
             )));
         }
+        self.inner.store.forget_readings(name.trim()).await?;
         self.inner.put_back_runs_of(name.trim()).await
     }
 
@@ -76,7 +84,7 @@ impl Engine {
         if let Err(EngineError::Busy(why)) = &admitted {
             // Jobs of a cluster have no log of their own.
             tracing::warn!("{machine} gets no run. {why}");
-            self.inner.store.machine_has_trouble(machine, why, 0).await?;
+            self.inner.store.machine_is_refused(machine, why).await?;
         }
         admitted
     }

@@ -152,6 +152,7 @@ fn migrations(sqlite: bool) -> Vec<Migration> {
         one(38, "advice turn", include_str!("../migrations/0038_advice_turn.sql")),
         one(39, "workloads", include_str!("../migrations/0039_workloads.sql")),
         one(40, "machines", include_str!("../migrations/0040_machines.sql")),
+        one(41, "sentinels", include_str!("../migrations/0041_sentinels.sql")),
     ]
 }
 

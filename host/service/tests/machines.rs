@@ -10,11 +10,11 @@ use std::time::{Duration, Instant};
 use ocb_core::query::Query;
 use ocb_core::statistics::{Outliers, Statistic};
 use ocb_service::model::{
-    AccountInfo, Claim, Ended, HeatmapRequest, MachineFacts, MachineState, Measure, MeasuredAlgorithm, OutcomeName,
-    PluginState, Role, RunInfo, RunSpec, State, Told, WorkOrder,
+    AccountInfo, Claim, Ended, HeatmapRequest, MachineFacts, MachineState, Measure, MeasuredAlgorithm, NextWork,
+    OutcomeName, PluginState, Role, RunInfo, RunSpec, Sentinel, State, Told, WorkOrder,
 };
 use ocb_service::worker::{Handed, Seen, Worker};
-use ocb_service::{Ceilings, Engine, EngineConfig, EngineError, Handing, Profile, Visitor};
+use ocb_service::{Ceilings, Engine, EngineConfig, EngineError, Handing, Profile, Stop, Visitor};
 use tempfile::TempDir;
 use tokio::runtime::Handle;
 use tokio::sync::{Mutex, MutexGuard};
@@ -48,7 +48,7 @@ async fn site() -> ((MutexGuard<'static, ()>, TempDir), Engine, Worker) {
 
 /// The next order, which comes once the run is prepared.
 async fn order(engine: &Engine, machine: &str, facts: &MachineFacts) -> WorkOrder {
-    let order = engine.next_order(machine, facts, Duration::from_secs(60)).await.unwrap();
+    let order = common::next(engine, machine, facts, Duration::from_secs(60)).await.unwrap();
     order.expect("a run is prepared within a minute")
 }
 
@@ -67,7 +67,7 @@ async fn results_of_something_else_are_refused_and_those_of_the_order_kept_once(
     let run = engine.submit(small(&["box-tree", "brute-force"]), None).await.unwrap();
     let order = order(&engine, "alpha", worker.facts()).await;
     assert_eq!((order.run.as_str(), order.draw.secret.as_deref()), (run.id.as_str(), None), "the secret stays here");
-    assert!(engine.next_order("beta", worker.facts(), NOW).await.unwrap().is_none(), "nobody else gets it");
+    assert!(common::next(&engine, "beta", worker.facts(), NOW).await.unwrap().is_none(), "nobody else gets it");
     // Another machine reaches nothing of it, and this machine nothing but what the order names.
     for (machine, name) in [("beta", "a"), ("alpha", "../../lock"), ("alpha", "plugin-"), ("alpha", "c")] {
         let refused = engine.file_of_order(machine, &order.attempt, name).await;
@@ -188,7 +188,7 @@ async fn a_machine_that_fails_three_times_does_not_keep_the_run_for_ever() {
         assert_ne!(state(&engine, &run).await, State::Failed, "attempt {number}");
         // It rests after a failure, so that other machines get the run; until its operator says that it is mended.
         if number > 1 {
-            let rests = engine.next_order("alpha", worker.facts(), NOW).await;
+            let rests = common::next(&engine, "alpha", worker.facts(), NOW).await;
             let long = |refused: &EngineError| matches!(refused, EngineError::TooMuch { retry_seconds: 500..=601, .. });
             assert!(rests.as_ref().is_err_and(long), "{rests:?}");
             let status = engine.status().await.unwrap();
@@ -223,24 +223,96 @@ async fn machines_that_would_measure_otherwise_are_refused() {
         (MachineFacts { plugins: Vec::new(), ..plain.clone() }, "missing or another file"),
     ];
     for (facts, words) in refused {
-        let refused = engine.next_order("alpha", &facts, NOW).await;
+        let refused = common::next(&engine, "alpha", &facts, NOW).await;
         assert!(matches!(&refused, Err(EngineError::Busy(why)) if why.contains(words)), "{words}: {refused:?}");
     }
-    assert!(engine.next_order("alpha", &plain, NOW).await.unwrap().is_none());
+    assert!(common::next(&engine, "alpha", &plain, NOW).await.unwrap().is_none());
     // All machines are of one class, which the service then calls its own.
     engine.add_machine("beta").await.unwrap();
     let other = MachineFacts { hardware_class: "0123456789abcdef".into(), ..plain.clone() };
-    let refused = engine.next_order("beta", &other, NOW).await;
+    let refused = common::next(&engine, "beta", &other, NOW).await;
     assert!(matches!(&refused, Err(EngineError::Busy(why)) if why.contains("one hardware class")), "{refused:?}");
     let status = engine.status().await.unwrap();
     let states: Vec<_> = status.machines.iter().map(|it| (it.name.as_str(), it.state)).collect();
     assert_eq!((states, &status.hardware_class), (vec![("alpha", MachineState::Waiting)], &plain.hardware_class));
     engine.revoke_machine("alpha").await.unwrap();
-    assert!(engine.next_order("beta", &other, NOW).await.unwrap().is_none(), "now there is no other class");
+    assert!(common::next(&engine, "beta", &other, NOW).await.unwrap().is_none(), "now there is no other class");
     assert_eq!(engine.status().await.unwrap().hardware_class, other.hardware_class);
     assert_eq!(engine.machine_of(&token).await.unwrap(), None);
     assert!(matches!(engine.revoke_machine("alpha").await, Err(EngineError::NotFound(_))));
     assert!(matches!(engine.add_machine(" \n").await, Err(EngineError::Invalid(_))));
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_machine_whose_times_drift_gets_no_run_until_they_are_as_before() {
+    let (here, engine, worker) = site().await;
+    let facts = worker.facts();
+    for name in ["beta", "gamma", "delta"] {
+        engine.add_machine(name).await.unwrap();
+        assert!(common::next(&engine, name, facts, NOW).await.unwrap().is_none(), "its sentinel is kept");
+    }
+    let run = engine.submit(small(&["box-tree"]), None).await.unwrap();
+    let asks = async || engine.next_order("alpha", facts, NOW).await;
+    let takes = async |median_ns| engine.sentinel_of("alpha", Sentinel::Measured { median_ns }).await;
+    let is_sentinel = |next: Result<NextWork, EngineError>| matches!(next, Ok(NextWork::Sentinel(_)));
+    // A reading that is off is measured again at once, and three of them are no chance.
+    for median_ns in [1031.0, 1040.0, 1050.0] {
+        assert!(is_sentinel(asks().await), "first of all, or once more");
+        takes(median_ns).await.unwrap();
+    }
+    let refused = asks().await;
+    assert!(matches!(refused, Err(EngineError::TooMuch { retry_seconds: 500..=601, .. })), "{refused:?}");
+    let told = engine.machines().await.unwrap();
+    assert!(told[0].trouble.as_ref().is_some_and(|why| why.contains("+5.0 %")), "{told:?}");
+    assert_eq!((told[0].drift, told[1].drift), (Some(1.05), None));
+    assert!(matches!(takes(f64::NAN).await, Err(EngineError::Invalid(_))));
+    // When it has rested, it is measured once more, and gets a run when it is what it was.
+    let database = common::database(here.1.path()).await;
+    sqlx::query("UPDATE machines SET rests_until_us = 0").execute(&database).await.unwrap();
+    assert!(is_sentinel(asks().await));
+    takes(1050.0).await.unwrap();
+    assert!(matches!(asks().await, Err(EngineError::TooMuch { .. })), "one more is enough");
+    sqlx::query("UPDATE machines SET rests_until_us = 0").execute(&database).await.unwrap();
+    assert!(is_sentinel(asks().await));
+    takes(1010.0).await.unwrap();
+    let order = order(&engine, "alpha", facts).await;
+    assert_eq!(order.run, run.id);
+    // An hour later it is measured again, and a machine on which that is not possible gets no run either.
+    sqlx::query("UPDATE sentinels SET at_us = at_us - 3600000000").execute(&database).await.unwrap();
+    assert!(is_sentinel(asks().await));
+    let message = "box-tree does not answer.".into();
+    engine.sentinel_of("alpha", Sentinel::Failed { message }).await.unwrap();
+    assert!(matches!(asks().await, Err(EngineError::TooMuch { .. })));
+    // Who allows it again starts anew.
+    engine.add_machine("alpha").await.unwrap();
+    assert!(is_sentinel(asks().await));
+    assert_eq!(engine.machines().await.unwrap()[0].drift, None);
+    database.close().await;
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_sentinel_is_the_same_each_time() {
+    let (_here, engine, worker) = site().await;
+    let Ok(NextWork::Sentinel(algorithm)) = engine.next_order("alpha", worker.facts(), NOW).await else {
+        panic!("it comes first")
+    };
+    assert_eq!(algorithm.info.id, "box-tree");
+    let measured = tokio::task::spawn_blocking(move || {
+        let measure = || worker.sentinel(&algorithm, &Stop::default()).unwrap().unwrap();
+        let stopped = Stop::default();
+        stopped.stop();
+        assert_eq!(worker.sentinel(&algorithm, &stopped).unwrap(), None);
+        let mut absent = (*algorithm).clone();
+        absent.info.plugin_sha256 = "0".repeat(64);
+        assert!(worker.sentinel(&absent, &Stop::default()).is_err_and(|e| e.to_string().contains("not installed")));
+        [measure(), measure(), measure()]
+    });
+    let measured = measured.await.unwrap();
+    println!("the sentinel three times, ns: {measured:?}");
+    // Other programs may be at work here: a tenth of a millisecond is far more than a query takes.
+    assert!(measured.iter().all(|ns| (100.0..1e5).contains(ns)), "{measured:?}");
     engine.shutdown().await;
 }
 
@@ -258,7 +330,7 @@ async fn what_the_jail_of_a_machine_lacks_is_no_result() {
     let ended = Ended::Measured { algorithms, environment: None, preview: None };
     assert!(hand_in(&engine, "alpha", &first, Handed { ended, files: Vec::new() }).await);
     assert_eq!(state(&engine, &run).await, State::Queued, "another machine may have more luck");
-    assert!(matches!(engine.next_order("alpha", &facts, NOW).await, Err(EngineError::TooMuch { .. })));
+    assert!(matches!(common::next(&engine, "alpha", &facts, NOW).await, Err(EngineError::TooMuch { .. })));
 
     // Who asks anew has forgotten what it had, which then waits again and is no attempt; and so it is when its token is revoked.
     engine.add_machine("beta").await.unwrap();
@@ -284,7 +356,7 @@ async fn a_run_that_the_service_cannot_begin_fails_and_holds_up_nobody() {
     }
     let next = engine.submit(small(&["box-tree"]), None).await.unwrap();
     for _ in 0..3 {
-        assert!(matches!(engine.next_order("alpha", facts, NOW).await, Err(EngineError::Fault(_))));
+        assert!(matches!(common::next(&engine, "alpha", facts, NOW).await, Err(EngineError::Fault(_))));
     }
     let run = engine.run(&damaged.id, None).await.unwrap();
     assert_eq!((run.state, run.attempts), (State::Failed, 3));

@@ -161,7 +161,7 @@ async fn a_machine_begins_at_one_service_and_hands_in_at_the_other() {
     let spec = |seed| RunSpec { algorithms: vec!["box-tree".into()], ..common::spec("collision_first", 30, seed) };
 
     let run = first.submit(spec(1), Some("me")).await.unwrap();
-    let order = second.next_order("alpha", &facts, wait).await.unwrap().unwrap();
+    let order = common::next(&second, "alpha", &facts, wait).await.unwrap().unwrap();
     let told = |done| Told::Progress { place: 0, done, total: 30, worked_us: 10 };
     assert!(first.beat_of("alpha", &order.attempt, vec![told(3)]).await.unwrap());
     assert_eq!(second.run(&run.id, None).await.unwrap().stages[2].done, 3);
@@ -176,7 +176,7 @@ async fn a_machine_begins_at_one_service_and_hands_in_at_the_other() {
 
     // Cancelled at one, which the machine hears from the other.
     let run = first.submit(spec(2), Some("me")).await.unwrap();
-    let order = first.next_order("alpha", &facts, wait).await.unwrap().unwrap();
+    let order = common::next(&first, "alpha", &facts, wait).await.unwrap().unwrap();
     second.cancel(&run.id, Some("me")).await.unwrap();
     assert!(!first.beat_of("alpha", &order.attempt, Vec::new()).await.unwrap());
     let late = Handing { ended: Ended::PutBack, files: Vec::new() };

@@ -56,7 +56,7 @@ fn nodes_measure_while_runs_wait_and_a_killed_job_costs_no_run() {
         fs::write(folder.path().join(node), token).expect("the token is written");
     }
     let program = job(folder.path(), &internal);
-    let more = ["--internal", &internal, "--slurm", "measuring", "--slurm-job", &program];
+    let more = ["--internal", &internal, "--most-drift", "100000", "--slurm", "measuring", "--slurm-job", &program];
     let configuration = cluster.path("slurm.conf");
     let environment = [("SLURM_CONF", configuration.to_str().expect("UTF-8"))];
     let service = Service::start_among(&data, &PLUGINS, &more, &environment);

@@ -10,7 +10,7 @@ use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Json, Router};
 use ocb_service::Handing;
-use ocb_service::model::{Beat, Ended, GoOn, MachineFacts};
+use ocb_service::model::{Beat, Ended, GoOn, MachineFacts, NextWork, Sentinel};
 use ocb_service::worker::Seen;
 use tokio::sync::Semaphore;
 
@@ -36,6 +36,7 @@ pub(crate) fn router(app: App) -> Router {
         Router::new().route("/internal/v1/attempts/{id}/seen", post(seen)).layer(DefaultBodyLimit::max(MAX_SEEN));
     Router::new()
         .route("/internal/v1/attempts", post(begin))
+        .route("/internal/v1/sentinel", post(sentinel))
         .route("/internal/v1/attempts/{id}/beat", post(beat))
         .route("/internal/v1/attempts/{id}/files/{name}", get(file))
         .layer(DefaultBodyLimit::max(MAX_JSON))
@@ -62,10 +63,23 @@ impl FromRequestParts<App> for Machine {
     }
 }
 
-/// The next run for the machine, or 204 when none waits.
+/// The next run for the machine; 202 with the algorithm of the sentinel, which comes first; or 204 when none waits.
 async fn begin(State(app): State<App>, Machine(name): Machine, Json(facts): Json<MachineFacts>) -> Result<Response> {
-    let order = app.engine.next_order(&name, &facts, WAIT).await?;
-    Ok(order.map_or_else(|| StatusCode::NO_CONTENT.into_response(), |order| Json(order).into_response()))
+    Ok(match app.engine.next_order(&name, &facts, WAIT).await? {
+        NextWork::Run(order) => Json(order).into_response(),
+        NextWork::Sentinel(algorithm) => (StatusCode::ACCEPTED, Json(algorithm)).into_response(),
+        NextWork::Nothing => StatusCode::NO_CONTENT.into_response(),
+    })
+}
+
+/// What the sentinel took.
+async fn sentinel(
+    State(app): State<App>,
+    Machine(name): Machine,
+    Json(sentinel): Json<Sentinel>,
+) -> Result<StatusCode> {
+    app.engine.sentinel_of(&name, sentinel).await?;
+    Ok(StatusCode::NO_CONTENT)
 }
 
 async fn beat(

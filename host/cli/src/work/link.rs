@@ -3,7 +3,7 @@
 use std::fmt;
 use std::time::Duration;
 
-use ocb_service::model::{Beat, Ended, GoOn, MachineFacts, Told, WorkOrder};
+use ocb_service::model::{Beat, Ended, GoOn, MachineFacts, NextWork, Sentinel, Told};
 use ocb_service::worker::Seen;
 use reqwest::header::RETRY_AFTER;
 use reqwest::multipart::{Form, Part};
@@ -67,19 +67,25 @@ impl Link {
         Ok(Self { server: server.trim_end_matches('/').to_owned(), token: token.to_owned(), client })
     }
 
-    /// The next run for this machine, once there is one; nothing when none waits.
-    pub async fn next(&self, facts: &MachineFacts) -> Answer<Option<WorkOrder>> {
-        let request = self.client.post(self.at("")).json(facts).timeout(PATIENCE);
+    /// What this machine has to do next, once there is something.
+    pub async fn next(&self, facts: &MachineFacts) -> Answer<NextWork> {
+        let request = self.client.post(self.at("/attempts")).json(facts).timeout(PATIENCE);
         let response = self.granted(request).await?;
-        if response.status() == StatusCode::NO_CONTENT {
-            return Ok(None);
+        match response.status() {
+            StatusCode::NO_CONTENT => Ok(NextWork::Nothing),
+            StatusCode::ACCEPTED => self.read(response).await.map(NextWork::Sentinel),
+            _ => self.read(response).await.map(NextWork::Run),
         }
-        self.read(response).await.map(Some)
+    }
+
+    /// What the sentinel took here.
+    pub async fn sentinel(&self, sentinel: &Sentinel) -> Answer<()> {
+        self.granted(self.client.post(self.at("/sentinel")).json(sentinel).timeout(PATIENCE)).await.map(|_| ())
     }
 
     /// A file of the attempt.
     pub async fn file(&self, attempt: &str, name: &str) -> Answer<Vec<u8>> {
-        let request = self.client.get(self.at(&format!("/{attempt}/files/{name}"))).timeout(LONG_PATIENCE);
+        let request = self.client.get(self.at(&format!("/attempts/{attempt}/files/{name}"))).timeout(LONG_PATIENCE);
         let bytes = self.granted(request).await?.bytes().await;
         bytes.map(|bytes| bytes.to_vec()).map_err(|e| Refused::Unreached(format!("The answer was cut off ({e}).")))
     }
@@ -87,14 +93,14 @@ impl Link {
     /// The work goes on, and this happened; false when it has ended at the service.
     pub async fn beat(&self, attempt: &str, steps: Vec<Told>) -> Answer<bool> {
         let request =
-            self.client.post(self.at(&format!("/{attempt}/beat"))).json(&Beat { steps }).timeout(PATIENCE / 6);
+            self.client.post(self.at(&format!("/attempts/{attempt}/beat"))).json(&Beat { steps }).timeout(PATIENCE / 6);
         let response = self.granted(request).await?;
         self.read(response).await.map(|GoOn { current }| current)
     }
 
     /// An algorithm has found this so far; false when the attempt has ended at the service.
     pub async fn show(&self, attempt: &str, seen: &Seen) -> Answer<bool> {
-        let request = self.client.post(self.at(&format!("/{attempt}/seen"))).json(seen).timeout(PATIENCE);
+        let request = self.client.post(self.at(&format!("/attempts/{attempt}/seen"))).json(seen).timeout(PATIENCE);
         let response = self.granted(request).await?;
         self.read(response).await.map(|GoOn { current }| current)
     }
@@ -106,13 +112,14 @@ impl Link {
         let form = files.iter().fold(Form::new().text("ended", ended), |form, file| {
             form.part("file", Part::bytes(file.clone()).file_name("file"))
         });
-        let request = self.client.post(self.at(&format!("/{attempt}/end"))).multipart(form).timeout(LONG_PATIENCE);
+        let request =
+            self.client.post(self.at(&format!("/attempts/{attempt}/end"))).multipart(form).timeout(LONG_PATIENCE);
         let response = self.granted(request).await?;
         self.read(response).await.map(|GoOn { current }| current)
     }
 
     fn at(&self, path: &str) -> String {
-        format!("{}/internal/v1/attempts{path}", self.server)
+        format!("{}/internal/v1{path}", self.server)
     }
 
     async fn granted(&self, request: RequestBuilder) -> Answer<Response> {

@@ -8,7 +8,7 @@ use sqlx::{Any, AssertSqlSafe, Column, Row, Transaction, ValueRef};
 use crate::{EngineError, Result};
 
 /// All tables; one that refers to another stands behind it.
-pub(crate) const TABLES: [&str; 32] = [
+pub(crate) const TABLES: [&str; 33] = [
     "blobs",
     "objects",
     "plugins",
@@ -41,6 +41,7 @@ pub(crate) const TABLES: [&str; 32] = [
     "idle_tried",
     "attempts",
     "machines",
+    "sentinels",
 ];
 
 /// Hands each row of a table to `each`; gives their number.

@@ -44,7 +44,8 @@ pub async fn order(inner: &Inner, attempt: &Attempt, row: &RunRow) -> Result<Opt
     }))
 }
 
-fn ordered(algorithm: &Algorithm) -> OrderedAlgorithm {
+/// The algorithm without its file.
+pub fn ordered(algorithm: &Algorithm) -> OrderedAlgorithm {
     OrderedAlgorithm {
         info: algorithm.info.clone(),
         id_in_plugin: algorithm.id_in_plugin.clone(),

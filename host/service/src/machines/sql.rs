@@ -6,6 +6,9 @@ use crate::attempts::{Attempt, Kind, LEASE_US};
 use crate::model::{MachineFacts, MachineInfo, WorkOrder};
 use crate::store::{Store, from_json, now_us, to_json};
 
+/// How long a machine that failed gets no run, so that others get the one at which it failed.
+const REST_US: i64 = 600_000_000;
+
 /// Name, facts, when it was allowed, seen, revoked, the run that it works on, and its trouble.
 type MachineRow = (String, Option<String>, i64, Option<i64>, Option<i64>, Option<String>, Option<String>);
 
@@ -59,13 +62,22 @@ impl Store {
         let rows: Vec<MachineRow> = sqlx::query_as(text).fetch_all(&self.pool).await?;
         let info = |(name, facts, created_us, seen_us, revoked_us, run, trouble): MachineRow| {
             let facts = facts.map(|facts| from_json(&facts)).transpose()?;
-            Ok(MachineInfo { name, facts, created_us, seen_us, revoked_us, run, trouble })
+            Ok(MachineInfo { name, facts, created_us, seen_us, revoked_us, run, trouble, drift: None })
         };
         rows.into_iter().map(info).collect()
     }
 
-    /// Notes why a machine gets no run, and until when.
-    pub async fn machine_has_trouble(&self, name: &str, why: &str, rests_until_us: i64) -> Result<()> {
+    /// Notes why a machine gets no run at its next request.
+    pub async fn machine_is_refused(&self, name: &str, why: &str) -> Result<()> {
+        self.machine_has_trouble(name, why, 0).await
+    }
+
+    /// Notes why a machine gets no run for a while.
+    pub async fn machine_failed(&self, name: &str, why: &str) -> Result<()> {
+        self.machine_has_trouble(name, why, now_us() + REST_US).await
+    }
+
+    async fn machine_has_trouble(&self, name: &str, why: &str, rests_until_us: i64) -> Result<()> {
         let text = "UPDATE machines SET trouble = $1, rests_until_us = $2 WHERE name = $3";
         sqlx::query(text).bind(why).bind(rests_until_us).bind(name).execute(&self.pool).await?;
         Ok(())

@@ -19,20 +19,18 @@ use crate::columns::{read_records, read_triangle_tests};
 use crate::engine::{Engine, Inner};
 use crate::measure::Preliminary;
 use crate::model::{
-    AlgorithmResult, Ended, Environment, MachineFacts, MeasuredAlgorithm, OutcomeName, Preview, State, Told, WorkOrder,
+    AlgorithmResult, Ended, Environment, MachineFacts, MeasuredAlgorithm, NextWork, OutcomeName, Preview, State, Told,
+    WorkOrder,
 };
 use crate::runs::accept::End;
 use crate::runs::carry_out::{ended, too_long};
 use crate::runs::log::RunLog;
 use crate::runs::sql::RunRow;
 use crate::runs::{draw, hand_in, spec};
-use crate::store::now_us;
 use crate::{EngineError, Result};
 
 /// How often a machine that waits for work looks into the queue, unless a run is prepared here.
 const LOOK: Duration = Duration::from_secs(1);
-/// How long a machine that failed gets no run, so that others get the one at which it failed.
-const REST: Duration = Duration::from_secs(600);
 
 /// How a machine ended an attempt, with the files.
 pub struct Handing {
@@ -43,31 +41,35 @@ pub struct Handing {
 }
 
 impl Engine {
-    /// The next prepared run for this machine; waits so long for one. A run that it had waits again: it has forgotten that.
+    /// The sentinel, about once an hour, or the next prepared run for this machine; waits so long for one. A run that it had waits
+    /// again: it has forgotten that.
     ///
     /// # Errors
     /// `Busy` when the machine does not measure the same as this service, or not the same as before; `TooMuch` while it rests after
     /// a failure.
     #[boxed]
-    pub async fn next_order(&self, machine: &str, facts: &MachineFacts, wait: Duration) -> Result<Option<WorkOrder>> {
+    pub async fn next_order(&self, machine: &str, facts: &MachineFacts, wait: Duration) -> Result<NextWork> {
         self.admit(machine, facts).await?;
         if !self.inner.config.elsewhere {
             return Err(EngineError::Busy("This service measures by itself; start it with --internal.".into()));
         }
         self.inner.put_back_runs_of(machine).await?;
+        if let Some(algorithm) = self.inner.sentinel_due(machine, facts).await? {
+            return Ok(NextWork::Sentinel(Box::new(algorithm)));
+        }
         let (asked, worker) = (Instant::now(), worker(machine, &facts.hardware_class));
         while !self.inner.closing() {
             let prepared = self.inner.orders.prepared.notified();
             if let Some(attempt) = self.inner.store.begin_prepared_run(&worker).await? {
                 match self.begun(machine, &attempt).await? {
-                    Some(order) => return Ok(Some(order)),
+                    Some(order) => return Ok(NextWork::Run(Box::new(order))),
                     None => continue,
                 }
             }
             let Some(left) = wait.checked_sub(asked.elapsed()) else { break };
             let _ = tokio::time::timeout(left.min(LOOK), prepared).await;
         }
-        Ok(None)
+        Ok(NextWork::Nothing)
     }
 
     /// The order of an attempt; nothing when its run cannot be measured, or not yet.
@@ -243,8 +245,7 @@ impl Engine {
     /// The machine could not measure: it rests, and the run waits for another one, three times at most.
     async fn failed(&self, machine: &str, attempt: &Attempt, row: &RunRow, why: &str) -> Result<bool> {
         tracing::error!("run {}: the machine {machine} failed: {why}", row.id);
-        let until = now_us() + REST.as_micros() as i64;
-        self.inner.store.machine_has_trouble(machine, why, until).await?;
+        self.inner.store.machine_failed(machine, why).await?;
         Ok(self.lose(machine, attempt).await?.is_some())
     }
 

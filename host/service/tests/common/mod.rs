@@ -3,11 +3,12 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use ocb_core::query::Query;
-use ocb_service::model::{Manifest, RunEvent, RunInfo, RunSpec, WorkOrder};
+use ocb_service::model::{MachineFacts, Manifest, NextWork, RunEvent, RunInfo, RunSpec, Sentinel, WorkOrder};
 use ocb_service::worker::{Handed, Report, Seen, Worker};
-use ocb_service::{Engine, EngineConfig, LabError, Runner, Stop};
+use ocb_service::{Engine, EngineConfig, EngineError, LabError, Runner, Stop};
 use tokio::runtime::Handle;
 
 /// The folder where cargo puts binaries and plugins; test binaries lie in `deps` below it.
@@ -102,6 +103,22 @@ pub async fn database(data: &Path) -> sqlx::AnyPool {
 pub fn here(config: &EngineConfig) -> Worker {
     let runner = Runner { program: config.runner.clone(), profile: config.profile };
     Worker::observe(runner, &config.plugins, None).unwrap()
+}
+
+/// The next order for a machine, on which the sentinel always takes the same.
+pub async fn next(
+    engine: &Engine,
+    machine: &str,
+    facts: &MachineFacts,
+    wait: Duration,
+) -> Result<Option<WorkOrder>, EngineError> {
+    loop {
+        match engine.next_order(machine, facts, wait).await? {
+            NextWork::Run(order) => return Ok(Some(*order)),
+            NextWork::Nothing => return Ok(None),
+            NextWork::Sentinel(_) => engine.sentinel_of(machine, Sentinel::Measured { median_ns: 1000.0 }).await?,
+        }
+    }
 }
 
 /// Measures what is ordered in this process, and shows what there is to see meanwhile.
