@@ -70,7 +70,7 @@ fn of_poses(file: &Path, args: &RecordArgs) -> Result<Recording> {
     let bytes = read_bounded(file, MOST_POSES)?;
     match &args.object[..] {
         [] => Ok(from_json(&bytes, file.parent().unwrap_or(Path::new("")))?),
-        [a, b] => Ok(from_pair([a, b], &bytes, args.query.kind())?),
+        [a, b] => Ok(from_pair([a, b], &bytes, args.query)?),
         _ => Err(Failure::Input(
             "A pair has two objects: give --object twice, also for an object and itself.".to_owned(),
         )),

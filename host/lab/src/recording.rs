@@ -9,6 +9,8 @@ mod spool;
 
 use std::path::Path;
 
+use ocb_core::pose::Pose;
+use ocb_core::scene::{Geometry, SceneObject};
 use ocb_core::workload::Recorded;
 use serde::{Deserialize, Serialize};
 
@@ -40,6 +42,12 @@ pub struct About {
     pub seen: u64,
     /// Queries that are not in the recording, by reason.
     pub dropped: Vec<Dropped>,
+}
+
+/// An object as recordings have it: the poses of the queries place it.
+fn object(name: String, geometry: Geometry, source: String) -> SceneObject {
+    let (link, pose, scale, licence) = (None, Pose::identity(), [1.0; 3], None);
+    SceneObject { name, link, geometry, pose, source, scale, licence }
 }
 
 /// Queries that were left out for one reason.

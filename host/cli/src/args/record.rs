@@ -3,30 +3,8 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use ocb_core::workload::Kind;
-
-/// What a pair is asked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum AskedArg {
-    /// Do they collide?
-    Collide,
-    /// Where do they collide?
-    Contacts,
-    /// How far apart are they?
-    Distance,
-}
-
-impl AskedArg {
-    /// As recordings say it.
-    pub fn kind(self) -> Kind {
-        match self {
-            Self::Collide => Kind::Collide,
-            Self::Contacts => Kind::Contacts,
-            Self::Distance => Kind::Distance,
-        }
-    }
-}
 
 /// `ocb record`
 #[derive(Debug, Args)]
@@ -47,10 +25,16 @@ pub struct RecordArgs {
     /// Object of the pair, twice: A, then B, which may be the same file.
     #[arg(long, value_name = "FILE", requires = "poses")]
     pub object: Vec<PathBuf>,
-    /// What was asked of the pair.
-    #[arg(long, value_enum, default_value = "distance", requires = "object", value_name = "QUERY")]
-    pub query: AskedArg,
+    /// What was asked of the pair, in the words of the JSON: collide, contacts or distance.
+    #[arg(long, default_value = "distance", value_parser = of_pair, requires = "object", value_name = "QUERY")]
+    pub query: Kind,
     /// Program to run, with its arguments.
     #[arg(last = true, required_unless_present_any = ["spool", "poses"], conflicts_with_all = ["spool", "poses"], value_name = "PROGRAM")]
     pub program: Vec<OsString>,
+}
+
+/// A query that needs no length.
+fn of_pair(name: &str) -> Result<Kind, String> {
+    let kind = Kind::named(name).filter(|kind| *kind != Kind::Tolerance);
+    kind.ok_or_else(|| "this is one of collide, contacts, distance".to_owned())
 }

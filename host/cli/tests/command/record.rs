@@ -349,8 +349,8 @@ fn poses_that_were_written_down_are_a_recording() {
     ]);
     let (_, stdout, stderr) = said({ replay }.output().expect("it starts"));
     let result: serde_json::Value = serde_json::from_str(&stdout).unwrap_or_else(|e| panic!("{e}: {stderr}"));
-    println!("{}", result["recorded"]);
-    assert!(result.to_string().contains("missed"), "{result:#}");
+    let claims = serde_json::json!([{ "claim": "right", "count": 1 }, { "claim": "missed_collision", "count": 1 }]);
+    assert_eq!(result["recorded"]["claims"], claims, "{result:#}");
 
     // A pair in the poses of a configuration file.
     write("poses.csv", "1,0,0,3, 0,1,0,0, 0,0,1,0\n1,0,0,0.5, 0,1,0,0, 0,0,1,0\n");
@@ -363,6 +363,12 @@ fn poses_that_were_written_down_are_a_recording() {
     assert_eq!((names, recording.queries.len()), (vec!["cube A", "cube B"], 2));
     assert!(recording.queries.iter().all(|query| query.kind == Kind::Collide && query.answered == Default::default()));
 
+    let (code, _, stderr) = run(&["--poses", csv, "--object", cube, "--object", cube, "--query", "contacts"]);
+    assert_eq!(code, 0, "{stderr}");
+    assert!(read(&desk, "mine.ocbrec").queries.iter().all(|query| (query.kind, query.limit) == (Kind::Contacts, 1.0)));
+    let (code, _, stderr) = run(&["--poses", csv, "--object", cube, "--object", cube, "--query", "tolerance"]);
+    assert!(code == 2 && stderr.contains("one of collide, contacts, distance"), "{stderr}");
+
     let refused = |text: &str, words: &str| {
         write("bad.json", text);
         let bad = desk.path("bad.json");
@@ -372,6 +378,8 @@ fn poses_that_were_written_down_are_a_recording() {
     };
     refused("{}", "missing field `objects`");
     refused(&queries.replace("\"library\"", "\"books\""), "unknown field `books`");
+    refused(&queries.replace("\"file\"", "\"path\""), "unknown field `path`");
+    refused(&queries.replace("\"hit\"", "\"hits\""), "unknown field `hits`");
     refused(&queries.replace("cube.obj", "cube.stl"), "cube.stl cannot be read");
     refused(&queries.replace("[\"ball\", \"cube\"]", "[\"ball\", \"cup\"]"), "query 2: there is no object \"cup\"");
     refused(&queries.replace("[\"ball\", \"cube\"]", "[\"ball\", \"ball\"]"), "asked about itself");

@@ -6,12 +6,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use ocb_core::mesh::Mesh;
-use ocb_core::pose::Pose;
 use ocb_core::scene::{Geometry, Scene, SceneObject};
 use ocb_core::workload::Recorded;
 
 use super::spool::{self, Spool};
-use super::{About, Dropped, Recording};
+use super::{About, Dropped, Recording, object};
 use crate::scene_file::SceneFile;
 use crate::{LabError, Result};
 
@@ -136,8 +135,7 @@ impl Merged {
             name = format!("{name} #{number}");
             self.names.insert(name.clone());
         }
-        let (link, pose, scale, licence) = (None, Pose::identity(), [1.0; 3], None);
-        self.objects.push(SceneObject { name, link, geometry, pose, source, scale, licence });
+        self.objects.push(object(name, geometry, source));
         number as u32
     }
 

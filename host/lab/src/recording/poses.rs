@@ -3,7 +3,7 @@
 //! In JSON, an object is `{"name": "cup", "file": "cup.stl"}` or `{"name": "table", "geometry": {"kind": "box", "size": [1, 2, 0.1]}}`,
 //! and a query `{"objects": ["cup", "table"], "query": "distance", "pose_b": [1,0,0,0, 0,1,0,0, 0,0,1,0.5], "distance": 0.1}`.
 //! Matrices are row-major, of 16 or 12 numbers; `pose_a` and `pose_b` place the objects in the scene, and are the identity where they
-//! are missing. Files are looked for beside the JSON file.
+//! are missing. Files are looked for beside the JSON file; coordinates are taken as they stand there, whatever their unit.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -11,12 +11,12 @@ use std::path::{Path, PathBuf};
 use ocb_core::configuration::Configuration;
 use ocb_core::mesh::{self, MAX_BYTES};
 use ocb_core::pose::Pose;
-use ocb_core::scene::{Geometry, Scene, SceneObject};
+use ocb_core::scene::{Geometry, Scene};
 use ocb_core::workload::{Answered, Kind, Recorded};
 use ocb_sandbox::given;
 use serde::Deserialize;
 
-use super::{About, Recording};
+use super::{About, Recording, object};
 use crate::configurations::{Matrix, read_file, rotations};
 use crate::scene_file::SceneFile;
 use crate::{LabError, Result};
@@ -92,13 +92,13 @@ pub fn from_pair([a, b]: [&Path; 2], poses: &[u8], query: Kind) -> Result<Record
     let poses = read_file(poses)?.poses;
     let name = |path: &Path| path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let names = if a == b { [format!("{} A", name(a)), format!("{} B", name(b))] } else { [name(a), name(b)] };
-    let object = |name: &String, file: &Path| Object {
+    let of_file = |name: &String, file: &Path| Object {
         name: name.clone(),
         file: Some(file.to_owned()),
         geometry: None,
         solid: false,
     };
-    let objects = vec![object(&names[0], a), object(&names[1], b)];
+    let objects = vec![of_file(&names[0], a), of_file(&names[1], b)];
     let scene = scene(names.join(" and "), objects, Path::new("")).map_err(bad)?;
     let query = |(number, configuration)| Recorded {
         sequence: number,
@@ -106,7 +106,7 @@ pub fn from_pair([a, b]: [&Path; 2], poses: &[u8], query: Kind) -> Result<Record
         objects: [0, 1],
         configuration,
         kind: query,
-        limit: 0.0,
+        limit: usual_limit(query),
         answered: Answered::default(),
         seconds: None,
         library: 0,
@@ -140,7 +140,7 @@ fn recorded(written: Written, folder: &Path) -> Found<Recording> {
             objects,
             configuration: Configuration { pose_a, pose_b },
             kind: asked.query,
-            limit: asked.limit.unwrap_or(if asked.query == Kind::Contacts { 1.0 } else { 0.0 }),
+            limit: asked.limit.unwrap_or_else(|| usual_limit(asked.query)),
             answered: Answered { hit: asked.hit, distance: asked.distance },
             seconds: asked.seconds,
             library: 0,
@@ -150,6 +150,11 @@ fn recorded(written: Written, folder: &Path) -> Found<Recording> {
         query.configuration = configuration;
     }
     finish(scene, library, all)
+}
+
+/// One contact, where nobody says how many.
+fn usual_limit(query: Kind) -> f64 {
+    if query == Kind::Contacts { 1.0 } else { 0.0 }
 }
 
 fn scene(name: String, objects: Vec<Object>, folder: &Path) -> Found<SceneFile> {
@@ -170,8 +175,7 @@ fn scene(name: String, objects: Vec<Object>, folder: &Path) -> Found<SceneFile> 
             (None, Some(geometry)) if !matches!(geometry, Geometry::Mesh { .. }) => (geometry, String::new()),
             _ => return Err(place("it has either a file with its mesh or the geometry of another shape".into())),
         };
-        let pose = Pose::identity();
-        all.push(SceneObject { name, link: None, geometry, pose, source, scale: [1.0; 3], licence: None });
+        all.push(object(name, geometry, source));
     }
     let scene = Scene { name, objects: all, disabled: Vec::new() };
     scene.check().map_err(|why| why.to_string())?;
