@@ -1,27 +1,26 @@
 //! `ocb work`: this machine measures for a service that runs elsewhere.
 
 mod link;
+mod reports;
 
 use std::process::ExitCode;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ocb_service::doctor::examine;
-use ocb_service::model::{Ended, NextWork, OrderedAlgorithm, Sentinel, Told, WorkOrder};
-use ocb_service::worker::{Handed, Report, Seen, Worker};
+use ocb_service::model::{Ended, NextWork, OrderedAlgorithm, Sentinel, WorkOrder};
+use ocb_service::worker::{Handed, Worker};
 use ocb_service::{LabError, Runner, Stop};
 use tokio::runtime::Handle;
 use tokio::sync::watch;
-use tokio::time::MissedTickBehavior;
 
 use crate::args::{Store, WorkArgs};
 use crate::failure::{Failure, Result};
 use crate::open;
 use crate::serve::stop_signal;
 use link::{Link, Refused};
+use reports::Reports;
 
-/// How often the service hears that the work goes on.
-const BEAT: Duration = Duration::from_secs(2);
 /// After something went wrong.
 const PAUSE: Duration = Duration::from_secs(2);
 /// A service that is not reached for so long, or has a fault for so long, does not get what it is asked for.
@@ -115,7 +114,10 @@ async fn sentinel(
         Ok(None) => return Ok(()),
         Err(e) => Sentinel::Failed { message: e.to_string() },
     };
-    eprintln!("ocb: the sentinel: {}", serde_json::to_string(&sentinel).unwrap_or_default());
+    match &sentinel {
+        Sentinel::Measured { median_ns } => eprintln!("ocb: a query of the sentinel takes {:.2} us", median_ns / 1e3),
+        Sentinel::Failed { message } => eprintln!("ocb: the sentinel could not be measured. {message}"),
+    }
     if let Err(refused) = link.sentinel(&sentinel).await {
         eprintln!("ocb: {refused}");
         pause(PAUSE, stopped).await;
@@ -125,28 +127,27 @@ async fn sentinel(
 
 /// Measures one run and hands it in.
 async fn carry_out(worker: Worker, link: &Arc<Link>, order: WorkOrder, stopped: &watch::Receiver<bool>) -> Result<()> {
-    let (stop, news, order) = (Stop::default(), Arc::new(Mutex::new(Some(News::default()))), Arc::new(order));
+    let (stop, reports, order) = (Stop::default(), Reports::default(), Arc::new(order));
     eprintln!("ocb: measuring the run {}", order.run);
     let begun = Instant::now();
     let measuring = {
-        let (link, order, stop, news) = (link.clone(), order.clone(), stop.clone(), news.clone());
+        let (link, order, stop, reports) = (link.clone(), order.clone(), stop.clone(), reports.clone());
         let (handle, stopped) = (Handle::current(), stopped.clone());
         tokio::task::spawn_blocking(move || {
             let fetch = |name: &str| {
                 let fetched = handle.block_on(fetched(&link, &order.attempt, name, &stopped));
                 fetched.map_err(|e| LabError::Fault(format!("The file {name:?} of the run cannot be had. {e}")))
             };
-            worker.measure(&order, &stop, &fetch, &mut |report| note(&news, report))
+            worker.measure(&order, &stop, &fetch, &mut |report| reports.note(report))
         })
     };
-    let beating = tokio::spawn(beat(link.clone(), order.clone(), stop.clone(), news.clone()));
-    let showing = tokio::spawn(show(link.clone(), order.clone(), news.clone()));
+    let beating = tokio::spawn(reports.clone().beat(link.clone(), order.attempt.clone(), stop.clone()));
+    let showing = tokio::spawn(reports.clone().show(link.clone(), order.attempt.clone()));
     let watching = tokio::spawn(watch_over(stop.clone(), stopped.clone(), order.most_seconds));
     let measured = measuring.await.map_err(|e| Failure::Fault(format!("the measuring thread ended: {e}.")))?;
     watching.abort();
     showing.abort();
-    // What is told from now on would come behind the end.
-    news.lock().unwrap_or_else(PoisonError::into_inner).take();
+    reports.end();
     let Handed { ended, files } = match measured {
         Ok(Some(handed)) => handed,
         _ if *stopped.borrow() => plain(Ended::PutBack),
@@ -203,64 +204,6 @@ async fn fetched(
 
 fn plain(ended: Ended) -> Handed {
     Handed { ended, files: Vec::new() }
-}
-
-/// What the service is to hear next.
-#[derive(Default)]
-struct News {
-    steps: Vec<Told>,
-    seen: Vec<Seen>,
-}
-
-/// Keeps what is told for the next beat, the newest of an algorithm alone; nothing once the measuring has ended.
-fn note(news: &Mutex<Option<News>>, report: Report) {
-    let mut news = news.lock().unwrap_or_else(PoisonError::into_inner);
-    let Some(news) = &mut *news else { return };
-    match report {
-        Report::Told(told) => {
-            if let Told::Progress { place: of, .. } = &told {
-                news.steps.retain(|known| !matches!(known, Told::Progress { place, .. } if place == of));
-            }
-            news.steps.push(told);
-        }
-        Report::Seen(seen) => {
-            news.seen.retain(|known| known.place != seen.place);
-            news.seen.push(*seen);
-        }
-    }
-}
-
-fn taken<T: Default>(news: &Mutex<Option<News>>, part: impl FnOnce(&mut News) -> &mut T) -> T {
-    news.lock()
-        .unwrap_or_else(PoisonError::into_inner)
-        .as_mut()
-        .map(|news| std::mem::take(part(news)))
-        .unwrap_or_default()
-}
-
-/// Tells the service every two seconds that the work goes on, and how far it is; stops the work when the service has ended it. While
-/// the service is not reached, the work goes on: it may have been started again.
-async fn beat(link: Arc<Link>, order: Arc<WorkOrder>, stop: Stop, news: Arc<Mutex<Option<News>>>) {
-    let mut ticks = tokio::time::interval(BEAT);
-    loop {
-        ticks.tick().await;
-        let steps = taken(&news, |news| &mut news.steps);
-        if matches!(link.beat(&order.attempt, steps).await, Ok(false) | Err(Refused::For(_))) {
-            return stop.stop();
-        }
-    }
-}
-
-/// Sends what there is to see so far, as often. What cannot be sent is left out: there will be more.
-async fn show(link: Arc<Link>, order: Arc<WorkOrder>, news: Arc<Mutex<Option<News>>>) {
-    let mut ticks = tokio::time::interval(BEAT / 2);
-    ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
-    loop {
-        ticks.tick().await;
-        for seen in taken(&news, |news| &mut news.seen) {
-            let _ = link.show(&order.attempt, &seen).await;
-        }
-    }
 }
 
 /// Stops the work when this process is asked to stop, or when the time limit of the run is over.

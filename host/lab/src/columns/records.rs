@@ -254,6 +254,8 @@ mod tests {
         };
         let read = read_records(&records_parquet(&of, &records).unwrap()).unwrap();
         assert_eq!(read, RecordColumns::of(&records));
+        let sent: RecordColumns = serde_json::from_str(&serde_json::to_string(&read).unwrap()).unwrap();
+        assert_eq!(sent, read, "as machines send it");
         let claims = read.claims;
         let points = Some([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
         let expected = [(1, Claim { triangles: Some([3, 4]), points: None }), (3, Claim { triangles: None, points })];

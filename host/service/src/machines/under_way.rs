@@ -22,8 +22,9 @@ pub struct Working {
 
 impl Working {
     /// Its machine was heard from just now.
-    pub fn heard(&self) {
+    fn heard(self: Arc<Self>) -> Arc<Self> {
         self.shown.heard(LEASE);
+        self
     }
 }
 
@@ -45,16 +46,19 @@ impl Orders {
     ) -> Result<Arc<Working>> {
         let known = self.all().get(attempt).cloned();
         if let Some(working) = known {
-            working.heard();
-            return Ok(working);
+            return Ok(working.heard());
         }
         let log = Mutex::new(log()?);
         let mut all = self.all();
         // Of a machine that died nobody says that it has ended.
         all.retain(|_, working| working.shown.is_heard());
-        let working = all.entry(attempt.to_owned()).or_insert_with(|| Arc::new(Working { log, shown: show() })).clone();
-        working.heard();
-        Ok(working)
+        let working = all.entry(attempt.to_owned()).or_insert_with(|| Arc::new(Working { log, shown: show() }));
+        Ok(working.clone().heard())
+    }
+
+    /// The machine of this attempt was heard from just now; false when the attempt is not known here.
+    pub fn heard(&self, attempt: &str) -> bool {
+        self.all().get(attempt).cloned().map(Working::heard).is_some()
     }
 
     /// The attempt has ended.

@@ -218,7 +218,7 @@ async fn algorithms(spec: &RunSpec, registry: &Registry, viewer: Option<&str>) -
 }
 
 /// Our own algorithms that others are compared with, in the order of preference.
-pub const REFERENCES: [&str; 2] = ["box-tree", "brute-force"];
+const REFERENCES: [&str; 2] = ["box-tree", "brute-force"];
 
 /// The reference of a run: the first that answers its question and was built from our own sources.
 pub fn reference(spec: &RunSpec, registry: &Registry) -> Option<Arc<Algorithm>> {
