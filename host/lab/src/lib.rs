@@ -20,6 +20,7 @@ mod repro;
 pub mod scene_file;
 pub mod scene_import;
 pub mod stability;
+pub mod table;
 pub mod truth;
 pub mod worker;
 pub mod workload;
