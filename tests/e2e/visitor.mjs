@@ -118,8 +118,8 @@ export async function runId(page) {
   return /\/r\/([0-9a-f-]{36})/.exec(page.url())[1]
 }
 
-/** Waits until `probe` answers something true. */
-export async function until(what, probe, seconds = 60) {
+/** Waits until `probe` answers something true; long enough for a turn to measure behind those of others. */
+export async function until(what, probe, seconds = 180) {
   const end = Date.now() + seconds * 1000
   for (;;) {
     const value = await probe()

@@ -6,7 +6,7 @@ import { until, visitor } from '../visitor.mjs'
 /** Measures a small run through the API and waits for it. */
 async function measure(v, spec) {
   const run = await v.api('/runs', { method: 'POST', data: spec })
-  await until('the run to end', async () => ['done', 'failed'].includes((await v.api(`/runs/${run.id}`)).state), 180)
+  await until('the run to end', async () => ['done', 'failed'].includes((await v.api(`/runs/${run.id}`)).state))
   return run.id
 }
 const knot = (more) => ({

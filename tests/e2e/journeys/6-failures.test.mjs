@@ -18,7 +18,7 @@ async function failing(v) {
   return until('the run', async () => {
     const run = await v.api(`/runs/${id}`)
     return run.state === 'done' && run
-  }, 180)
+  })
 }
 
 const selection = (v, id, algorithm, where) => v.api(`/runs/${id}/selection?${new URLSearchParams({ algorithm, where })}`)

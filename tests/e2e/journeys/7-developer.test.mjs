@@ -138,7 +138,7 @@ test('a developer publishes a plugin, a curator decides, a user benchmarks it', 
   await user.at('algorithm-my-algorithm-c').click()
   await user.at('start').click()
   const run = await runId(user.page)
-  await until('the run to end', async () => (await user.api(`/runs/${run}`)).state === 'done', 180)
+  await until('the run to end', async () => (await user.api(`/runs/${run}`)).state === 'done')
   const results = (await user.api(`/runs/${run}`)).results
   assert.ok(results.some((result) => result.algorithm === 'my-algorithm-c' && result.n === 20 && result.wrong === 0), JSON.stringify(results.map((r) => [r.algorithm, r.n, r.wrong, r.outcome])))
 })

@@ -15,7 +15,7 @@ test('an account is deleted, and what was public stays without a name', async (t
   }
   const [shown, hidden] = [0, 0].map(() => owner.api('/runs', { method: 'POST', data: spec }))
   const runs = [(await shown).id, (await hidden).id]
-  for (const id of runs) await until('the run is done', async () => (await owner.api(`/runs/${id}`)).state === 'done', 180)
+  for (const id of runs) await until('the run is done', async () => (await owner.api(`/runs/${id}`)).state === 'done')
   await owner.api(`/runs/${runs[0]}/visibility`, { method: 'PUT', data: { visibility: 'public' } })
 
   await owner.at('leave').click()

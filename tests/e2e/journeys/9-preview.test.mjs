@@ -66,7 +66,7 @@ test('the quick look is proposed first, is marked as a preview, and is refined i
   await until('the whole run', async () => {
     const { state, preview } = await v.api(`/runs/${id}`)
     return state === 'done' && preview === null
-  }, 180)
+  })
   await until('no badge', async () => (await v.at('preview').count()) === 0)
   await v.at('result-table').waitFor()
   assert.ok((await v.api(`/runs/${id}`)).results.every(({ n }) => n === WHOLE))

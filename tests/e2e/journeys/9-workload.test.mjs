@@ -26,7 +26,7 @@ test('a recording is replayed, read and explored', async (t) => {
   await v.at('workloads-empty').waitFor()
   await v.accessible('the workloads page without a replay')
   const id = await upload(v, recording())
-  await until('the replay to end', async () => (await state(v)) === 'done', 180)
+  await until('the replay to end', async () => (await state(v)) === 'done')
   const { result } = await v.api(`/workloads/${id}`)
 
   // The program's false answers come first.
@@ -95,7 +95,7 @@ test('a recording is replayed, read and explored', async (t) => {
 test('a replay is asked for again and deleted on a telephone', async (t) => {
   const v = await visitor(t, { scheme: 'dark', width: 390 })
   const first = await upload(v, recording())
-  await until('the replay to end', async () => (await state(v)) === 'done', 180)
+  await until('the replay to end', async () => (await state(v)) === 'done')
   await v.accessible('a replay on a telephone')
   await v.picture('workload-390')
   await v.at('again').locator('summary').first().click()
@@ -104,7 +104,7 @@ test('a replay is asked for again and deleted on a telephone', async (t) => {
   await until('the other replay', () => !v.page.url().includes(first))
   const second = v.page.url().split('/').at(-1)
   assert.deepEqual((await v.api(`/workloads/${second}`)).spec.tracks, ['recorded'])
-  await until('the other replay to end', async () => (await state(v)) === 'done', 180)
+  await until('the other replay to end', async () => (await state(v)) === 'done')
 
   for (const id of [second, first]) {
     await v.go(`/workloads/${id}`)
