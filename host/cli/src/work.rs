@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use ocb_service::doctor::examine;
 use ocb_service::model::{Ended, NextWork, OrderedAlgorithm, Sentinel, WorkOrder};
 use ocb_service::worker::{Handed, Worker};
-use ocb_service::{LabError, Runner, Stop};
+use ocb_service::{LabError, Runner, Stop, in_time};
 use tokio::runtime::Handle;
 use tokio::sync::watch;
 
@@ -106,7 +106,7 @@ async fn sentinel(
     stopped: &watch::Receiver<bool>,
 ) -> Result<()> {
     let stop = Stop::default();
-    let watching = tokio::spawn(watch_over(stop.clone(), stopped.clone(), None));
+    let watching = tokio::spawn(watch_over(stop.clone(), stopped.clone()));
     let measured = tokio::task::spawn_blocking(move || worker.sentinel(&algorithm, &stop)).await;
     watching.abort();
     let sentinel = match measured.map_err(|e| Failure::Fault(format!("the measuring thread ended: {e}.")))? {
@@ -129,7 +129,6 @@ async fn sentinel(
 async fn carry_out(worker: Worker, link: &Arc<Link>, order: WorkOrder, stopped: &watch::Receiver<bool>) -> Result<()> {
     let (stop, reports, order) = (Stop::default(), Reports::default(), Arc::new(order));
     eprintln!("ocb: measuring the run {}", order.run);
-    let begun = Instant::now();
     let measuring = {
         let (link, order, stop, reports) = (link.clone(), order.clone(), stop.clone(), reports.clone());
         let (handle, stopped) = (Handle::current(), stopped.clone());
@@ -143,17 +142,18 @@ async fn carry_out(worker: Worker, link: &Arc<Link>, order: WorkOrder, stopped: 
     };
     let beating = tokio::spawn(reports.clone().beat(link.clone(), order.attempt.clone(), stop.clone()));
     let showing = tokio::spawn(reports.clone().show(link.clone(), order.attempt.clone()));
-    let watching = tokio::spawn(watch_over(stop.clone(), stopped.clone(), order.most_seconds));
-    let measured = measuring.await.map_err(|e| Failure::Fault(format!("the measuring thread ended: {e}.")))?;
+    let watching = tokio::spawn(watch_over(stop.clone(), stopped.clone()));
+    let limit = order.most_seconds.map(|most| (Duration::from_secs_f64(most), "Its time is over.".to_owned()));
+    let measured = in_time(measuring, &stop, limit)
+        .await
+        .map_err(|e| Failure::Fault(format!("the measuring thread ended: {e}.")))?;
     watching.abort();
     showing.abort();
     reports.end();
     let Handed { ended, files } = match measured {
         Ok(Some(handed)) => handed,
         _ if *stopped.borrow() => plain(Ended::PutBack),
-        Ok(None) if order.most_seconds.is_some_and(|most| begun.elapsed().as_secs_f64() >= most) => {
-            plain(Ended::TooLong)
-        }
+        Ok(None) if stop.reason().is_some() => plain(Ended::TooLong),
         // The service has ended the attempt.
         Ok(None) => {
             beating.abort();
@@ -206,18 +206,9 @@ fn plain(ended: Ended) -> Handed {
     Handed { ended, files: Vec::new() }
 }
 
-/// Stops the work when this process is asked to stop, or when the time limit of the run is over.
-async fn watch_over(stop: Stop, mut stopped: watch::Receiver<bool>, most_seconds: Option<f64>) {
-    let limit = async {
-        match most_seconds {
-            Some(most) => tokio::time::sleep(Duration::from_secs_f64(most)).await,
-            None => std::future::pending().await,
-        }
-    };
-    tokio::select! {
-        _ = stopped.wait_for(|stopped| *stopped) => {}
-        () = limit => {}
-    }
+/// Stops the work when this process is asked to stop.
+async fn watch_over(stop: Stop, mut stopped: watch::Receiver<bool>) {
+    let _ = stopped.wait_for(|stopped| *stopped).await;
     stop.stop();
 }
 

@@ -175,7 +175,7 @@ fn right_to_measure<E: From<LabError>>(
     tell: &mut dyn FnMut(Step) -> Result<(), E>,
 ) -> Result<Option<MeasuringRight>, E> {
     let mut noted = None;
-    let right = MeasuringRight::wait(|| stop.asked(), || noted = Some(tell(Step::Waiting(true))))?;
+    let right = stop.right_to_measure(|| noted = Some(tell(Step::Waiting(true))))?;
     if let Some(noted) = noted {
         noted?;
         tell(Step::Waiting(false))?;

@@ -39,6 +39,7 @@ mod sets;
 mod stability;
 mod store;
 pub mod suite;
+mod time_limit;
 mod visibility;
 mod workloads;
 
@@ -75,3 +76,4 @@ pub use quotas::Visitor;
 pub use requests::Made;
 pub use sets::SetJob;
 pub use sets::saved::MAX_CONFIGURATION_BYTES;
+pub use time_limit::in_time;

@@ -37,10 +37,10 @@ impl Engine {
         // A thread of its own: a jail ends with the thread that started it.
         let (sender, found) = tokio::sync::oneshot::channel();
         std::thread::spawn(move || {
-            let tried = work::right_to_measure(&stop, || at("waiting: another process is measuring on this machine"))
-                .and_then(|_right| {
-                    stability::run(inner.registry.runner(), &inner.machine, &algorithm, &selection, &stop, &at)
-                });
+            let right = stop.right_to_measure(|| at("waiting: another process is measuring on this machine"));
+            let tried = right.and_then(|right| right.ok_or(crate::LabError::Stopped)).and_then(|_right| {
+                stability::run(inner.registry.runner(), &inner.machine, &algorithm, &selection, &stop, &at)
+            });
             // Who asked may have gone.
             drop(sender.send(tried));
         });

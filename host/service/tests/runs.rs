@@ -194,31 +194,40 @@ async fn only_the_owner_cancels_and_the_next_run_goes_on() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_guests_run_is_stopped_at_its_time_limit_and_the_next_run_goes_on() {
+async fn a_guests_run_is_stopped_at_its_time_limit_and_waiting_for_others_does_not_count() {
     let data = tempfile::tempdir().unwrap();
     let ceilings = Ceilings { guest_run: Duration::from_secs(8), ..Ceilings::default() };
     let engine = Engine::open(EngineConfig { ceilings, ..common::config(data.path()) }).await.unwrap();
-    let spec = |seed| RunSpec {
+    let spec = |configurations, seed, budget_seconds| RunSpec {
         algorithms: vec!["brute-force".into()],
-        budget_seconds: 1.0,
-        ..common::spec("proximity", 20, seed)
+        budget_seconds,
+        ..common::spec("proximity", configurations, seed)
     };
-    // Another process measures, so that the run has to wait for longer than it may.
+    // Another process measures, for longer than the run may take.
     let folder = if Path::new("/run/lock").is_dir() { "/run/lock" } else { "/tmp" };
     let lock = File::options().create(true).append(true).open(Path::new(folder).join("opencollbench-measuring.lock"));
     let lock = lock.unwrap();
     lock.lock().unwrap();
-    let (guest, begun) = ("0193f1a0-0000-4000-8000-000000000000", Instant::now());
-    let late = engine.submit(spec(1), Some(guest)).await.unwrap();
-    let (late, _) = common::finish(&engine, &late.id).await;
+    let guest = "0193f1a0-0000-4000-8000-000000000000";
+    let waits = engine.submit(spec(20, 1, 1.0), Some(guest)).await.unwrap();
+    // Guests cannot ask for a run that takes too long.
+    let long = engine.submit(spec(20_000, 2, 300.0), Some("cli")).await.unwrap();
+    let database = common::database(data.path()).await;
+    let taken =
+        sqlx::query("UPDATE runs SET owner = ?1 WHERE id = ?2").bind(guest).bind(&long.id).execute(&database).await;
+    assert_eq!(taken.unwrap().rows_affected(), 1);
+    tokio::time::sleep(Duration::from_secs(9)).await;
+    lock.unlock().unwrap();
+    let (waited, _) = common::finish(&engine, &waits.id).await;
+    assert_eq!(waited.state, State::Done, "{:?}", waited.message);
+
+    let (late, _) = common::finish(&engine, &long.id).await;
     assert_eq!(late.state, State::Cancelled, "{:?}", late.message);
     assert!(late.message.is_some_and(|message| message.contains("time limit for guests")));
-    assert!(begun.elapsed() >= Duration::from_secs(8));
-    lock.unlock().unwrap();
-    // The next one is no guest's: on a busy machine it may need more than a guest's time.
-    let next = engine.submit(spec(2), Some("cli")).await.unwrap();
+    let next = engine.submit(spec(20, 3, 1.0), Some("cli")).await.unwrap();
     let (next, _) = common::finish(&engine, &next.id).await;
     assert_eq!(next.state, State::Done, "{:?}", next.message);
+    database.close().await;
     engine.shutdown().await;
 }
 

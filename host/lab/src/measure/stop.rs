@@ -1,13 +1,25 @@
-//! Stopping a measurement from another thread.
+//! Stopping a measurement from another thread, and how long it has taken.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 use ocb_sandbox::Killer;
 
-/// Ends the measuring from another thread.
-#[derive(Clone, Default)]
+use crate::Result;
+use crate::machine::MeasuringRight;
+
+/// Ends the measuring from another thread, and knows for how long it has worked.
+#[derive(Clone)]
 pub struct Stop {
+    begun: Instant,
     inner: Arc<Mutex<Stopping>>,
+}
+
+impl Default for Stop {
+    /// The work begins now.
+    fn default() -> Self {
+        Self { begun: Instant::now(), inner: Arc::default() }
+    }
 }
 
 #[derive(Default)]
@@ -17,6 +29,8 @@ struct Stopping {
     reason: Option<String>,
     for_now: bool,
     killer: Option<Killer>,
+    waited: Duration,
+    waiting_since: Option<Instant>,
 }
 
 impl Stop {
@@ -36,7 +50,7 @@ impl Stop {
     }
 
     fn end(&self, reason: Option<String>, for_now: bool) {
-        let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut inner = self.lock();
         if !inner.asked {
             inner.reason = reason;
         }
@@ -50,25 +64,46 @@ impl Stop {
 
     /// It was asked for, and the work begins again later.
     pub fn for_now(&self) -> bool {
-        self.inner.lock().unwrap_or_else(PoisonError::into_inner).for_now
+        self.lock().for_now
     }
 
     /// Why it was asked for.
     pub fn reason(&self) -> Option<String> {
-        self.inner.lock().unwrap_or_else(PoisonError::into_inner).reason.clone()
+        self.lock().reason.clone()
     }
 
     /// Was it asked for?
     pub fn asked(&self) -> bool {
-        self.inner.lock().unwrap_or_else(PoisonError::into_inner).asked
+        self.lock().asked
     }
 
     /// From now on a stop kills this runner.
     pub(super) fn watch(&self, killer: Option<Killer>) {
-        let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut inner = self.lock();
         if let (true, Some(killer)) = (inner.asked, &killer) {
             killer.kill();
         }
         inner.killer = killer;
+    }
+
+    /// Waits until no other process measures on this machine; `None` when stopped. `waits` is called once if it has to wait.
+    pub fn right_to_measure(&self, waits: impl FnOnce()) -> Result<Option<MeasuringRight>> {
+        self.lock().waiting_since = Some(Instant::now());
+        let right = MeasuringRight::wait(|| self.asked(), waits);
+        let mut inner = self.lock();
+        let waited = inner.waiting_since.take().map(|since| since.elapsed());
+        inner.waited += waited.unwrap_or_default();
+        right
+    }
+
+    /// Time since the work began, without that in which others measured.
+    pub fn worked(&self) -> Duration {
+        let inner = self.lock();
+        let waits = inner.waiting_since.map(|since| since.elapsed());
+        self.begun.elapsed().saturating_sub(inner.waited + waits.unwrap_or_default())
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Stopping> {
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -10,7 +10,6 @@ use serde_json::json;
 
 use super::Worker;
 use crate::configurations::{Gauge, make};
-use crate::machine::MeasuringRight;
 use crate::measure::{Part, Stop, Task, to_end};
 use crate::model::{OrderedAlgorithm, RunSpec};
 use crate::pairing::Pairing;
@@ -47,7 +46,7 @@ impl Worker {
         let Some(set) = make(&pairing, &spec, None, &Gauge::default(), None)? else { return Ok(None) };
         let task = Task::of(&spec, (&pairing, &set, Part::of(&spec, &set)), algorithms, None);
         let task = Task { seed: spec.seed.unwrap_or_default(), rounds_only: true, ..task };
-        let Some(_right) = MeasuringRight::wait(|| stop.asked(), || {})? else { return Ok(None) };
+        let Some(_right) = stop.right_to_measure(|| {})? else { return Ok(None) };
         let measured = to_end(&task, &self.runner, &self.machine, stop)?;
         let Some((_, measured)) = measured.and_then(|mut all| all.pop()) else { return Ok(None) };
         if let Some(outcome) = &measured.outcome {

@@ -9,7 +9,6 @@ use tokio::runtime::Handle;
 use crate::attempts::{Attempt, MOST_LOST, superseded};
 use crate::audit::Note;
 use crate::engine::Inner;
-use crate::machine::MeasuringRight;
 use crate::measure::Stop;
 use crate::model::{CheckVerdict, PluginReport, PluginState};
 use crate::plugins::checks_sql::CheckEnd;
@@ -48,7 +47,7 @@ fn check(
     stop: &Stop,
     handle: &Handle,
 ) -> Result<Option<PluginReport>> {
-    let Some(_right) = MeasuringRight::wait(|| stop.asked(), || {})? else { return Ok(None) };
+    let Some(_right) = stop.right_to_measure(|| {})? else { return Ok(None) };
     let (mut seq, mut fault) = (0, None);
     let mut tell = |step: Step<'_>| {
         let kept = handle.block_on(async {

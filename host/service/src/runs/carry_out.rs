@@ -14,6 +14,7 @@ use crate::runs::accept::{End, RunEnd};
 use crate::runs::benchmark;
 use crate::runs::preliminary::Shown;
 use crate::runs::sql::RunRow;
+use crate::time_limit::in_time;
 use crate::{EngineError, Result};
 
 /// After a fault of the database.
@@ -100,26 +101,15 @@ pub async fn ended(
 
 /// Runs the benchmark on a thread of its own, and stops it when its time limit is over.
 async fn run_in_time(inner: &Arc<Inner>, attempt: &Attempt, row: &RunRow, stop: &Stop) -> Result<End> {
-    let longest = inner.longest_run(row);
-    let (sender, mut ended) = tokio::sync::oneshot::channel();
+    let (sender, ended) = tokio::sync::oneshot::channel();
     let (for_run, for_attempt, for_stop, handle) = (inner.clone(), attempt.clone(), stop.clone(), Handle::current());
     let thread = std::thread::Builder::new().name("run".into()).spawn(move || {
         let _ = sender.send(benchmark::run(&for_run, &for_attempt, &for_stop, &handle));
     });
     thread.map_err(|e| EngineError::fault("Starting the run's thread failed", e))?;
-    let in_time = match longest {
-        Some(longest) => tokio::time::timeout(longest, &mut ended).await.map_err(|_| longest),
-        None => Ok((&mut ended).await),
-    };
-    let ended = match in_time {
-        Ok(ended) => ended,
-        Err(longest) => {
-            stop.stop_because(Some(too_long(longest)));
-            ended.await
-        }
-    };
+    let limit = inner.longest_run(row).map(|longest| (longest, too_long(longest)));
     // The sender is dropped without a word only when the thread panicked.
-    ended.unwrap_or_else(|_| Err(EngineError::Fault("The run failed; see the log.".into())))
+    in_time(ended, stop, limit).await.unwrap_or_else(|_| Err(EngineError::Fault("The run failed; see the log.".into())))
 }
 
 /// Hands in how the run ended; false when this is not the current attempt any more. Without this record the run would count as

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use ocb_lab::LabError;
 use ocb_lab::algorithm::Algorithm;
@@ -12,10 +12,10 @@ use super::runs::selection;
 use super::runs_sql::StabilityRow;
 use crate::attempts::{Attempt, MOST_LOST};
 use crate::engine::Inner;
-use crate::machine::MeasuringRight;
 use crate::measure::Stop;
 use crate::model::{AlgorithmInfo, Stability, State};
 use crate::quotas::time;
+use crate::time_limit::in_time;
 use crate::{EngineError, Result};
 
 /// Tries the next part of the run of this priority whose turn it is, which `begun` hears; false when none waits.
@@ -36,7 +36,7 @@ pub async fn next_part(inner: &Arc<Inner>, priority: i64, begun: impl FnOnce(&st
     if inner.closing() || !open {
         stop.stop();
     }
-    match in_time(inner, &attempt, &row, &stop).await {
+    match part_in_time(inner, &attempt, &row, &stop).await {
         Ok(()) => {}
         // Its time is over.
         Err(LabError::Stopped) if stop.reason().is_some() => {
@@ -58,26 +58,20 @@ pub async fn next_part(inner: &Arc<Inner>, priority: i64, begun: impl FnOnce(&st
 }
 
 /// Tries a part, and stops it when the time of its run is over.
-async fn in_time(
+async fn part_in_time(
     inner: &Arc<Inner>,
     attempt: &Attempt,
     row: &StabilityRow,
     stop: &Stop,
 ) -> std::result::Result<(), LabError> {
-    let part = one_part(inner, attempt, row, stop);
-    let Some(longest) = inner.longest_of(row.owner.as_deref()) else { return part.await };
-    tokio::pin!(part);
-    let left = longest.saturating_sub(Duration::from_secs_f64(row.spent_seconds));
-    match tokio::time::timeout(left, &mut part).await {
-        Ok(ended) => ended,
-        Err(_) => {
-            stop.stop_because(Some(format!(
-                "Stopped after {}, the time limit for guests. Choose fewer tests or seeds, or log in.",
-                time(longest.as_secs_f64())
-            )));
-            part.await
-        }
-    }
+    let limit = inner.longest_of(row.owner.as_deref()).map(|longest| {
+        let reason = format!(
+            "Stopped after {}, the time limit for guests. Choose fewer tests or seeds, or log in.",
+            time(longest.as_secs_f64())
+        );
+        (longest.saturating_sub(Duration::from_secs_f64(row.spent_seconds)), reason)
+    });
+    in_time(one_part(inner, attempt, row, stop), stop, limit).await
 }
 
 async fn one_part(
@@ -86,7 +80,6 @@ async fn one_part(
     row: &StabilityRow,
     stop: &Stop,
 ) -> std::result::Result<(), LabError> {
-    let begun = Instant::now();
     let fault = |e: EngineError| LabError::Fault(e.to_string());
     let algorithm = inner
         .stability_algorithm(&row.spec.algorithm, row.owner.as_deref())
@@ -103,7 +96,7 @@ async fn one_part(
         done.push((*part).to_owned());
     }
     found.complete = done.len() == parts.len();
-    let seconds = row.spent_seconds + begun.elapsed().as_secs_f64();
+    let seconds = row.spent_seconds + stop.worked().as_secs_f64();
     if inner.store.accept_part(attempt, &done, &found, seconds).await.map_err(fault)? {
         inner.publish(row, &algorithm, &found).await.map_err(fault)?;
     }
@@ -122,18 +115,13 @@ async fn tried(
     let (inner, algorithm, stop, selection) = (inner.clone(), algorithm.clone(), stop.clone(), selection(&row.spec));
     let (sender, ended) = tokio::sync::oneshot::channel();
     let work = move || {
-        let _right = right_to_measure(&stop, || {})?;
+        let _right = stop.right_to_measure(|| {})?.ok_or(LabError::Stopped)?;
         stability::part(inner.registry.runner(), &inner.machine, &algorithm, &selection, part, &mut found, &stop)?;
         Ok(found)
     };
     let thread = thread::Builder::new().name("stability".into()).spawn(move || drop(sender.send(work())));
     thread.map_err(|e| LabError::fault("Starting the stability run's thread failed", e))?;
     ended.await.unwrap_or_else(|_| Err(LabError::Fault("The stability run failed; see the log.".into())))
-}
-
-/// Waits until nobody measures on this machine.
-pub fn right_to_measure(stop: &Stop, waits: impl FnOnce()) -> std::result::Result<MeasuringRight, LabError> {
-    MeasuringRight::wait(|| stop.asked(), waits)?.ok_or(LabError::Stopped)
 }
 
 impl Inner {

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use ocb_lab::LabError;
 use ocb_lab::algorithm::Algorithm;
 use ocb_lab::recording::Recording;
 use ocb_lab::workload::{self, Progress, Replayed, Wanted};
@@ -10,7 +11,6 @@ use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::measure::Stop;
 use crate::model::WorkloadSpec;
-use crate::stability::work::right_to_measure;
 use crate::{EngineError, Result};
 
 impl Engine {
@@ -43,7 +43,7 @@ pub(super) async fn replay(
     let inner = Arc::clone(inner);
     let (sender, replayed) = tokio::sync::oneshot::channel();
     let work = move || {
-        let _right = right_to_measure(&stop, waits)?;
+        let _right = stop.right_to_measure(waits)?.ok_or(LabError::Stopped)?;
         let wanted = Wanted {
             algorithms: &algorithms,
             tracks: &spec.tracks,

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use ocb_lab::workload::workload_parquet;
-use tokio::time::{Instant, sleep, sleep_until};
+use tokio::time::sleep;
 
 use super::replay::replay;
 use super::sql::WorkloadRow;
@@ -15,6 +15,7 @@ use crate::engine::Inner;
 use crate::measure::Stop;
 use crate::model::State;
 use crate::quotas::time;
+use crate::time_limit::in_time;
 use crate::{EngineError, Result};
 
 /// How often it is noted how far a replay is.
@@ -69,20 +70,22 @@ async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, row: &WorkloadRow, sto
     let tell = move |progress: ocb_lab::workload::Progress| so_far.store(progress.done, Ordering::Relaxed);
     let replaying = replay(inner, recording.clone(), row.spec.clone(), algorithms, stop.clone(), tell, || {});
     tokio::pin!(replaying);
-    let longest = inner.longest_of(row.owner.as_deref());
-    let over = longest.map(|longest| Instant::now() + longest);
-    let replayed = loop {
-        tokio::select! {
-            replayed = &mut replaying => break replayed?,
-            () = sleep(NOTE) => inner.store.replay_is_at(&row.id, done.load(Ordering::Relaxed)).await?,
-            () = sleep_until(over.unwrap_or_else(Instant::now)), if over.is_some() && !stop.asked() => {
-                stop.stop_because(longest.map(|longest| format!(
-                    "Stopped after {}, the time limit for guests. Choose fewer algorithms or a smaller budget, or log in.",
-                    time(longest.as_secs_f64())
-                )));
+    let noted = async {
+        loop {
+            tokio::select! {
+                replayed = &mut replaying => break replayed,
+                () = sleep(NOTE) => inner.store.replay_is_at(&row.id, done.load(Ordering::Relaxed)).await?,
             }
         }
     };
+    let limit = inner.longest_of(row.owner.as_deref()).map(|longest| {
+        let reason = format!(
+            "Stopped after {}, the time limit for guests. Choose fewer algorithms or a smaller budget, or log in.",
+            time(longest.as_secs_f64())
+        );
+        (longest, reason)
+    });
+    let replayed = in_time(noted, stop, limit).await?;
     let table = workload_parquet(&replayed.rows, &recording.queries)?;
     let length = table.len();
     let _keeping = inner.store.locks.keeping().await?;
