@@ -95,6 +95,11 @@ impl Store {
         }
     }
 
+    /// May other services be on this database?
+    pub fn is_shared(&self) -> bool {
+        !self.sqlite
+    }
+
     /// Closes all connections; what was written is on disk.
     pub async fn close(&self) {
         self.locks.close().await;
@@ -153,6 +158,7 @@ fn migrations(sqlite: bool) -> Vec<Migration> {
         one(39, "workloads", include_str!("../migrations/0039_workloads.sql")),
         one(40, "machines", include_str!("../migrations/0040_machines.sql")),
         one(41, "sentinels", include_str!("../migrations/0041_sentinels.sql")),
+        one(42, "rate limits", include_str!("../migrations/0042_rate_limits.sql")),
     ]
 }
 

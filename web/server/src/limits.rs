@@ -10,17 +10,10 @@ use governor::clock::{Clock, DefaultClock};
 use governor::state::keyed::HashMapStateStore;
 use governor::{Quota, RateLimiter};
 
-use crate::problem::{Problem, Result};
+use ocb_service::RateLimit as Limit;
 
-/// How many of one thing are allowed in which time.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Limit {
-    name: &'static str,
-    /// What it is counted by: several limits of one name differ in this.
-    of: &'static str,
-    times: u32,
-    per: Duration,
-}
+use crate::App;
+use crate::problem::{Problem, Result};
 
 const fn limit(name: &'static str, of: &'static str, times: u32, seconds: u64) -> Limit {
     Limit { name, of, times, per: Duration::from_secs(seconds) }
@@ -66,7 +59,35 @@ type Place = u16;
 
 type Limiter = RateLimiter<Place, HashMapStateStore<Place>, DefaultClock>;
 
-/// Recent attempts.
+impl App {
+    /// Counts an attempt of `who`, ignoring case: here, and then with all services on the same database.
+    ///
+    /// # Errors
+    /// 429 with the seconds to wait when there were too many.
+    pub(crate) async fn count(&self, limit: Limit, who: &str) -> Result<()> {
+        self.count_many(limit, who, 1).await
+    }
+
+    /// Counts `many` attempts at once, which may be 0.
+    pub(crate) async fn count_many(&self, limit: Limit, who: &str, many: u32) -> Result<()> {
+        if many == 0 {
+            return Ok(());
+        }
+        // A flood ends here and does not reach the database.
+        self.limits.count_many(limit, who, many)?;
+        match self.engine.count_attempts(limit, who, many).await? {
+            Some(wait) => Err(too_many(limit, wait)),
+            None => Ok(()),
+        }
+    }
+}
+
+fn too_many(limit: Limit, wait: Duration) -> Problem {
+    let wait = wait.as_secs_f64().ceil().max(1.0) as u32;
+    Problem::too_much(format!("Too many attempts to {}; wait {wait} seconds and try again.", limit.name), wait)
+}
+
+/// Recent attempts at this service.
 #[derive(Default)]
 pub(crate) struct Limits {
     limiters: Mutex<HashMap<(&'static str, &'static str), Limiter>>,
@@ -74,23 +95,12 @@ pub(crate) struct Limits {
 }
 
 impl Limits {
-    /// Counts an attempt of `who`, ignoring case.
-    ///
-    /// # Errors
-    /// 429 with the seconds to wait when there were too many.
-    pub(crate) fn count(&self, limit: Limit, who: &str) -> Result<()> {
-        self.count_many(limit, who, 1)
-    }
-
-    /// Counts `many` attempts at once, which may be 0.
-    pub(crate) fn count_many(&self, limit: Limit, who: &str, many: u32) -> Result<()> {
+    fn count_many(&self, limit: Limit, who: &str, many: u32) -> Result<()> {
         let Some(many) = NonZeroU32::new(many.min(limit.times)) else { return Ok(()) };
         let mut limiters = self.limiters.lock().unwrap_or_else(PoisonError::into_inner);
         let limiter = limiters.entry((limit.name, limit.of)).or_insert_with(|| RateLimiter::hashmap(quota(limit)));
         let Ok(Err(not_until)) = limiter.check_key_n(&self.place(who), many) else { return Ok(()) };
-        let wait = not_until.wait_time_from(DefaultClock::default().now()).as_secs_f64().ceil().max(1.0) as u32;
-        let detail = format!("Too many attempts to {}; wait {wait} seconds and try again.", limit.name);
-        Err(Problem::too_much(detail, wait))
+        Err(too_many(limit, not_until.wait_time_from(DefaultClock::default().now())))
     }
 
     fn place(&self, who: &str) -> Place {
@@ -113,13 +123,13 @@ mod tests {
     fn a_bucket_fills_for_each_alone() {
         let limits = Limits::default();
         for _ in 0..10 {
-            limits.count(LOG_IN, "a").unwrap();
+            limits.count_many(LOG_IN, "a", 1).unwrap();
         }
-        let refused = limits.count(LOG_IN, "A").unwrap_err();
+        let refused = limits.count_many(LOG_IN, "A", 1).unwrap_err();
         assert_eq!(refused.status, 429);
         assert!(refused.detail.contains("wait 6 seconds") && refused.retry_seconds == Some(6), "{refused:?}");
-        limits.count(LOG_IN, "b").unwrap();
-        limits.count(LOG_IN_AS, "a").unwrap();
+        limits.count_many(LOG_IN, "b", 1).unwrap();
+        limits.count_many(LOG_IN_AS, "a", 1).unwrap();
     }
 
     #[test]
@@ -127,9 +137,9 @@ mod tests {
         const QUICK: Limit = Limit { name: "test", of: "test", times: 2, per: Duration::from_millis(400) };
         let limits = Limits::default();
         limits.count_many(QUICK, "a", 2).unwrap();
-        assert!(limits.count(QUICK, "a").is_err());
+        assert!(limits.count_many(QUICK, "a", 1).is_err());
         std::thread::sleep(Duration::from_millis(250));
-        limits.count(QUICK, "a").unwrap();
+        limits.count_many(QUICK, "a", 1).unwrap();
     }
 
     #[test]
@@ -145,7 +155,7 @@ mod tests {
     fn a_flood_of_names_takes_no_more_memory_than_there_are_places() {
         let limits = Limits::default();
         for i in 0..200_000 {
-            let _ = limits.count(LOG_IN_ANYWHERE, &format!("name {i}"));
+            let _ = limits.count_many(LOG_IN_ANYWHERE, &format!("name {i}"), 1);
         }
         let limiters = limits.limiters.lock().unwrap();
         let known = limiters[&(LOG_IN_ANYWHERE.name, LOG_IN_ANYWHERE.of)].len();

@@ -251,7 +251,7 @@ async fn spool(mut field: Field<'_>, most: usize, app: &App, from: &str) -> Resu
         if bytes > most {
             return Err(Problem::too_large(most));
         }
-        app.limits.count_many(ADD_MEBIBYTES, from, ((bytes >> 20) - before) as u32)?;
+        app.count_many(ADD_MEBIBYTES, from, ((bytes >> 20) - before) as u32).await?;
         file.write_all(&chunk).await.map_err(Problem::fault)?;
     }
     file.flush().await.map_err(Problem::fault)?;

@@ -8,7 +8,7 @@ use sqlx::{Any, AssertSqlSafe, Column, Row, Transaction, ValueRef};
 use crate::{EngineError, Result};
 
 /// All tables; one that refers to another stands behind it.
-pub(crate) const TABLES: [&str; 33] = [
+pub(crate) const TABLES: [&str; 35] = [
     "blobs",
     "objects",
     "plugins",
@@ -42,6 +42,8 @@ pub(crate) const TABLES: [&str; 33] = [
     "attempts",
     "machines",
     "sentinels",
+    "rate_limits",
+    "rate_limit_key",
 ];
 
 /// Hands each row of a table to `each`; gives their number.

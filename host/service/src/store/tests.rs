@@ -27,6 +27,7 @@ mod mails;
 mod owned;
 pub(crate) mod people;
 pub(crate) mod plugins;
+mod rate_limits;
 mod suites;
 mod visibility;
 
@@ -171,6 +172,7 @@ on_both!(
     a_plugin_that_became_public_meanwhile_stays,
     a_decision_and_its_notice_stand_or_fall_together,
     a_state_and_its_history_are_of_one_moment,
+    too_many_attempts_wait_until_the_bucket_has_drained,
 );
 
 mod contract {
@@ -183,6 +185,7 @@ mod contract {
     pub use super::owned::*;
     pub use super::people::*;
     pub use super::plugins::*;
+    pub use super::rate_limits::*;
     pub use super::suites::*;
     pub use super::visibility::*;
     use super::*;

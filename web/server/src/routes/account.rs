@@ -39,7 +39,7 @@ pub(crate) async fn make_account(
     headers: HeaderMap,
     Json(asked): Json<Credentials>,
 ) -> Result<Response> {
-    app.limits.count(MAKE_ACCOUNT, &address)?;
+    app.count(MAKE_ACCOUNT, &address).await?;
     let account = app.engine.add_account(&asked.name, &asked.password, Role::User).await?;
     let entered = enter(&app, &guest, &headers, account, asked.keep).await?;
     Ok((StatusCode::CREATED, entered).into_response())
@@ -60,11 +60,11 @@ pub(crate) async fn log_in(
     headers: HeaderMap,
     Json(asked): Json<Credentials>,
 ) -> Result<Response> {
-    app.limits.count(LOG_IN, &address)?;
+    app.count(LOG_IN, &address).await?;
     let name = asked.name.trim();
-    app.limits.count(LOG_IN_AS, &format!("{address} {name}"))?;
+    app.count(LOG_IN_AS, &format!("{address} {name}")).await?;
     if !app.engine.knows_device(name, &guest).await? {
-        app.limits.count(LOG_IN_ANYWHERE, name)?;
+        app.count(LOG_IN_ANYWHERE, name).await?;
     }
     let account = app.engine.account_with(name, &asked.password).await?;
     enter(&app, &guest, &headers, account, asked.keep).await
@@ -124,7 +124,7 @@ pub(crate) async fn change_password(
     headers: HeaderMap,
     Json(asked): Json<NewPassword>,
 ) -> Result<Response> {
-    app.limits.count(CHANGE_PASSWORD, &account.name)?;
+    app.count(CHANGE_PASSWORD, &account.name).await?;
     app.engine.change_password(&account, &asked.old, &asked.new).await?;
     Ok(left(&headers))
 }
@@ -160,7 +160,7 @@ pub(crate) async fn delete_account(
     headers: HeaderMap,
     Json(asked): Json<DeleteAccount>,
 ) -> Result<Response> {
-    app.limits.count(LOG_IN, &account.name)?;
+    app.count(LOG_IN, &account.name).await?;
     let told = app.engine.delete_account(&account, &asked.password).await?;
     let gone = cookie(SESSION, "", 0, is_secure(&headers));
     Ok((AppendHeaders([(header::SET_COOKIE, gone)]), Answer(told)).into_response())

@@ -35,7 +35,7 @@ pub(crate) async fn ask_advice(
     key: RequestKey,
     Json(spec): Json<AdviceSpec>,
 ) -> Result<Response> {
-    app.limits.count(ASK_ADVICE, &address)?;
+    app.count(ASK_ADVICE, &address).await?;
     let visitor = Visitor { owner: guest, address: Some(address) };
     let (info, new) = app.engine.ask_advice(spec, &visitor, key.as_deref()).await?;
     let location = format!("/api/v1/advice/{}", info.id);

@@ -50,10 +50,13 @@ pub(crate) async fn give_address(
     Member(account): Member,
     Json(asked): Json<NewAddress>,
 ) -> Result<Answer<Choices>> {
-    app.limits.count(GIVE_ADDRESS, &from)?;
-    app.limits.count(GIVE_ADDRESS, &account.id)?;
+    app.count(GIVE_ADDRESS, &from).await?;
+    app.count(GIVE_ADDRESS, &account.id).await?;
     // That others had mails sent there is not told: nobody learns by this who has an account.
-    let asking = app.limits.count(MAIL_TO, asked.address.trim()).is_ok();
+    let asking = match app.count(MAIL_TO, asked.address.trim()).await {
+        Err(refused) if refused.status != 429 => return Err(refused),
+        asking => asking.is_ok(),
+    };
     Ok(Answer(app.engine.set_address(&account, &asked.address, asking).await?))
 }
 
@@ -81,7 +84,7 @@ pub(crate) async fn confirm_address(
     Member(account): Member,
     Json(opened): Json<OpenedLink>,
 ) -> Result<Answer<Choices>> {
-    app.limits.count(CONFIRM, &from)?;
-    app.limits.count(CONFIRM, &account.id)?;
+    app.count(CONFIRM, &from).await?;
+    app.count(CONFIRM, &account.id).await?;
     Ok(Answer(app.engine.confirm_address(&account, &opened.secret).await?))
 }

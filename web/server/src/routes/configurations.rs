@@ -60,7 +60,7 @@ pub(crate) async fn add_configurations(
     Address(address): Address,
     request: Request,
 ) -> Result<(StatusCode, Json<SavedConfigurations>)> {
-    app.limits.count(SAVE_CONFIGURATIONS, &address)?;
+    app.count(SAVE_CONFIGURATIONS, &address).await?;
     let Upload { name, file, .. } = {
         let _coming = app.uploads.begin(&address)?;
         Upload::read(request, MAX_CONFIGURATION_BYTES, &app, &address).await?
@@ -85,7 +85,7 @@ pub(crate) async fn save_configurations_of_run(
     Address(address): Address,
     Path(id): Path<String>,
 ) -> Result<(StatusCode, Json<SavedConfigurations>)> {
-    app.limits.count(SAVE_CONFIGURATIONS, &address)?;
+    app.count(SAVE_CONFIGURATIONS, &address).await?;
     Ok((StatusCode::CREATED, Json(app.engine.save_configurations_of(&id, &guest).await?)))
 }
 

@@ -87,6 +87,6 @@ pub(crate) async fn accept_invitation(
     Member(account): Member,
     Json(asked): Json<Acceptance>,
 ) -> Result<Answer<AccountInfo>> {
-    app.limits.count(ACCEPT, &address)?;
+    app.count(ACCEPT, &address).await?;
     Ok(Answer(app.engine.accept_invitation(&account, &asked.secret).await?))
 }

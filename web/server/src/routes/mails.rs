@@ -29,7 +29,7 @@ pub(crate) async fn turn_mails_off(
     let done = app.engine.turn_mails_off(&secret).await;
     // Only wrong ones: the clicks of many people come from the few addresses of their mail programs.
     if matches!(done, Err(EngineError::NotFound(_))) {
-        app.limits.count(TURN_OFF, &from)?;
+        app.count(TURN_OFF, &from).await?;
     }
     done?;
     Ok(StatusCode::NO_CONTENT)

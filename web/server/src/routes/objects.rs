@@ -62,7 +62,7 @@ pub(crate) async fn add_object(
     key: RequestKey,
     request: Request,
 ) -> Result<(StatusCode, Json<ObjectInfo>)> {
-    app.limits.count(ADD_OBJECT, &address)?;
+    app.count(ADD_OBJECT, &address).await?;
     let Upload { name, file, .. } = {
         let _coming = app.uploads.begin(&address)?;
         Upload::read(request, MAX_BYTES, &app, &address).await?

@@ -80,7 +80,7 @@ pub(crate) async fn submit_plugin(
     key: RequestKey,
     request: axum::extract::Request,
 ) -> Result<Response> {
-    app.limits.count(SUBMIT, &account.name)?;
+    app.count(SUBMIT, &account.name).await?;
     // Before anything is read: who may not submit need not send 64 MiB to hear it.
     app.engine.may_submit(&account)?;
     let PluginUpload { name, file, manifest, signature } = {

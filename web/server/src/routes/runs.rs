@@ -61,7 +61,7 @@ pub(crate) async fn start_run(
     key: RequestKey,
     Json(spec): Json<RunSpec>,
 ) -> Result<Response> {
-    app.limits.count(ASK_RUN, &address)?;
+    app.count(ASK_RUN, &address).await?;
     let visitor = Visitor { owner: guest, address: Some(address) };
     let (run, new) = app.engine.submit_for(spec, &visitor, key.as_deref()).await?;
     let location = format!("/api/v1/runs/{}", run.id);

@@ -32,7 +32,7 @@ pub(crate) async fn start_stability(
     key: RequestKey,
     Json(spec): Json<StabilitySpec>,
 ) -> Result<Response> {
-    app.limits.count(START_STABILITY, &address)?;
+    app.count(START_STABILITY, &address).await?;
     let visitor = Visitor { owner: guest, address: Some(address) };
     let (info, new) = app.engine.start_stability(spec, &visitor, key.as_deref()).await?;
     let location = format!("/api/v1/stability-runs/{}", info.id);

@@ -51,7 +51,7 @@ pub(crate) async fn add_workload(
     key: RequestKey,
     request: Request,
 ) -> Result<Response> {
-    app.limits.count(ADD_WORKLOAD, &address)?;
+    app.count(ADD_WORKLOAD, &address).await?;
     let Upload { name, file, spec } = {
         let _coming = app.uploads.begin(&address)?;
         Upload::read(request, MAX_BYTES, &app, &address).await?
@@ -83,7 +83,7 @@ pub(crate) async fn replay_again(
     Path(id): Path<String>,
     Json(spec): Json<WorkloadSpec>,
 ) -> Result<Response> {
-    app.limits.count(ADD_WORKLOAD, &address)?;
+    app.count(ADD_WORKLOAD, &address).await?;
     let visitor = Visitor { owner: guest, address: Some(address) };
     Ok(queued(app.engine.replay_again(&id, spec, &visitor, key.as_deref()).await?))
 }

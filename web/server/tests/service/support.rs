@@ -1,6 +1,7 @@
 //! One service per test, on a free port, in a folder of its own.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::Duration;
 
 use ocb_service::{Ceilings, Engine, EngineConfig, MailServer, Profile};
@@ -28,6 +29,8 @@ pub struct How {
     pub mail: Option<MailServer>,
     pub machine_note: Option<String>,
     pub ceilings: Option<Ceilings>,
+    /// Address of a PostgreSQL database.
+    pub database: Option<String>,
     /// Nothing is worked on.
     pub idle: bool,
     /// Plugins are checked with all questions, which takes a minute.
@@ -61,6 +64,12 @@ impl Service {
         Self::open(How { plugins, ceilings: Some(ceilings), idle: true, ..How::default() }).await
     }
 
+    /// The same on a database that it may share.
+    pub async fn start_beside(database: &str) -> Self {
+        let (plugins, database) = (ours(&["libocb_box_tree.so"]), Some(database.to_owned()));
+        Self::open(How { plugins, database, idle: true, ..How::default() }).await
+    }
+
     async fn open(how: How) -> Self {
         Self::open_in(tempfile::tempdir().expect("a temporary folder"), how).await
     }
@@ -72,6 +81,7 @@ impl Service {
         config.plugins.clone_from(&how.plugins);
         config.suite.clone_from(&how.suite);
         config.machine_note.clone_from(&how.machine_note);
+        config.database_url.clone_from(&how.database);
         config.profile = Profile::Dev;
         config.mail.clone_from(&how.mail);
         config.ceilings = how.ceilings.unwrap_or_default();
@@ -153,6 +163,16 @@ impl Service {
 
 fn ours(plugins: &[&str]) -> Vec<PathBuf> {
     plugins.iter().map(|name| built().join(name)).collect()
+}
+
+/// A fresh schema in the harness's database.
+pub fn database() -> String {
+    let url = std::env::var("OCB_TEST_POSTGRES").expect("OCB_TEST_POSTGRES is not set: run `make test`");
+    let schema = format!("test_{}", uuid::Uuid::new_v4().simple());
+    let made = Command::new("psql").args(["-q", "-d", &url, "-c", &format!("CREATE SCHEMA {schema}")]).status();
+    assert!(made.expect("psql is installed").success(), "no schema could be made at {url}");
+    let join = if url.contains('?') { '&' } else { '?' };
+    format!("{url}{join}options=-c%20search_path%3D{schema}")
 }
 
 /// The folder of the built runner and plugins: above that of this test program.

@@ -1,6 +1,6 @@
 //! One visitor cannot monopolise the service: not by dropping cookies, using many addresses of one subnet, or trying a name.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use ocb_service::Ceilings;
 use ocb_service::model::Role;
@@ -8,7 +8,7 @@ use reqwest::{RequestBuilder, Response, StatusCode};
 use serde_json::{Value, json};
 
 use crate::people::{PASSWORD, log_in, member};
-use crate::support::{Guest, Service, header, problem, small_comparison};
+use crate::support::{Guest, Service, database, header, problem, small_comparison};
 
 /// Two algorithms that may take so long each.
 fn spec(seconds: f64) -> Value {
@@ -135,6 +135,29 @@ async fn a_curator_cancels_any_run_and_its_owner_sees_why() {
     let run = guest.json(&format!("/api/v1/runs/{id}")).await;
     assert_eq!((&run["state"], &run["message"]), (&json!("cancelled"), &json!("Cancelled by a curator.")));
     service.stop().await;
+}
+
+#[tokio::test]
+async fn services_on_one_database_count_attempts_together() {
+    let database = database();
+    let services = [Service::start_beside(&database).await, Service::start_beside(&database).await];
+    let body = json!({ "name": "nobody", "password": "some password" });
+    let tried = async |service: &Service, address: &str| {
+        from(address, service.guest().post("/api/v1/account/login").json(&body)).await.status().as_u16()
+    };
+    let (begun, mut answers) = (Instant::now(), Vec::new());
+    // Each of them alone would let ten through.
+    for service in services.iter().cycle().take(40) {
+        answers.push(tried(service, "203.0.113.7").await);
+    }
+    let again = begun.elapsed().as_secs() as usize / 6 + 1;
+    let let_through = answers.iter().filter(|status| **status == 403).count();
+    assert!((10..=10 + again).contains(&let_through), "{answers:?}");
+    assert_eq!(answers.iter().filter(|status| **status == 429).count(), 40 - let_through, "{answers:?}");
+    for service in services {
+        assert_eq!(tried(&service, "203.0.113.8").await, 403, "another address");
+        service.stop().await;
+    }
 }
 
 #[tokio::test]

@@ -16,7 +16,7 @@ use crate::runs::accept::Handed;
 use crate::stability::runs_sql::StabilityRow;
 
 /// Puts a clock in the place of the database's that only this test moves.
-async fn stopped_clock(store: &Store) {
+pub async fn stopped_clock(store: &Store) {
     let texts = [
         "DROP VIEW database_clock",
         "CREATE TABLE database_clock (now_us BIGINT NOT NULL)",
@@ -27,7 +27,7 @@ async fn stopped_clock(store: &Store) {
     }
 }
 
-async fn pass(store: &Store, us: i64) {
+pub async fn pass(store: &Store, us: i64) {
     let text = "UPDATE database_clock SET now_us = now_us + $1";
     sqlx::query(text).bind(us).execute(&store.pool).await.unwrap();
 }
