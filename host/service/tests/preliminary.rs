@@ -34,7 +34,7 @@ async fn times(engine: &Engine, run: &str, algorithm: &str) -> Result<Heatmap, E
 
 /// The charts of a run under way say that they are preliminary, and are no files yet.
 async fn charts_so_far(engine: &Engine, run: &str, of: u64) {
-    for kind in ["accuracy", "ecdf", "distance", "triangles", "resolution"] {
+    for kind in ["accuracy", "ecdf", "distance", "triangles", "resolution", "bv_tests", "primitive_tests"] {
         let request = serde_json::from_value(serde_json::json!({ "kind": kind })).unwrap();
         let chart = engine.chart(run, request, Some("guest")).await.unwrap();
         assert!(chart.preliminary && chart.notes.iter().any(|note| note.starts_with("Preliminary:")), "{chart:?}");

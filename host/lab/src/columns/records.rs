@@ -89,6 +89,21 @@ impl RecordColumns {
         all
     }
 
+    /// Were tests counted for one of them?
+    pub fn has_tests(&self) -> bool {
+        self.bv_tests.iter().chain(&self.primitive_tests).any(Option::is_some)
+    }
+
+    /// Takes the tests that were counted for the same configurations before.
+    pub fn take_tests(&mut self, from: &Self) {
+        let rows: HashMap<u32, usize> = from.configuration.iter().copied().zip(0..).collect();
+        for (row, number) in self.configuration.iter().enumerate() {
+            if let Some(&of) = rows.get(number) {
+                (self.bv_tests[row], self.primitive_tests[row]) = (from.bv_tests[of], from.primitive_tests[of]);
+            }
+        }
+    }
+
     /// Do the columns belong together, and their rows to a set of so many configurations?
     pub fn fits(&self, configurations: u32) -> bool {
         let n = self.configuration.len();

@@ -88,7 +88,8 @@ pub fn first_look(
     let part = Part { precision: None, at_most: usize::MAX, of: task.part.of };
     let whole = task;
     let task = &Task { set, controls: &[], passes: 1, budget: TIME, part, ..*task };
-    let (shown, base) = (task.instance(PROCESS), (0..set.placed.len() as u32).collect::<Vec<_>>());
+    // As counting sees them.
+    let (shown, base) = (task.as_it_is(), (0..set.placed.len() as u32).collect::<Vec<_>>());
     let mut of_reference: Option<Measured> = None;
     // Seen before the reference was.
     let mut earlier: Vec<(usize, Measured)> = Vec::new();

@@ -26,7 +26,7 @@ pub enum Purpose {
     Elsewhere,
     /// Counters, without a clock.
     Counting,
-    /// A first look, of which nothing counts.
+    /// A first look, of which nothing counts: answers with times, and then the same with counters.
     Look,
 }
 
@@ -123,6 +123,10 @@ impl ProcessPass<'_> {
         } else {
             self.time(&mut session, state, &order, &mut way)
         };
+        if self.purpose == Purpose::Look && state.algorithm.info.counters {
+            let mut way = UnderWay { begun: Instant::now(), ..way };
+            self.count(&mut session, state, &order[..reached], &mut way);
+        }
         state.spent += begun.elapsed();
         self.stop.watch(None);
         let ending = session.finish();

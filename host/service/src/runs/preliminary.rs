@@ -38,6 +38,29 @@ struct SoFar {
     version: u64,
     result: AlgorithmResult,
     records: Arc<RecordColumns>,
+    /// What the first look counted. The rounds have no counters; those that stay are counted behind them.
+    counted: Option<Arc<RecordColumns>>,
+}
+
+impl SoFar {
+    /// The algorithm at this place, with the tests that were counted before where there are no others.
+    fn after(
+        before: Option<Self>,
+        place: usize,
+        version: u64,
+        (mut result, mut records): (AlgorithmResult, RecordColumns),
+    ) -> Self {
+        if records.has_tests() {
+            let records = Arc::new(records);
+            return Self { place, version, result, counted: Some(records.clone()), records };
+        }
+        let Some(Self { result: old, counted: Some(counted), .. }) = before else {
+            return Self { place, version, result, records: Arc::new(records), counted: None };
+        };
+        records.take_tests(&counted);
+        (result.bv_tests_mean, result.primitive_tests_mean) = (old.bv_tests_mean, old.primitive_tests_mean);
+        Self { place, version, result, records: Arc::new(records), counted: Some(counted) }
+    }
 }
 
 impl Showing {
@@ -141,8 +164,9 @@ impl UnderWay {
         }
         if let Some(showing) = self.lock().get_mut(run) {
             showing.version += 1;
-            showing.results.retain(|it| it.place != place);
-            showing.results.push(SoFar { place, version: showing.version, result, records: Arc::new(records) });
+            let before = showing.results.iter().position(|it| it.place == place);
+            let before = before.map(|at| showing.results.remove(at));
+            showing.results.push(SoFar::after(before, place, showing.version, (result, records)));
             showing.results.sort_by_key(|it| it.place);
             showing.give_places();
         }
@@ -234,6 +258,34 @@ mod tests {
         assert!(under_way.results("run").iter().all(|r| r.rank.is_none()));
         drop(shown);
         assert!(under_way.results("run").is_empty() && under_way.records("run", "b").is_none());
+    }
+
+    #[test]
+    fn tests_that_the_first_look_counted_are_shown_until_others_are() {
+        let under_way = Arc::new(UnderWay::default());
+        let _shown = under_way.begin("run", Profile::Production, 1, 50.0);
+        let with = |tests: &[(u32, Option<u64>)], mean| {
+            let mut shown = preliminary("a", tests.len() as u32);
+            shown.result.bv_tests_mean = mean;
+            shown.records.configuration = tests.iter().map(|(number, _)| *number).collect();
+            shown.records.bv_tests = tests.iter().map(|(_, tests)| *tests).collect();
+            shown.records.primitive_tests = vec![None; tests.len()];
+            shown
+        };
+        let seen = || {
+            let (result, records) = under_way.records("run", "a").unwrap();
+            (result.bv_tests_mean, records.bv_tests.clone())
+        };
+        under_way.show("run", 0, with(&[(7, None)], None));
+        assert_eq!(seen(), (None, vec![None]), "nothing was counted");
+        under_way.show("run", 0, with(&[(7, Some(30)), (3, Some(50))], Some(40.0)));
+        under_way.show("run", 0, with(&[(3, None)], None));
+        assert_eq!(seen(), (Some(40.0), vec![Some(50)]));
+        under_way.show("run", 0, with(&[(3, None), (4, None), (7, None)], None));
+        assert_eq!(seen(), (Some(40.0), vec![Some(50), None, Some(30)]), "of a configuration that was left out, too");
+        under_way.show("run", 0, with(&[(3, Some(51)), (4, None)], Some(51.0)));
+        under_way.show("run", 0, with(&[(4, None), (3, None)], None));
+        assert_eq!(seen(), (Some(51.0), vec![None, Some(51)]));
     }
 
     #[test]
