@@ -452,7 +452,8 @@ async fn a_submitted_plugin_comes_with_the_order_and_a_guests_time_is_limited() 
     let guest = Visitor { owner: uuid::Uuid::now_v7().to_string(), address: None };
     let (limited, _) = engine.submit_for(small(&["box-tree"]), &guest, None).await.unwrap();
     let order_of_guest = order(&engine, "alpha", worker.facts()).await;
-    assert_eq!(order_of_guest.most_seconds, Some(90.0));
+    let left = order_of_guest.most_seconds.unwrap();
+    assert!(60.0 < left && left < 90.0, "{left} s are left; preparing took some");
     assert!(hand_in(&engine, "alpha", &order_of_guest, Handed { ended: Ended::TooLong, files: Vec::new() }).await);
     let limited = engine.run(&limited.id, None).await.unwrap();
     assert_eq!(limited.state, State::Cancelled);

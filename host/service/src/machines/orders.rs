@@ -29,6 +29,11 @@ pub async fn order(inner: &Inner, attempt: &Attempt, row: &RunRow) -> Result<Opt
         Some(id) => Some(inner.objects.mesh(id).await?.sha256()),
         None => None,
     };
+    // What preparing took is a part of its time.
+    let most_seconds = match inner.longest_run(row) {
+        Some(longest) => Some((longest.as_secs_f64() - inner.store.prepared_in_seconds(&row.id).await?).max(0.0)),
+        None => None,
+    };
     Ok(Some(WorkOrder {
         attempt: attempt.id.clone(),
         run: row.id.clone(),
@@ -40,7 +45,7 @@ pub async fn order(inner: &Inner, attempt: &Attempt, row: &RunRow) -> Result<Opt
         algorithms: algorithms.iter().map(|it| ordered(it)).collect(),
         reference: spec::reference(&row.spec, &inner.registry).map(|it| ordered(&it)),
         look: looking::seed(row, &algorithms),
-        most_seconds: inner.longest_run(row).map(|longest| longest.as_secs_f64()),
+        most_seconds,
     }))
 }
 

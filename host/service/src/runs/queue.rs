@@ -89,6 +89,14 @@ impl Store {
         self.queue_anew(attempt, Outcome::Accepted, Some(true)).await
     }
 
+    /// How long it took to prepare a run.
+    pub async fn prepared_in_seconds(&self, run: &str) -> Result<f64> {
+        let text = "SELECT ended_us - begun_us FROM attempts \
+                    WHERE job = $1 AND kind = 'prepare' AND outcome = 'accepted' ORDER BY number DESC LIMIT 1";
+        let took_us: Option<i64> = sqlx::query_scalar(text).bind(run).fetch_optional(&self.pool).await?;
+        Ok(took_us.unwrap_or(0) as f64 / 1e6)
+    }
+
     async fn begin_next(
         &self,
         worker: &Worker,
