@@ -6,6 +6,8 @@ use crate::{Chart, Form, Placing, Point, Scale, Series, Style};
 
 const WIDTH: f64 = 820.0;
 const ROW: f64 = 19.0;
+/// Length of the arrow of a point that is at least so far to the right.
+const ARROW: f64 = 20.0;
 
 /// One chart.
 pub fn chart(chart: &Chart) -> String {
@@ -143,7 +145,7 @@ impl<'a> Drawing<'a> {
                 paper.path(format!("M{} {y}H{}", self.across(Some(lo)), self.across(Some(hi))), &thin);
             }
             if point.at_least {
-                paper.path(format!("M{x} {y}h20m-5-4l5 4l-5 4"), &thin);
+                paper.path(format!("M{x} {y}h{ARROW}m-5-4l5 4l-5 4"), &thin);
             }
             let fill = if point.filled { colour } else { "#fff" };
             let look =
@@ -179,7 +181,11 @@ impl<'a> Drawing<'a> {
 
     fn names(&self, paper: &mut Paper) {
         let points = || self.chart.series.iter().filter(|s| s.form == Form::Line).flat_map(|s| &s.points);
-        let marks: Vec<[f64; 2]> = points().map(|point| self.at(point)).collect();
+        let mark = |point: &Point| {
+            let [x, y] = self.at(point);
+            [x, y, if point.at_least { ARROW } else { 6.0 }]
+        };
+        let marks: Vec<[f64; 3]> = points().map(mark).collect();
         let mut places = Places::new(self.plot, &marks);
         for (point, mark) in points().zip(&marks) {
             let Some(name) = &point.name else { continue };

@@ -1,7 +1,7 @@
 import { afterEach, describe, expect, it } from 'vitest'
 import { createApp, h, nextTick, ref, type App } from 'vue'
 import type { Chart, ChartPoint } from '../api/types'
-import { aloud, keys, names, overlap, path, plot } from './plot'
+import { aloud, keys, names, overlap, path, plot, below } from './plot'
 import PlotChart from './PlotChart.vue'
 
 const point = (x: number | null, y: number, more: Partial<ChartPoint> = {}): ChartPoint => ({
@@ -69,10 +69,18 @@ describe('a chart', () => {
   })
 
   it('gives close marks names that do not touch, and none where there is no room', () => {
-    const placed = names([{ x: 100, y: 100, letters: 8 }, { x: 104, y: 102, letters: 8 }, { x: 650, y: 100, letters: 8 }], BOX)
+    const placed = names([[100, 100], [104, 102], [650, 100]].map(([x = 0, y = 0]) => ({ x, y, letters: 8, arrow: false })), BOX)
     const rects = placed.flatMap((at) => (at ? [{ left: at.x, right: at.x + 8 * 6.6, top: at.y - 10, bottom: at.y + 3 }] : []))
     expect(rects.length).toBe(3)
     for (const [i, a] of rects.entries()) for (const b of rects.slice(i + 1)) expect(overlap(a, b)).toBe(false)
-    expect(names([{ x: 100, y: 100, letters: 500 }], BOX)).toEqual([null])
+    expect(names([{ x: 100, y: 100, letters: 500, arrow: false }], BOX)).toEqual([null])
+    const [plain, pointing] = [false, true].map((arrow) => names([{ x: 100, y: 100, letters: 8, arrow }], BOX)[0])
+    expect([plain?.x, pointing?.x]).toEqual([110, 124])
+  })
+
+  it('keeps the words of an axis inside and off the lane', () => {
+    const ticks = [{ at: 0.1, text: '1e-4' }, { at: 0.5, text: '1 %' }, { at: 1, text: '100 %' }]
+    expect(below(ticks, BOX, 900, 0).map(({ x }) => x)).toEqual([120, 360, 660])
+    expect(below(ticks, BOX, 665, 110)).toEqual([{ text: '1 %', x: 360 }, { text: '100 %', x: 648.5 }])
   })
 })

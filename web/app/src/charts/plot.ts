@@ -81,15 +81,29 @@ export function faults({ missed, false_alarms }: ChartPoint): { text: string; ki
   ]
 }
 
-const LETTER = 6.6
+/** Rough width of a letter. */
+export const LETTER = 6.6
 export const overlap = (a: Box, b: Box) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom
 
-/** Where the name of each mark begins, so that no two lie on each other; null where there is no room: the table has it. */
-export function names(marks: readonly (Place & { letters: number })[], box: Box): (Place | null)[] {
-  const taken = marks.map(({ x, y }): Box => ({ left: x - 6, right: x + 6, top: y - 6, bottom: y + 6 }))
-  return marks.map(({ x, y, letters }) => {
+/** Length of the arrow of a point that is at least so far to the right. */
+export const ARROW = 20
+
+/** Where the words of an axis stand: inside a picture of this width, and none on what ends at `from`. */
+export function below(ticks: readonly { at: number; text: string }[], box: Box, width: number, from: number): { text: string; x: number }[] {
+  return ticks.flatMap(({ at, text }) => {
+    const half = (text.length * LETTER) / 2
+    const x = Math.min(box.left + (box.right - box.left) * at, width - half)
+    return x - half < from ? [] : [{ text, x: tenth(x) }]
+  })
+}
+
+/** Where the name of each mark begins, so that no two lie on each other or on an arrow; null where there is no room: the table has it. */
+export function names(marks: readonly (Place & { letters: number; arrow: boolean })[], box: Box): (Place | null)[] {
+  const reach = (arrow: boolean) => (arrow ? ARROW : 6)
+  const taken = marks.map(({ x, y, arrow }): Box => ({ left: x - 6, right: x + reach(arrow), top: y - 6, bottom: y + 6 }))
+  return marks.map(({ x, y, letters, arrow }) => {
     const width = letters * LETTER
-    const lefts = [x + 10, x - 10 - width, x - width / 2]
+    const lefts = [x + reach(arrow) + 4, x - 10 - width, x - width / 2]
     for (const dy of [4, -9, 17, -22, 30, -35, 43]) {
       for (const left of lefts) {
         const me = { left, right: left + width, top: y + dy - 10, bottom: y + dy + 3 }
