@@ -41,6 +41,7 @@ for name in sys.argv[2].split(","):
     sets = {each for build in row["builds"] for each in build["instruction_sets"]}
     assert "AVX" in sets or "AVX2" in sets, (name, sets)
 CHECK
+npm --prefix tests/e2e ci --no-audit --no-fund && node tests/e2e/every-page.mjs
 tests/setup/aarch64.sh all
 rounds=0
 started=$SECONDS
