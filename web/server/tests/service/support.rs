@@ -166,6 +166,7 @@ fn ours(plugins: &[&str]) -> Vec<PathBuf> {
 }
 
 /// A fresh schema in the harness's database.
+#[expect(clippy::disallowed_methods, reason = "the test asks PostgreSQL's own program")]
 pub fn database() -> String {
     let url = std::env::var("OCB_TEST_POSTGRES").expect("OCB_TEST_POSTGRES is not set: run `make test`");
     let schema = format!("test_{}", uuid::Uuid::new_v4().simple());
