@@ -1,11 +1,9 @@
 //! A store of files (S3, SeaweedFS) of one test's own, which may be killed and started again.
 
 use std::fs::File;
-use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 use std::process::Child;
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
@@ -30,11 +28,13 @@ impl Seaweed {
         let port = |address: String| address.rsplit(':').next().expect("a port").to_owned();
         let ports: Vec<String> = (0..8).map(|_| port(free_address())).collect();
         let running = Mutex::new(run(folder.path(), &ports));
+        let bucket = format!("http://127.0.0.1:{}/{BUCKET}", ports[3]);
         let store = Self { folder, ports, running };
-        store.wait(Duration::from_secs(60));
-        let bucket = format!("http://127.0.0.1:{}/{BUCKET}", store.ports[3]);
+        // It listens some seconds before all of it is there.
+        let patient = ["--retry", "60", "--retry-delay", "1", "--retry-connrefused", "--retry-all-errors"];
         let signed = ["--aws-sigv4", "aws:amz:us-east-1:s3", "--user", "test:test"];
-        output(command("curl").args(["-sS", "--fail", "--noproxy", "*", "-X", "PUT"]).args(signed).arg(bucket));
+        let mut put = command("curl");
+        output(put.args(["-sS", "--fail", "--noproxy", "*", "-X", "PUT"]).args(patient).args(signed).arg(bucket));
         store
     }
 
@@ -44,15 +44,6 @@ impl Seaweed {
         running.kill().expect("it runs");
         running.wait().expect("it has ended");
         *running = run(self.folder.path(), &self.ports);
-    }
-
-    /// Waits until it listens.
-    pub fn wait(&self, at_most: Duration) {
-        let (begun, s3) = (Instant::now(), format!("127.0.0.1:{}", self.ports[3]));
-        while TcpStream::connect(&s3).is_err() {
-            assert!(begun.elapsed() < at_most, "it does not listen");
-            std::thread::sleep(Duration::from_millis(100));
-        }
     }
 
     /// As `ocb serve --blobs` takes it.

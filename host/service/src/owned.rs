@@ -100,8 +100,8 @@ impl Engine {
             if let Err(e) = self.forget_requests().await {
                 tracing::error!("keys of old requests could not be deleted: {e}");
             }
-            if let Err(e) = self.inner.store.forget_attempts().await {
-                tracing::error!("attempts of visitors that do not count any more could not be deleted: {e}");
+            if let Err(e) = self.inner.store.forget_empty_buckets().await {
+                tracing::error!("rate limits that nobody is near could not be deleted: {e}");
             }
             if let Err(e) = self.sweep_once(now_us()).await {
                 tracing::error!("expired data of guests could not be deleted: {e}");

@@ -12,6 +12,7 @@ use crate::engine::{Engine, Inner};
 use crate::measure::Stop;
 use crate::model::{Stability, StabilityTable};
 use crate::{EngineError, Result};
+use ocb_lab::LabError;
 use ocb_lab::algorithm::Algorithm;
 use ocb_lab::stability::{self, Selection};
 
@@ -38,7 +39,7 @@ impl Engine {
         let (sender, found) = tokio::sync::oneshot::channel();
         std::thread::spawn(move || {
             let right = stop.right_to_measure(|| at("waiting: another process is measuring on this machine"));
-            let tried = right.and_then(|right| right.ok_or(crate::LabError::Stopped)).and_then(|_right| {
+            let tried = right.and_then(|right| right.ok_or(LabError::Stopped)).and_then(|_right| {
                 stability::run(inner.registry.runner(), &inner.machine, &algorithm, &selection, &stop, &at)
             });
             // Who asked may have gone.

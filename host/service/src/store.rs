@@ -7,12 +7,14 @@
 pub(crate) mod tests;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use sqlx::any::{AnyConnectOptions, AnyPoolOptions};
 use sqlx::migrate::{Migration, MigrationType, Migrator};
 use sqlx::{AnyPool, Executor, SqlSafeStr};
+use tokio::sync::OnceCell;
 
 use crate::locks::Locks;
 use crate::{EngineError, Result};
@@ -24,6 +26,8 @@ pub struct Store {
     /// Begins a transaction whose reads all see the same moment.
     pub(crate) one_moment: &'static str,
     sqlite: bool,
+    /// Read once: see [`crate::rate_limits`].
+    pub(crate) rate_limit_key: Arc<OnceCell<String>>,
     pub(crate) shares: crate::runs::share::Known,
     pub(crate) locks: Locks,
 }
@@ -70,7 +74,8 @@ impl Store {
             .map_err(|e| EngineError::fault("Opening the database failed", e))?;
         // SQLite's transactions see one moment anyway, PostgreSQL's have to ask for it.
         let one_moment = if sqlite { "BEGIN" } else { "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY" };
-        Ok(Self { pool, one_moment, sqlite, shares: crate::runs::share::Known::default(), locks })
+        let shares = crate::runs::share::Known::default();
+        Ok(Self { pool, one_moment, sqlite, rate_limit_key: Arc::default(), shares, locks })
     }
 
     /// Makes the tables what they are after this migration.

@@ -295,25 +295,19 @@ fn a_run_outlives_the_database_and_the_files_of_its_service() {
     postgres.stop();
     std::thread::sleep(LEASE + Duration::from_secs(5));
     postgres.start_again();
-    let back = Instant::now();
-    let run = ended(&guest, &service, &run);
-    println!(
-        "from the database's return to the end: {:.1} s, attempts: {}",
-        back.elapsed().as_secs_f64(),
-        run["attempts"]
-    );
+    let to_end = |what: &str, run: &str| {
+        let begun = Instant::now();
+        let run = ended(&guest, &service, run);
+        println!("from {what} to the end: {:.1} s, attempts: {}", begun.elapsed().as_secs_f64(), run["attempts"]);
+        run
+    };
+    to_end("the database's return", &run);
 
     // The files away while it is measured and handed in.
     let next = guest.submit(&service, &spec(3.0));
     measures(&guest, &service, &next, &machine);
     files.kill_and_start_again();
-    let killed = Instant::now();
-    let next = ended(&guest, &service, &next);
-    println!(
-        "from the end of the store of files to that of the run: {:.1} s, attempts: {}",
-        killed.elapsed().as_secs_f64(),
-        next["attempts"]
-    );
+    let next = to_end("the kill of the store of files", &next);
     let csv = format!("/runs/{}/records.csv?algorithm=parry", next["id"].as_str().expect("an id"));
     let records = guest.look(&service, &csv).text().expect("text").lines().count();
     assert_eq!(Some(records as u64 - 1), next["results"][2]["n"].as_u64(), "its records are there");

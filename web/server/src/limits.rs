@@ -75,7 +75,7 @@ impl App {
         }
         // A flood ends here and does not reach the database.
         self.limits.count_many(limit, who, many)?;
-        match self.engine.count_attempts(limit, who, many).await? {
+        match self.engine.count_against(limit, who, many).await? {
             Some(wait) => Err(too_many(limit, wait)),
             None => Ok(()),
         }

@@ -123,7 +123,7 @@ impl ProcessPass<'_> {
         } else {
             self.time(&mut session, state, &order, &mut way)
         };
-        if self.purpose == Purpose::Look && state.algorithm.info.counters {
+        if self.purpose == Purpose::Look && self.counts(state) {
             let mut way = UnderWay { begun: Instant::now(), ..way };
             self.count(&mut session, state, &order[..reached], &mut way);
         }
@@ -253,13 +253,16 @@ impl ProcessPass<'_> {
         let _ = self.news.send(News::Progress { index: self.index, done: state.done, total, worked });
     }
 
+    /// Is its work counted? Nobody asked for that of the reference.
+    fn counts(&self, state: &MeasuringState) -> bool {
+        !self.task.rounds_only && state.algorithm.info.counters && self.index < self.task.algorithms.len()
+    }
+
     /// Questions that the algorithm will have answered in the end; 0 while that cannot be told.
     fn expected(&self, state: &MeasuringState, pace: Option<Pace>) -> u64 {
         let all = self.task.piece(0, self.task.most());
         let (whole, own) = (all.questions() as u64, all.own.len() as u64);
-        // Nobody asked for the reference, so its work is not counted.
-        let counters =
-            !self.task.rounds_only && state.algorithm.info.counters && self.index < self.task.algorithms.len();
+        let counters = self.counts(state);
         let further = |own: u64| if self.elsewhere { self.task.elsewhere(own as usize) } else { 0 };
         let rounds =
             |round: u64, own: u64| round * u64::from(self.task.passes) + further(own) + if counters { own } else { 0 };
