@@ -16,6 +16,7 @@ use crate::store::{Store, now_us};
 /// Takes back attempts whose lease is over, and all of this machine if it has just started: its former process is dead then. What
 /// this process works on itself is never judged by a clock: a machine that slept goes on.
 pub async fn take_back(inner: &Arc<Inner>, just_started: Option<&Worker>) -> Result<()> {
+    inner.store.shorten_leases().await?;
     let mut advice = just_started.is_some();
     let mut checks = just_started.is_some();
     for attempt in inner.store.silent_attempts(just_started).await? {

@@ -39,6 +39,15 @@ impl Store {
         Ok(done.rows_affected() == 1)
     }
 
+    /// Ends no lease later than one that begins now. When the database's clock was put back, a worker that died before would be
+    /// waited for as long as it was put back.
+    pub async fn shorten_leases(&self) -> Result<()> {
+        let text = "UPDATE attempts SET lease_us = (SELECT now_us FROM database_clock) + $1 \
+                    WHERE ended_us IS NULL AND lease_us > (SELECT now_us FROM database_clock) + $1";
+        sqlx::query(text).bind(LEASE_US).execute(&self.pool).await?;
+        Ok(())
+    }
+
     /// Withdraws the attempt of another worker at a job that was ended here; false when there is none.
     pub async fn withdraw(&self, kind: Kind, job: &str, here: &Worker) -> Result<bool> {
         let mut connection = self.pool.acquire().await?;

@@ -138,6 +138,7 @@ on_both!(
     places_are_right_where_many_wait,
     interrupted_runs_are_tried_three_times,
     a_lease_is_counted_by_the_databases_clock,
+    a_clock_that_jumps_loses_no_run_and_keeps_no_dead_worker,
     who_starts_takes_back_its_own_alone,
     a_lost_attempts_result_is_refused_and_leaves_nothing,
     lost_checks_parts_and_advice_change_nothing,

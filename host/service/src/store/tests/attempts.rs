@@ -63,6 +63,28 @@ pub async fn a_lease_is_counted_by_the_databases_clock(store: Store) {
     assert_eq!(store.run("s").await.unwrap().unwrap().state, State::Queued);
 }
 
+pub async fn a_clock_that_jumps_loses_no_run_and_keeps_no_dead_worker(store: Store) {
+    const HOUR: i64 = 3_600_000_000;
+    stopped_clock(&store).await;
+    pass(&store, 2 * HOUR).await;
+    add(&store, run("r", None, 1, 1)).await;
+    let dead = begin(&store, "m").await.unwrap();
+    // Back by an hour: the worker has died, and its lease would last as long.
+    pass(&store, -HOUR).await;
+    store.shorten_leases().await.unwrap();
+    assert!(silent(&store, None).await.is_empty(), "nobody who is alive is taken for dead");
+    pass(&store, LEASE_US + 1).await;
+    assert_eq!(silent(&store, None).await, ["r"]);
+    assert_eq!(store.lose_run(&dead, None).await.unwrap(), Some(State::Queued));
+    // Forward by an hour: whoever does not beat before it is noticed has lost the run, and its result is refused.
+    let late = begin(&store, "m").await.unwrap();
+    pass(&store, HOUR).await;
+    assert_eq!(store.lose_run(&late, None).await.unwrap(), Some(State::Queued));
+    let current = begin(&store, "n").await.unwrap();
+    assert!(!end(&store, &late, State::Done, None).await, "too late");
+    assert!(end(&store, &current, State::Done, None).await, "once");
+}
+
 pub async fn who_starts_takes_back_its_own_alone(store: Store) {
     for id in ["r", "s"] {
         add(&store, run(id, None, 1, 1)).await;
