@@ -242,16 +242,17 @@ pub struct ServeArgs {
     #[arg(long, env = "OCB_METRICS", value_name = "ADDRESS", hide_env_values = true)]
     pub metrics: Option<SocketAddr>,
     /// Address at which machines with `ocb work` take runs, such as 10.0.0.1:9091; visitors must not reach it. Runs are then measured
-    /// by these machines alone, and idle work is not done [default: none; runs are measured here].
+    /// by these machines alone [default: none; runs are measured here].
     #[arg(long, env = "OCB_INTERNAL", value_name = "ADDRESS", hide_env_values = true)]
     pub internal: Option<SocketAddr>,
     /// A machine gets no run while the sentinel, a short measurement that each repeats every hour, takes so many percent more or less
     /// on it than on the others.
     #[arg(long, default_value_t = 3.0, value_parser = percent, env = "OCB_MOST_DRIFT", value_name = "PERCENT", hide_env_values = true, requires = "internal")]
     pub most_drift: f64,
-    /// The machines are nodes of this partition of a Slurm cluster: while runs wait, jobs are submitted.
-    #[arg(long, env = "OCB_SLURM", value_name = "PARTITION", hide_env_values = true, requires_all = ["internal", "slurm_job"])]
-    pub slurm: Option<String>,
+    /// The machines are nodes of these partitions of a Slurm cluster, one for each hardware class: while runs wait, jobs are
+    /// submitted.
+    #[arg(long, env = "OCB_SLURM", value_name = "PARTITION", value_delimiter = ',', hide_env_values = true, requires_all = ["internal", "slurm_job"])]
+    pub slurm: Vec<String>,
     /// What a job runs: a program on each node that runs `ocb work --once` with the token of the node.
     #[arg(long, env = "OCB_SLURM_JOB", value_name = "PROGRAM", hide_env_values = true, requires = "slurm")]
     pub slurm_job: Option<String>,

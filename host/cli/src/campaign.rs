@@ -36,7 +36,7 @@ pub async fn campaign(store: &Store, command: &CampaignCommand, json: bool) -> R
 async fn create(engine: &Engine, args: &CampaignArgs, json: bool) -> Result<ExitCode> {
     let (suite, people) = (args.only != Some(CampaignOf::People), args.only != Some(CampaignOf::Suite));
     if args.dry_run {
-        let preview = engine.preview_campaign(suite, people).await?;
+        let preview = engine.preview_campaign(suite, people, None).await?;
         if json {
             output::print_json(&preview)?
         } else {
@@ -45,7 +45,8 @@ async fn create(engine: &Engine, args: &CampaignArgs, json: bool) -> Result<Exit
         return Ok(ExitCode::SUCCESS);
     }
     let stop = serve::stop_signal()?;
-    let asked = CampaignRequest { reason: args.reason.clone().unwrap_or_default(), suite, people };
+    let asked =
+        CampaignRequest { reason: args.reason.clone().unwrap_or_default(), suite, people, hardware_class: None };
     let (made, _) = engine.create_campaign(None, asked, None).await?;
     if args.measure {
         let interrupted = tokio::select! {

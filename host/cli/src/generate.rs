@@ -61,6 +61,7 @@ pub async fn generate(store: &Store, args: &GenerateArgs, json: bool) -> Result<
             seed: None,
             precision: None,
             at_most: None,
+            hardware_class: None,
         })
     };
     let done = match spec(&engine).await {

@@ -52,8 +52,8 @@ pub async fn open_to_serve(store: &Store, args: &ServeArgs, url: &str) -> Result
 }
 
 fn slurm(args: &ServeArgs) -> Option<SlurmJobs> {
-    let (partition, program) = args.slurm.clone().zip(args.slurm_job.clone())?;
-    Some(SlurmJobs { partition, program })
+    let program = args.slurm_job.clone().filter(|_| !args.slurm.is_empty())?;
+    Some(SlurmJobs { partitions: args.slurm.clone(), program })
 }
 
 fn ceilings(args: &CeilingArgs) -> Ceilings {

@@ -26,7 +26,7 @@ pub async fn suite(store: &Store, command: &SuiteCommand, json: bool) -> Result<
 }
 
 async fn show(engine: &Engine, json: bool) -> Result<ExitCode> {
-    let suite = engine.suite().await?;
+    let suite = engine.suite(None).await?;
     if json {
         output::print_json(&suite)?
     } else {
@@ -80,7 +80,8 @@ async fn measure(engine: &Engine, args: &SuiteRunArgs, json: bool) -> Result<Exi
         eprintln!("ocb: Stopped; finished runs are kept, and `ocb suite run` measures the rest.");
         return Ok(ExitCode::from(INTERRUPTED));
     }
-    let request = BoardRequest { suite: Some(engine.suite().await?.version.to_string()), ..BoardRequest::default() };
+    let request =
+        BoardRequest { suite: Some(engine.suite(None).await?.version.to_string()), ..BoardRequest::default() };
     let found = engine.board(&request, Some(OWNER)).await?;
     if json {
         output::print_json(&found)?

@@ -77,6 +77,7 @@ impl Worker {
             microcode: machine.microcode.clone(),
             governor: governor(machine.measuring_cpu()),
             profile: runner.profile.as_str().into(),
+            partition: std::env::var("SLURM_JOB_PARTITION").ok(),
         };
         Ok(Self { runner, machine, facts, plugins })
     }

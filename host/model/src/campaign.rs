@@ -20,6 +20,9 @@ pub struct CampaignRequest {
     #[serde(default = "yes")]
     #[schema(default = true)]
     pub people: bool,
+    /// Measure on machines of this hardware class; of the service's usual one when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardware_class: Option<String>,
 }
 
 fn yes() -> bool {
@@ -37,7 +40,7 @@ pub struct CampaignPreview {
     pub peoples_runs: u32,
     /// How long measuring all of it is expected to take, in seconds.
     pub expected_seconds: f64,
-    /// The hardware class of this machine.
+    /// The hardware class that it would measure on.
     pub hardware_class: String,
     /// Version of the oracle that judges.
     pub oracle: u32,

@@ -67,8 +67,8 @@ pub use example::{Example, ExampleInfo, ExampleWork};
 pub use heatmap::{Ecdf, Heatmap, HeatmapRequest, Measure, Side, VertexValue};
 pub use invitation::{Acceptance, InvitationInfo, InvitationRequest, InvitationState, NewInvitation};
 pub use machine::{
-    Beat, Ended, GoOn, MachineFacts, MachineInfo, MachineState, MachineStatus, MeasuredAlgorithm, NextWork,
-    OrderedAlgorithm, Sentinel, Told, WorkOrder,
+    Beat, ClassStatus, Ended, GoOn, MachineFacts, MachineInfo, MachineState, MachineStatus, MeasuredAlgorithm,
+    NextWork, OrderedAlgorithm, Sentinel, Told, WorkOrder,
 };
 pub use notice::NoticeInfo;
 pub use object::{ObjectInfo, Rounding};
@@ -151,6 +151,9 @@ pub struct RunSpec {
     /// A quick look: measure at most so many configurations, evenly spread over all of them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_most: Option<u32>,
+    /// Measure on a machine of this hardware class; of the service's usual one when absent. `/api/v1/status` lists them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardware_class: Option<String>,
 }
 
 impl RunSpec {
@@ -388,8 +391,10 @@ pub struct RunEvent {
 pub struct Status {
     /// Version of this program.
     pub version: String,
-    /// Hardware class on which runs are measured.
+    /// Hardware class on which runs are measured that name none.
     pub hardware_class: String,
+    /// All hardware classes on which runs are measured, this one first.
+    pub classes: Vec<ClassStatus>,
     /// Runs under way.
     pub running: u32,
     /// Runs that wait.

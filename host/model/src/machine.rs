@@ -29,6 +29,9 @@ pub struct MachineFacts {
     pub governor: String,
     /// How much of a jail foreign plugins need: `production` or `dev`.
     pub profile: String,
+    /// The partition of its Slurm cluster, if it measures as a job of one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub partition: Option<String>,
 }
 
 impl MachineFacts {
@@ -102,6 +105,23 @@ pub struct MachineStatus {
     pub state: MachineState,
     /// When it asked for a run last.
     pub seen_us: i64,
+    /// Its hardware class.
+    pub hardware_class: String,
+}
+
+/// A hardware class on which runs are measured, and what waits for its machines.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ClassStatus {
+    /// Hash over what makes times comparable.
+    pub hardware_class: String,
+    /// CPU model.
+    pub cpu: String,
+    /// Machines of this class.
+    pub machines: u32,
+    /// Runs of this class that wait.
+    pub queued: u32,
+    /// Seconds that they are expected to take, one after the other.
+    pub expected_seconds: f64,
 }
 
 /// What a measuring machine does.
@@ -122,13 +142,14 @@ impl MachineInfo {
     /// As everybody sees it at this time; nothing before its first contact, and when its token is revoked.
     pub fn status(&self, now_us: i64) -> Option<MachineStatus> {
         let seen_us = self.seen_us.filter(|_| self.revoked_us.is_none())?;
+        let hardware_class = self.facts.as_ref()?.hardware_class.clone();
         let state = match &self.run {
             Some(_) => MachineState::Measuring,
             None if self.trouble.is_some() => MachineState::Refused,
             None if now_us - seen_us < SILENT_US => MachineState::Waiting,
             None => MachineState::Silent,
         };
-        Some(MachineStatus { name: self.name.clone(), state, seen_us })
+        Some(MachineStatus { name: self.name.clone(), state, seen_us, hardware_class })
     }
 }
 

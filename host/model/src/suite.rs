@@ -24,8 +24,10 @@ pub struct SuiteInfo {
     pub passes: u32,
     /// Scenarios: scenes times separations times queries.
     pub scenarios: u32,
-    /// The hardware class of this machine, for which the progress is told.
+    /// The hardware class for which the progress is told.
     pub hardware_class: String,
+    /// All hardware classes on which the suite is measured.
+    pub hardware_classes: Vec<String>,
     /// Version of the oracle that judges.
     pub oracle: u32,
     /// The service measures missing results while it is idle.

@@ -36,18 +36,22 @@ use crate::{EngineError, Result};
 const LOOK: Duration = Duration::from_secs(60);
 
 impl Engine {
-    /// What a campaign would queue now; nothing is queued.
+    /// What a campaign on this hardware class, or on the usual one, would queue now; nothing is queued.
+    ///
+    /// # Errors
+    /// `Invalid` when no machine has this class.
     #[boxed]
-    pub async fn preview_campaign(&self, suite: bool, people: bool) -> Result<CampaignPreview> {
+    pub async fn preview_campaign(&self, suite: bool, people: bool, class: Option<&str>) -> Result<CampaignPreview> {
         let inner = &self.inner;
-        let due = inner.due(suite, people, &[]).await?;
+        let class = inner.measures_on(class)?;
+        let due = inner.due(suite, people, &class, &[]).await?;
         let of_suite = || due.iter().filter(|due| due.of_suite);
         Ok(CampaignPreview {
             suite_runs: of_suite().count() as u32,
             suite_repeats: of_suite().filter(|due| due.repeats.is_some()).count() as u32,
             peoples_runs: due.iter().filter(|due| !due.of_suite).count() as u32,
             expected_seconds: self.seconds_for(&due).await?,
-            hardware_class: inner.hardware_class(),
+            hardware_class: class,
             oracle: ocb_core::oracle::VERSION,
             suite_version: inner.suite.document.version,
         })
@@ -69,13 +73,14 @@ impl Engine {
                 "A campaign measures the suite, user runs, or both; choose at least one.".into(),
             ));
         }
+        let class = inner.measures_on(asked.hardware_class.as_deref())?;
         let owner = by.map_or_else(|| NAME_OF_OPERATOR.to_owned(), AccountInfo::owner);
         let id = self.id_of_request(&owner, Made::Campaign, key, &asked).await?;
         let viewer = by.map(AccountInfo::owner);
         if inner.store.campaign(&id).await?.is_some() {
             return Ok((self.campaign(&id, viewer.as_deref()).await?, false));
         }
-        if inner.due(asked.suite, asked.people, &[]).await?.is_empty() {
+        if inner.due(asked.suite, asked.people, &class, &[]).await?.is_empty() {
             return Err(EngineError::Busy(
                 "There is nothing to measure again: everything is queued or was measured on this hardware class with \
                  this oracle."
@@ -90,7 +95,7 @@ impl Engine {
             of_people: asked.people,
             created_by: by.map_or(NAME_OF_OPERATOR, |by| &by.name).to_owned(),
             created_us: now_us(),
-            hardware_class: inner.hardware_class(),
+            hardware_class: class,
             oracle: ocb_core::oracle::VERSION,
             suite: inner.suite.sha256.clone(),
             queued_us: None,
@@ -152,7 +157,7 @@ impl Engine {
             let _alone = inner.store.locks.alone(Lock::Planning).await?;
             let row = inner.campaign_row(id).await?;
             let own = inner.store.campaign_runs(id).await?;
-            for due in inner.due(row.of_suite, row.of_people, &own).await? {
+            for due in inner.due(row.of_suite, row.of_people, &row.hardware_class, &own).await? {
                 if inner.closing() {
                     return Ok(());
                 }
@@ -196,7 +201,7 @@ impl Engine {
         }
     }
 
-    /// While this service keeps house, campaigns of this machine's class that another service could not complete.
+    /// While this service keeps house, campaigns that another service could not complete.
     pub(crate) async fn look_after_campaigns(self) {
         let house = &self.inner.house;
         while house.here().await {
@@ -231,7 +236,7 @@ impl Engine {
         if row.cancelled_us.is_some() {
             inner.end_waiting_of(&row.id).await?;
         } else if !inner.is_for_now(row) {
-            let told = "The hardware class, the suite or the oracle of the service has changed.";
+            let told = "The hardware classes, the suite or the oracle of the service have changed.";
             return inner.cancel_campaign(&row.id, THE_SERVICE, told).await;
         } else if row.queued_us.is_none() {
             return self.fill_campaign(&row.id).await;
@@ -241,9 +246,9 @@ impl Engine {
 }
 
 impl Inner {
-    /// For this machine's class, this oracle and this suite.
+    /// For a class on which runs are measured here, this oracle and this suite.
     fn is_for_now(&self, row: &CampaignRow) -> bool {
-        row.hardware_class == self.hardware_class()
+        self.hardware_classes().contains(&row.hardware_class)
             && row.oracle == ocb_core::oracle::VERSION
             && row.suite == self.suite.sha256
     }

@@ -29,11 +29,11 @@ impl Default for Ceilings {
     }
 }
 
-/// The partition whose nodes measure, and the program that each job runs there.
+/// The partitions whose nodes measure, and the program that each job runs there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SlurmJobs {
-    /// The partition; its nodes are of one hardware class.
-    pub partition: String,
+    /// The partitions; the nodes of each are of one hardware class.
+    pub partitions: Vec<String>,
     /// A program on each node that runs `ocb work --once` with the node's token.
     pub program: String,
 }

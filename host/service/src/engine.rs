@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError, RwLock};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use ocb_core::configuration::ConfigurationSet;
 use ocb_core::heatmap::VertexMap;
@@ -15,6 +15,7 @@ use crate::advice::work::Advices;
 use crate::attempts::worker::{Holding, Worker};
 use crate::blobs::Blobs;
 use crate::cache::Cache;
+use crate::classes::Classes;
 use crate::columns::RecordColumns;
 use crate::house::House;
 use crate::machine::Machine;
@@ -54,8 +55,8 @@ pub struct Inner {
     pub objects: Objects,
     pub registry: Registry,
     pub machine: Machine,
-    /// The hardware class on which runs are measured: of this machine, or of those that measure for it.
-    pub class: RwLock<String>,
+    /// The hardware classes on which runs are measured.
+    pub classes: Classes,
     pub run_events: RunEvents,
     /// What the run at work can show.
     pub under_way: Arc<UnderWay>,
@@ -99,11 +100,6 @@ impl Inner {
     /// The engine is shutting down.
     pub fn closing(&self) -> bool {
         self.closing.load(Ordering::SeqCst)
-    }
-
-    /// The hardware class on which runs are measured.
-    pub fn hardware_class(&self) -> String {
-        self.class.read().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// There is new work: the dispatcher looks at the queue, and idle work gives way.

@@ -49,8 +49,12 @@ impl Filling {
     }
 
     async fn go_on(&mut self, inner: &Arc<Inner>, asked: u64) -> Result<bool> {
-        // Work that gave way before.
-        if let Some(attempt) = inner.store.begin_idle_run(&inner.worker).await? {
+        // What was queued last, or gave way before.
+        let next = match inner.config.elsewhere {
+            false => inner.store.begin_idle_run(&inner.worker).await?,
+            true => inner.store.begin_preparing_idle(&inner.worker).await?,
+        };
+        if let Some(attempt) = next {
             carry_out(inner, &attempt, Some(asked)).await?;
             return Ok(true);
         }
@@ -58,6 +62,10 @@ impl Filling {
         inner.unset_current();
         if tried? || inner.next_own_advice(asked).await? {
             return Ok(true);
+        }
+        // Enough for every machine until the next look.
+        if inner.config.elsewhere && inner.store.idle_runs().await? >= 2 * inner.measuring_machines() {
+            return Ok(false);
         }
         if !inner.house.is_here() || self.next.is_some_and(|next| Instant::now() < next) {
             return Ok(false);
@@ -82,7 +90,7 @@ async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
     }
     if let Some(spec) = inner.next_of_the_suite(&tried).await? {
         inner.keep_suite().await?;
-        let what = inner.of_the_suite(&spec)?;
+        let what = inner.of_the_suite(&spec, &inner.waiting_for(&spec).class)?;
         let algorithms = inner.public().into_iter().filter(|algorithm| spec.algorithms.contains(&algorithm.id));
         let tried: Vec<Tried> = algorithms.map(|algorithm| Tried::of(&what, &algorithm)).collect();
         queue_run(inner, spec, &tried, Some(&inner.suite.sha256)).await?;
@@ -146,25 +154,28 @@ pub async fn end_waiting(inner: &Inner) -> Result<()> {
 }
 
 impl Inner {
-    /// A scenario of the suite on this machine, judged by this oracle, in a jail like this.
-    pub(crate) fn of_the_suite(&self, spec: &RunSpec) -> Result<String> {
-        let (class, profile) = (&self.machine.hardware_class, self.registry.profile());
+    /// A scenario of the suite on this class, judged by this oracle, in a jail like this.
+    pub(crate) fn of_the_suite(&self, spec: &RunSpec, class: &str) -> Result<String> {
+        let profile = self.registry.profile();
         let (suite, oracle, scenario) = (&self.suite.sha256, ocb_core::oracle::VERSION, scenario(spec)?);
         Ok(format!("suite {suite}, class {class}, {}, oracle {oracle}: {scenario}", profile.as_str()))
     }
 
     async fn next_of_the_suite(&self, tried: &TriedSet) -> Result<Option<RunSpec>> {
-        let (known, public) = (self.known().await?, self.public());
-        for spec in self.suite.scenarios() {
-            let what = self.of_the_suite(&spec)?;
-            let missing = public.iter().filter(|algorithm| {
-                algorithm.queries.contains(&spec.query)
-                    && known.of(algorithm, &spec).is_none()
-                    && !tried.contains(&Tried::of(&what, algorithm))
-            });
-            let algorithms: Vec<String> = missing.take(AT_ONCE).map(|algorithm| algorithm.id.clone()).collect();
-            if !algorithms.is_empty() {
-                return Ok(Some(RunSpec { algorithms, ..spec }));
+        let public = self.public();
+        for class in self.hardware_classes() {
+            let known = self.known(&class).await?;
+            for spec in self.suite.scenarios() {
+                let what = self.of_the_suite(&spec, &class)?;
+                let missing = public.iter().filter(|algorithm| {
+                    algorithm.queries.contains(&spec.query)
+                        && known.of(algorithm, &spec).is_none()
+                        && !tried.contains(&Tried::of(&what, algorithm))
+                });
+                let algorithms: Vec<String> = missing.take(AT_ONCE).map(|algorithm| algorithm.id.clone()).collect();
+                if !algorithms.is_empty() {
+                    return Ok(Some(RunSpec { algorithms, hardware_class: self.named(&class), ..spec }));
+                }
             }
         }
         Ok(None)

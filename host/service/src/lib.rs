@@ -15,6 +15,7 @@ mod cache;
 mod campaigns;
 mod charts;
 mod citations;
+mod classes;
 mod config;
 mod engine;
 mod error;

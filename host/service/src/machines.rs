@@ -11,8 +11,6 @@ pub mod sql;
 pub mod under_way;
 mod work;
 
-use std::sync::PoisonError;
-
 use ocb_lab::algorithm::plugin_hash;
 
 use crate::blocking::blocking;
@@ -20,6 +18,8 @@ use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::model::{MachineFacts, MachineInfo};
 use crate::runs::draw;
+use crate::runs::priority::IDLE;
+use crate::runs::sql::RunRow;
 use crate::store::now_us;
 use crate::{EngineError, Result, sha256_hex};
 
@@ -49,8 +49,11 @@ impl Engine {
     #[boxed]
     pub async fn machines(&self) -> Result<Vec<MachineInfo>> {
         let mut all = self.inner.store.machines().await?;
-        let readings = self.inner.store.readings(&self.inner.hardware_class()).await?;
-        all.iter_mut().for_each(|machine| machine.drift = drift(&readings, &machine.name));
+        for class in self.inner.hardware_classes() {
+            let readings = self.inner.store.readings(&class).await?;
+            let of_class = |it: &&mut MachineInfo| it.facts.as_ref().is_some_and(|facts| facts.hardware_class == class);
+            all.iter_mut().filter(of_class).for_each(|machine| machine.drift = drift(&readings, &machine.name));
+        }
         Ok(all)
     }
 
@@ -110,18 +113,8 @@ impl Engine {
         if let Some(missing) = missing {
             return Err(differs(&format!("its plugin of {} is missing or another file", missing.id)));
         }
-        let others = self.inner.store.machines().await?;
-        let others = others.iter().filter(|other| other.name != machine && other.revoked_us.is_none());
-        let mut classes = others.filter_map(|other| Some(&other.facts.as_ref()?.hardware_class));
-        if let Some(class) = classes.find(|class| **class != facts.hardware_class) {
-            return Err(EngineError::Busy(format!(
-                "The machines of a service have one hardware class: {machine} has {}, the others {class}. Revoke those of the other \
-                 class first with `ocb admin revoke-machine`.",
-                facts.hardware_class
-            )));
-        }
         match self.inner.store.machine_was_seen(machine, facts).await? {
-            None => self.inner.learn_class().await,
+            None => self.inner.learn_classes().await,
             Some(what) => Err(EngineError::Busy(format!(
                 "The {what} of {machine} has changed since it was allowed to measure; if that is right, allow it again with `ocb admin \
                  machine {machine}`."
@@ -131,6 +124,11 @@ impl Engine {
 }
 
 impl Inner {
+    /// Idle work on a machine gives way to a run of the same class that waits for one.
+    async fn gives_way_on_a_machine(&self, row: &RunRow) -> Result<bool> {
+        Ok(row.priority == IDLE && self.store.prepared_runs(&self.waiting_for(&row.spec)).await? > 0)
+    }
+
     /// The runs that a machine has wait again; it hears of that with its next beat.
     pub(crate) async fn put_back_runs_of(&self, machine: &str) -> Result<()> {
         for attempt in self.store.attempts_of(machine).await? {
@@ -138,19 +136,6 @@ impl Inner {
             self.orders.forget(&attempt.id);
             self.run_events.ring(&attempt.job);
             self.orders.prepared.notify_waiters();
-        }
-        Ok(())
-    }
-
-    /// Where machines measure for this service, runs have their hardware class.
-    pub(crate) async fn learn_class(&self) -> Result<()> {
-        if !self.config.elsewhere {
-            return Ok(());
-        }
-        let machines = self.store.machines().await?;
-        let measuring = machines.iter().filter(|machine| machine.revoked_us.is_none());
-        if let Some(facts) = measuring.filter_map(|machine| machine.facts.as_ref()).next() {
-            self.class.write().unwrap_or_else(PoisonError::into_inner).clone_from(&facts.hardware_class);
         }
         Ok(())
     }

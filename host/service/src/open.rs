@@ -1,7 +1,7 @@
 //! Opening a service on its data folder, and closing it.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError, RwLock};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use tokio::sync::Notify;
 
@@ -11,6 +11,7 @@ use crate::attempts::{beat, lost};
 use crate::blobs::Blobs;
 use crate::boxed;
 use crate::cache::Cache;
+use crate::classes::Classes;
 use crate::engine::{Engine, Inner};
 use crate::house::House;
 use crate::machine::{Machine, lock_data_folder};
@@ -46,7 +47,7 @@ impl Engine {
             worker: Worker::of(&lock, &machine.hardware_class)?,
             holding: Arc::default(),
             objects: Objects::new(store.clone(), blobs.clone(), config.stock_dir.clone()),
-            class: RwLock::new(machine.hardware_class.clone()),
+            classes: Classes::of(&machine.hardware_class, &machine.cpu),
             machine,
             run_events: RunEvents::new(),
             under_way: Arc::default(),
@@ -76,7 +77,7 @@ impl Engine {
         });
         let engine = Self { inner };
         engine.inner.renew_plugins().await?;
-        engine.inner.learn_class().await?;
+        engine.inner.learn_classes().await?;
         if engine.inner.config.dispatch {
             engine.inner.store.believe_machines().await?;
             lost::take_back(&engine.inner, Some(&engine.inner.worker)).await?;
@@ -125,13 +126,14 @@ impl Engine {
     #[boxed]
     pub async fn status(&self) -> Result<Status> {
         let store = &self.inner.store;
-        let (queued, expected_seconds) = store.waiting(BACKGROUND).await?;
+        let (queued, expected_seconds) = store.waiting_in_all(BACKGROUND).await?;
         let machines = if self.inner.config.elsewhere { store.machines().await? } else { Vec::new() };
         let now = now_us();
         Ok(Status {
             version: env!("CARGO_PKG_VERSION").into(),
             hardware_class: self.inner.hardware_class(),
-            running: store.running().await?.len() as u32,
+            classes: self.inner.class_status().await?,
+            running: store.running_in_all().await?,
             queued,
             oldest_seconds: store.oldest_seconds().await?,
             expected_seconds,

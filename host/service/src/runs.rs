@@ -267,7 +267,10 @@ impl Engine {
 
     async fn info(&self, row: RunRow, viewer: Option<&str>) -> Result<RunInfo> {
         let store = &self.inner.store;
-        let runs_ahead = if row.state == State::Queued { store.runs_before(&row.id).await?.unwrap_or(0) } else { 0 };
+        let runs_ahead = match row.state {
+            State::Queued => store.runs_before(&row.id, &self.inner.waiting_for(&row.spec)).await?.unwrap_or(0),
+            _ => 0,
+        };
         let mut stages = store.stages(&row.id).await?;
         // A run that was cancelled before its turn, or before it began again, has none of them at work.
         if row.state == State::Cancelled {

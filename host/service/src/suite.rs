@@ -113,13 +113,14 @@ impl Suite {
             seed: None,
             precision: None,
             at_most: None,
+            hardware_class: None,
         }
     }
 }
 
-/// The scenario of a run: equal for two runs that differ in algorithms and drawn configurations only.
+/// The scenario of a run: equal for two runs that differ in algorithms, hardware class and drawn configurations only.
 pub fn scenario_of(spec: &RunSpec) -> RunSpec {
-    RunSpec { algorithms: Vec::new(), ..drawn_anew(spec, 0) }
+    RunSpec { algorithms: Vec::new(), hardware_class: None, ..drawn_anew(spec, 0) }
 }
 
 /// The same with configurations of this seed.

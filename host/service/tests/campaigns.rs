@@ -48,7 +48,7 @@ fn config(data: &Path, note: &str) -> EngineConfig {
 }
 
 fn asked() -> CampaignRequest {
-    CampaignRequest { reason: "A new machine".into(), suite: true, people: true }
+    CampaignRequest { reason: "A new machine".into(), suite: true, people: true, hardware_class: None }
 }
 
 async fn account(engine: &Engine, name: &str, role: Role) -> AccountInfo {
@@ -123,9 +123,9 @@ async fn another_hardware_class_is_measured_once_and_stands_beside_the_old_one()
     let _alone = alone().await;
     let (data, ada, agreed) = measured_before().await;
     let engine = Engine::open(config(data.path(), "new")).await.unwrap();
-    let preview = engine.preview_campaign(true, true).await.unwrap();
+    let preview = engine.preview_campaign(true, true, None).await.unwrap();
     assert_eq!((preview.suite_runs, preview.suite_repeats, preview.peoples_runs), (2, 2, 1));
-    assert_eq!(engine.preview_campaign(true, false).await.unwrap().peoples_runs, 0);
+    assert_eq!(engine.preview_campaign(true, false, None).await.unwrap().peoples_runs, 0);
     let (made, new) = engine.create_campaign(None, asked(), Some("k")).await.unwrap();
     assert!(new);
     let (again, new) = engine.create_campaign(None, asked(), Some("k")).await.unwrap();
@@ -246,7 +246,7 @@ async fn cancelling_ends_what_waits_and_so_does_another_machine() {
     assert!(matches!(engine.create_campaign(None, silent, None).await, Err(EngineError::Invalid(_))));
 
     // What was cancelled is due again. On a third machine it would be measured under a wrong name.
-    let preview = engine.preview_campaign(true, true).await.unwrap();
+    let preview = engine.preview_campaign(true, true, None).await.unwrap();
     let (second, _) = engine.create_campaign(None, asked(), None).await.unwrap();
     assert_eq!(second.runs.waiting, 3);
     // Foretold is what the runs are then expected to take, their configurations being there.
@@ -314,7 +314,8 @@ async fn who_crashes_on_the_new_class_is_taken_out_there_and_nobody_for_our_faul
     let curator = account(&engine, "curator", Role::Curator).await;
     let file = config(data.path(), "old").runner.with_file_name("libocb_sphere_tree.so");
     let plugin = publish(&engine, &author, &curator, &file).await;
-    let waiting = async |engine: &Engine| engine.suite().await.unwrap().progress.iter().map(|p| p.waiting).sum::<u32>();
+    let waiting =
+        async |engine: &Engine| engine.suite(None).await.unwrap().progress.iter().map(|p| p.waiting).sum::<u32>();
     while waiting(&engine).await > 0 {
         tokio::time::sleep(Duration::from_millis(100)).await;
     }

@@ -28,7 +28,7 @@ async fn opened(data: &Path, suite: &Path, idle: bool) -> Engine {
 }
 
 async fn progress(engine: &Engine) -> SuiteProgress {
-    engine.suite().await.unwrap().progress.remove(0)
+    engine.suite(None).await.unwrap().progress.remove(0)
 }
 
 /// Asks the database until it gives this.
@@ -65,7 +65,7 @@ async fn an_idle_service_measures_the_suite_and_then_tries_stability() {
     until(&database, STABILITY, |n: &i64| *n == 1).await;
     let found = progress(&engine).await;
     assert_eq!((found.measured, found.waiting, found.failed, found.of), (2, 0, 0, 2));
-    assert!(engine.suite().await.unwrap().idle);
+    assert!(engine.suite(None).await.unwrap().idle);
     let board = engine.board(&BoardRequest::default(), None).await.unwrap();
     assert_eq!((board.results, board.suite.map(|suite| suite.version)), (2, Some(3)), "it has filled the board");
     assert_eq!(engine.status().await.unwrap().queued, 0);
@@ -122,7 +122,7 @@ async fn it_gives_way_to_a_visitor_at_once_and_finishes_later() {
     let engine = opened(data.path(), &suite, false).await;
     let found = progress(&engine).await;
     assert_eq!((found.measured, found.waiting, found.failed), (1, 0, 0));
-    assert!(!engine.suite().await.unwrap().idle);
+    assert!(!engine.suite(None).await.unwrap().idle);
     let run = engine.submit(common::spec("collision_first", 20, 2), Some("me")).await.unwrap();
     assert_eq!(common::finish(&engine, &run.id).await.0.state, State::Done);
     tokio::time::sleep(Duration::from_millis(200)).await;

@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 use ocb_core::query::Query;
 use ocb_core::statistics::{Outliers, Statistic};
 use ocb_service::model::{
-    AccountInfo, Claim, Ended, HeatmapRequest, MachineFacts, MachineState, Measure, MeasuredAlgorithm, NextWork,
-    OutcomeName, PluginState, Role, RunInfo, RunSpec, Sentinel, State, Told, WorkOrder,
+    AccountInfo, Claim, Ended, HeatmapRequest, MachineFacts, MachineState, Measure, MeasuredAlgorithm,
+    NextWork, OutcomeName, PluginState, Role, RunInfo, RunSpec, Sentinel, State, Told, WorkOrder,
 };
 use ocb_service::worker::{Handed, Seen, Worker};
 use ocb_service::{Ceilings, Engine, EngineConfig, EngineError, Handing, Profile, Stop, Visitor};
@@ -227,17 +227,10 @@ async fn machines_that_would_measure_otherwise_are_refused() {
         assert!(matches!(&refused, Err(EngineError::Busy(why)) if why.contains(words)), "{words}: {refused:?}");
     }
     assert!(common::next(&engine, "alpha", &plain, NOW).await.unwrap().is_none());
-    // All machines are of one class, which the service then calls its own.
-    engine.add_machine("beta").await.unwrap();
-    let other = MachineFacts { hardware_class: "0123456789abcdef".into(), ..plain.clone() };
-    let refused = common::next(&engine, "beta", &other, NOW).await;
-    assert!(matches!(&refused, Err(EngineError::Busy(why)) if why.contains("one hardware class")), "{refused:?}");
     let status = engine.status().await.unwrap();
     let states: Vec<_> = status.machines.iter().map(|it| (it.name.as_str(), it.state)).collect();
     assert_eq!((states, &status.hardware_class), (vec![("alpha", MachineState::Waiting)], &plain.hardware_class));
     engine.revoke_machine("alpha").await.unwrap();
-    assert!(common::next(&engine, "beta", &other, NOW).await.unwrap().is_none(), "now there is no other class");
-    assert_eq!(engine.status().await.unwrap().hardware_class, other.hardware_class);
     assert_eq!(engine.machine_of(&token).await.unwrap(), None);
     assert!(matches!(engine.revoke_machine("alpha").await, Err(EngineError::NotFound(_))));
     assert!(matches!(engine.add_machine(" \n").await, Err(EngineError::Invalid(_))));

@@ -140,6 +140,7 @@ async fn measure(
         seed: None,
         precision: None,
         at_most: None,
+        hardware_class: None,
     };
     let run = engine.submit(spec, None).await?;
     let mut events = Box::pin(engine.follow(&run.id, 0).await?);

@@ -93,6 +93,7 @@ fn spec(args: &BenchArgs, query: Query, method: Method, object_a: String, object
         seed: args.run_seed,
         precision: args.precision,
         at_most: args.quick.then_some(QUICK_LOOK),
+        hardware_class: None,
     }
 }
 

@@ -26,9 +26,9 @@ pub async fn beat(inner: Arc<Inner>) {
             }
         }
         if inner.config.elsewhere
-            && let Err(e) = inner.learn_class().await
+            && let Err(e) = inner.learn_classes().await
         {
-            tracing::warn!("the hardware class of the measuring machines is not known: {e}");
+            tracing::warn!("the hardware classes of the measuring machines are not known: {e}");
         }
         if inner.house.is_here()
             && let Err(e) = lost::take_back(&inner, None).await

@@ -1,4 +1,4 @@
-//! What a campaign measures: what of the suite is missing here and now, and public runs that are of another machine or oracle.
+//! What a campaign measures: what of the suite is missing on its hardware class now, and public runs of another class or oracle.
 
 use std::collections::{HashMap, HashSet};
 
@@ -31,7 +31,7 @@ impl Due {
 }
 
 impl Engine {
-    /// How long measuring all of it is expected to take on this machine, in seconds.
+    /// How long measuring all of it is expected to take, in seconds.
     pub(crate) async fn seconds_for(&self, due: &[Due]) -> Result<f64> {
         let (mut seconds, mut found) = (0.0, HashSet::new());
         for due in due {
@@ -54,17 +54,17 @@ impl Engine {
 
 impl Inner {
     /// What is to be queued besides a campaign's own runs, whatever became of these.
-    pub(crate) async fn due(&self, suite: bool, people: bool, own: &[RunRow]) -> Result<Vec<Due>> {
-        let mut due = if suite { self.due_of_the_suite(own).await? } else { Vec::new() };
+    pub(crate) async fn due(&self, suite: bool, people: bool, class: &str, own: &[RunRow]) -> Result<Vec<Due>> {
+        let mut due = if suite { self.due_of_the_suite(class, own).await? } else { Vec::new() };
         if people {
-            due.extend(self.due_of_people(own).await?);
+            due.extend(self.due_of_people(class, own).await?);
         }
         Ok(due)
     }
 
     /// Algorithms that were measured together are measured together again, so that old and new runs stand in pairs.
-    async fn due_of_the_suite(&self, own: &[RunRow]) -> Result<Vec<Due>> {
-        let mut known = self.known().await?;
+    async fn due_of_the_suite(&self, class: &str, own: &[RunRow]) -> Result<Vec<Due>> {
+        let mut known = self.known(class).await?;
         for row in own.iter().filter(|row| row.suite.is_some()) {
             for algorithm in &row.spec.algorithms {
                 known.add(&row.spec, algorithm, None, Known::Waiting)?;
@@ -94,7 +94,7 @@ impl Inner {
                 }
             }
             due.extend(groups.into_iter().map(|(old, algorithms)| Due {
-                spec: RunSpec { algorithms, ..spec.clone() },
+                spec: RunSpec { algorithms, hardware_class: self.named(class), ..spec.clone() },
                 repeats: old.cloned(),
                 of_suite: true,
             }));
@@ -102,14 +102,14 @@ impl Inner {
         Ok(due)
     }
 
-    async fn due_of_people(&self, own: &[RunRow]) -> Result<Vec<Due>> {
+    async fn due_of_people(&self, class: &str, own: &[RunRow]) -> Result<Vec<Due>> {
         let mut due = Vec::new();
         let stored = self.store.runs_of_the_agreeing().await?;
-        for newest in newest_of_families(&stored, own, |row| self.is_of_now(row)) {
+        for newest in newest_of_families(&stored, own, |row| self.is_of_now(row, class)) {
             if self.visibility_of(newest).await? != Visibility::Public {
                 continue;
             }
-            let mut spec = newest.spec.clone();
+            let mut spec = RunSpec { hardware_class: self.named(class), ..newest.spec.clone() };
             // Of what was withdrawn since, nothing is measured.
             spec.algorithms.retain(|name| self.registry.choose(name, None).is_ok_and(|found| found.is_some()));
             if !spec.algorithms.is_empty() {

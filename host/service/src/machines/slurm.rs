@@ -1,5 +1,6 @@
 //! Machines of a Slurm cluster: the housekeeper sees to it that each free node has a job while runs wait. A job is `ocb work --once`,
-//! which takes whatever run is next when the node has started it; so the order of the queue needs nothing of Slurm.
+//! which takes whatever run is next when the node has started it; so the order of the queue needs nothing of Slurm. The nodes of a
+//! partition are of one hardware class, which they tell with their first request; until then they are taken for the usual one.
 
 use std::time::Duration;
 
@@ -7,8 +8,10 @@ use ocb_slurm::Slurm;
 use url::Url;
 
 use crate::blocking::blocking;
+use crate::classes::OfClass;
 use crate::config::SlurmJobs;
 use crate::engine::Engine;
+use crate::model::{MachineFacts, MachineInfo};
 use crate::{EngineError, Result, sha256_hex};
 
 /// How often jobs and runs are compared.
@@ -22,17 +25,20 @@ impl Engine {
         let database = inner.config.database_url.as_deref().and_then(without_password);
         let database = database.as_deref().unwrap_or(&inner.worker.machine);
         let name = format!("ocb-{}", &sha256_hex(database.as_bytes())[..12]);
-        let slurm = match Slurm::new(&jobs.partition, &name, &[jobs.program]) {
-            Ok(slurm) => slurm,
-            Err(e) => return tracing::error!("no jobs are submitted: {e}"),
-        };
+        let mut partitions = Vec::new();
+        for partition in jobs.partitions {
+            match Slurm::new(&partition, &name, std::slice::from_ref(&jobs.program)) {
+                Ok(slurm) => partitions.push((partition, slurm)),
+                Err(e) => return tracing::error!("no jobs are submitted: {e}"),
+            }
+        }
         let mut failing = None;
         while inner.house.here().await {
             tokio::select! {
                 () = tokio::time::sleep(STEP) => {}
                 () = inner.house.gone() => continue,
             }
-            let failed = self.supplied(&slurm).await.err().map(|e| e.to_string());
+            let failed = self.supplied(&partitions).await.err().map(|e| e.to_string());
             match &failed {
                 // It may go on for hours, and is said once.
                 Some(why) if failed != failing => tracing::error!("measuring machines may be missing: {why}"),
@@ -43,17 +49,33 @@ impl Engine {
         }
     }
 
-    async fn supplied(&self, slurm: &Slurm) -> Result<()> {
-        let (waiting, slurm) = (self.inner.store.prepared_runs().await?, slurm.clone());
-        blocking(move || {
-            let settled = slurm.settle(waiting as usize).map_err(|e| EngineError::Fault(e.to_string()))?;
-            if !settled.submitted.is_empty() || !settled.cancelled.is_empty() {
-                tracing::debug!(?settled, waiting, "jobs");
-            }
-            Ok(())
-        })
-        .await
+    /// One partition that cannot be had keeps no other from its jobs.
+    async fn supplied(&self, partitions: &[(String, Slurm)]) -> Result<()> {
+        let (machines, usual) = (self.inner.store.machines().await?, self.inner.hardware_class());
+        let mut all = Ok(());
+        for (partition, slurm) in partitions {
+            let class = class_of(&machines, partition).unwrap_or_else(|| usual.clone());
+            let waiting = self.inner.store.prepared_runs(&OfClass { class, usual: usual.clone() }).await?;
+            let slurm = slurm.clone();
+            let settled = blocking(move || {
+                let settled = slurm.settle(waiting as usize).map_err(|e| EngineError::Fault(e.to_string()))?;
+                if !settled.submitted.is_empty() || !settled.cancelled.is_empty() {
+                    tracing::debug!(?settled, waiting, "jobs");
+                }
+                Ok(())
+            });
+            all = settled.await.and(all);
+        }
+        all
     }
+}
+
+/// The class of the nodes of a partition, once one of them has asked for a run.
+fn class_of(machines: &[MachineInfo], partition: &str) -> Option<String> {
+    let measuring = machines.iter().filter(|machine| machine.revoked_us.is_none());
+    let of_partition = |facts: &&MachineFacts| facts.partition.as_deref() == Some(partition);
+    let facts = measuring.filter_map(|machine| machine.facts.as_ref()).find(of_partition);
+    facts.map(|facts| facts.hardware_class.clone())
 }
 
 /// Host, port and name of a database.

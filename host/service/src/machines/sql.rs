@@ -120,6 +120,12 @@ impl Store {
         work.map(|work| Ok((found, from_json(&work)?))).transpose()
     }
 
+    /// The hardware class of who began this attempt.
+    pub async fn class_of_attempt(&self, attempt: &str) -> Result<String> {
+        let text = "SELECT class FROM attempts WHERE id = $1";
+        Ok(sqlx::query_scalar(text).bind(attempt).fetch_one(&self.pool).await?)
+    }
+
     /// The current attempt with this id, if it is of this machine.
     pub async fn attempt_of(&self, machine: &str, attempt: &str) -> Result<Option<Attempt>> {
         let text = "SELECT job, number FROM attempts WHERE id = $1 AND machine = $2 AND ended_us IS NULL";

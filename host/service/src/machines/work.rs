@@ -60,7 +60,7 @@ impl Engine {
         let (asked, worker) = (Instant::now(), worker(machine, &facts.hardware_class));
         while !self.inner.closing() {
             let prepared = self.inner.orders.prepared.notified();
-            if let Some(attempt) = self.inner.store.begin_prepared_run(&worker).await? {
+            if let Some(attempt) = self.inner.store.begin_prepared_run(&worker, &self.inner.hardware_class()).await? {
                 match self.begun(machine, &attempt).await? {
                     Some(order) => return Ok(NextWork::Run(Box::new(order))),
                     None => continue,
@@ -142,10 +142,14 @@ impl Engine {
         if !self.inner.store.beat(&attempt.id).await? {
             return Ok(false);
         }
+        let row = self.inner.run_row(&attempt.job).await?;
+        if self.inner.gives_way_on_a_machine(&row).await? {
+            self.inner.put_back_runs_of(machine).await?;
+            return Ok(false);
+        }
         if steps.is_empty() && self.inner.orders.heard(&attempt.id) {
             return Ok(true);
         }
-        let row = self.inner.run_row(&attempt.job).await?;
         let inner = self.inner.clone();
         let telling = blocking(move || {
             let working = inner.working(&attempt, &row)?;
@@ -223,6 +227,10 @@ impl Engine {
             Ended::Measured { algorithms, environment, preview } => {
                 let files = blocking(move || readable(&algorithms, files).map(|files| (algorithms, files)));
                 let (algorithms, files) = files.await?;
+                let class = inner.store.class_of_attempt(&attempt.id).await?;
+                if environment.as_ref().is_some_and(|machine| machine.hardware_class != class) {
+                    return Err(wrong("they are of another hardware class"));
+                }
                 let results = self.results(row, order, algorithms, (environment, preview), files)?;
                 let (here, of) = (self.inner.clone(), (attempt.clone(), row.clone()));
                 let end = blocking(move || {
@@ -274,9 +282,6 @@ impl Engine {
             }
             let [records, triangle_tests] = files;
             found.push(Found { result, records, triangle_tests, plugin_sha256, seconds_per_query });
-        }
-        if environment.as_ref().is_some_and(|machine| machine.hardware_class != self.inner.hardware_class()) {
-            return Err(wrong("they are of another hardware class"));
         }
         let draw = draw::drawn(row, order.draw.seed);
         let environment = environment.map(|environment| Environment { draw: Some(draw), ..*environment });

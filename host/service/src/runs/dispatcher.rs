@@ -69,7 +69,7 @@ pub async fn work(inner: Arc<Inner>) {
                 }
             }
             Ok(None) if checked || tried || replayed => {}
-            Ok(None) if !inner.config.elsewhere && filling.work(&inner, asked).await => {}
+            Ok(None) if filling.work(&inner, asked).await => {}
             Ok(None) => {
                 let idle = if faults > 0 { next_check.saturating_duration_since(Instant::now()) } else { IDLE };
                 let _ = tokio::time::timeout(idle, inner.wake.notified()).await;

@@ -39,13 +39,14 @@ impl Engine {
 
     pub(crate) async fn check(&self, spec: &RunSpec, viewer: Option<&str>) -> Result<Checked> {
         let inner = &self.inner;
+        inner.measures_on(spec.hardware_class.as_deref())?;
         spec::check(spec, &inner.objects, &inner.registry, &inner.store, &inner.blobs, viewer).await
     }
 }
 
 /// Expected numbers of a checked request, and of what would be before it in the queue.
 pub async fn estimate(inner: &Inner, checked: &Checked) -> Result<Estimate> {
-    let (runs_ahead, wait_seconds) = queue_ahead(inner).await?;
+    let (runs_ahead, wait_seconds) = queue_ahead(inner, &checked.spec).await?;
     Ok(Estimate { runs_ahead, wait_seconds, ..estimate_alone(inner, checked).await? })
 }
 
@@ -93,12 +94,12 @@ pub async fn estimate_alone(inner: &Inner, checked: &Checked) -> Result<Estimate
     })
 }
 
-/// Runs ahead of an interactive one that is asked for now, and the seconds until they are done.
-async fn queue_ahead(inner: &Inner) -> Result<(u32, f64)> {
-    let running = inner.store.running().await?;
-    let (ahead, seconds) = inner.store.waiting(crate::runs::priority::INTERACTIVE).await?;
-    let left =
-        |(_, started_us, expected): &(String, i64, f64)| (expected - (now_us() - started_us) as f64 / 1e6).max(1.0);
+/// Runs ahead of such an interactive one that is asked for now, and the seconds until they are done.
+async fn queue_ahead(inner: &Inner, spec: &RunSpec) -> Result<(u32, f64)> {
+    let class = inner.waiting_for(spec);
+    let running = inner.store.running(&class).await?;
+    let (ahead, seconds) = inner.store.waiting(crate::runs::priority::INTERACTIVE, &class).await?;
+    let left = |(started_us, expected): &(i64, f64)| (expected - (now_us() - started_us) as f64 / 1e6).max(1.0);
     Ok((running.len() as u32 + ahead, running.iter().map(left).sum::<f64>() + seconds))
 }
 

@@ -44,6 +44,7 @@ impl Engine {
             seed: None,
             precision: None,
             at_most: None,
+            hardware_class: None,
         };
         self.queue(spec, RunContext { priority: BACKGROUND, featured: true, ..RunContext::default() }).await?;
         Ok(())

@@ -8,6 +8,7 @@ use tokio::sync::broadcast::Receiver;
 
 use crate::Result;
 use crate::boxed;
+use crate::classes::OfClass;
 use crate::engine::Engine;
 use crate::model::{RunEvent, State};
 use crate::runs::log::{QUEUE, plain_event};
@@ -34,13 +35,14 @@ impl Engine {
     ) -> Result<impl Stream<Item = Result<RunEvent>> + Send + 'static + use<>> {
         // Listen first, read then: what happens in between is heard.
         let changes = self.inner.run_events.listen();
-        self.inner.run_row(id).await?;
+        let row = self.inner.run_row(id).await?;
         let follower = Follower {
             engine: self.clone(),
             id: id.to_owned(),
             after: after_seq,
             read: VecDeque::new(),
             changes,
+            waits: self.inner.waiting_for(&row.spec),
             place: None,
             shown: 0,
             ended: false,
@@ -58,6 +60,7 @@ struct Follower {
     after: i64,
     read: VecDeque<RunEvent>,
     changes: Receiver<std::sync::Arc<str>>,
+    waits: OfClass,
     /// The runs ahead of a waiting one that were told last. Places are computed when somebody looks, and no event is kept.
     place: Option<u32>,
     /// The version of the preliminary results that were sent last; these events are not kept.
@@ -113,7 +116,7 @@ impl Follower {
     /// Looks at the place of a run that waits.
     async fn place_has_changed(&mut self) -> bool {
         // A database that cannot tell it now is asked again with the next look.
-        let now = self.engine.inner.store.runs_before(&self.id).await.unwrap_or(self.place);
+        let now = self.engine.inner.store.runs_before(&self.id, &self.waits).await.unwrap_or(self.place);
         let told = std::mem::replace(&mut self.place, now);
         now.is_some() && now != told
     }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::Result;
+use crate::classes::OfClass;
 use crate::model::State;
 use crate::runs::share::{QueueShare, Since};
 use crate::runs::sql::named_state;
@@ -15,22 +16,31 @@ const MANY: usize = 100;
 const STAND: Duration = Duration::from_secs(1);
 
 impl Store {
-    /// How many runs wait at this priority or a smaller one, and the seconds that they were expected to take.
-    pub async fn waiting(&self, priority: i64) -> Result<(u32, f64)> {
+    /// How many runs of a class wait at this priority or a smaller one, and the seconds that they were expected to take.
+    pub async fn waiting(&self, priority: i64, of: &OfClass) -> Result<(u32, f64)> {
+        let text = "SELECT COUNT(*), COALESCE(SUM(expected_seconds), 0.0) FROM runs \
+                    WHERE state = 'queued' AND priority <= $1 AND COALESCE(hardware_class, $2) = $3";
+        let query = sqlx::query_as(text).bind(priority).bind(&of.usual).bind(&of.class);
+        let (count, seconds): (i64, f64) = query.fetch_one(&self.pool).await?;
+        Ok((count as u32, seconds))
+    }
+
+    /// The same of all classes.
+    pub async fn waiting_in_all(&self, priority: i64) -> Result<(u32, f64)> {
         let text = "SELECT COUNT(*), COALESCE(SUM(expected_seconds), 0.0) FROM runs \
                     WHERE state = 'queued' AND priority <= $1";
         let (count, seconds): (i64, f64) = sqlx::query_as(text).bind(priority).fetch_one(&self.pool).await?;
         Ok((count as u32, seconds))
     }
 
-    /// How many runs are under way, or wait and are served before this one if nothing else is asked for; nothing when it does
-    /// not wait. Where many wait, others may have moved for a second.
-    pub async fn runs_before(&self, id: &str) -> Result<Option<u32>> {
-        let Some(waiting) = self.waiting_before(id).await? else { return Ok(None) };
-        Ok(Some(waiting + self.running().await?.len() as u32))
+    /// How many runs of its class are under way, or wait and are served before this one if nothing else is asked for; nothing when
+    /// it does not wait. Where many wait, others may have moved for a second.
+    pub async fn runs_before(&self, id: &str, of: &OfClass) -> Result<Option<u32>> {
+        let Some(waiting) = self.waiting_before(id, of).await? else { return Ok(None) };
+        Ok(Some(waiting + self.running(of).await?.len() as u32))
     }
 
-    async fn waiting_before(&self, id: &str) -> Result<Option<u32>> {
+    async fn waiting_before(&self, id: &str, of: &OfClass) -> Result<Option<u32>> {
         let own: Option<(String, i64, i64, i64)> = sqlx::query_as(
             "SELECT r.turn, r.priority, r.created_us, COALESCE(s.served_us, 0) \
              FROM runs r LEFT JOIN served s ON s.owner = r.turn WHERE r.id = $1 AND r.state = 'queued'",
@@ -39,30 +49,32 @@ impl Store {
         .fetch_optional(&self.pool)
         .await?;
         let Some((turn, priority, created_us, served_us)) = own else { return Ok(None) };
-        let sooner: i64 = sqlx::query_scalar("SELECT COUNT(*) FROM runs WHERE state = 'queued' AND priority < $1")
-            .bind(priority)
-            .fetch_one(&self.pool)
-            .await?;
+        let text =
+            "SELECT COUNT(*) FROM runs WHERE state = 'queued' AND priority < $1 AND COALESCE(hardware_class, $2) = $3";
+        let query = sqlx::query_scalar(text).bind(priority).bind(&of.usual).bind(&of.class);
+        let sooner: i64 = query.fetch_one(&self.pool).await?;
         let (of_turn, first_us, first): (i64, Option<i64>, Option<String>) = sqlx::query_as(
             "SELECT COUNT(CASE WHEN (created_us, id) < ($1, $2) THEN 1 END), MIN(created_us), MIN(id) FROM runs \
-             WHERE state = 'queued' AND priority = $3 AND turn = $4",
+             WHERE state = 'queued' AND priority = $3 AND turn = $4 AND COALESCE(hardware_class, $5) = $6",
         )
         .bind(created_us)
         .bind(id)
         .bind(priority)
         .bind(&turn)
+        .bind(&of.usual)
+        .bind(&of.class)
         .fetch_one(&self.pool)
         .await?;
         let since = (served_us, first_us.unwrap_or(created_us), first.unwrap_or_else(|| id.to_owned()));
-        let others = of_others(&turn, &since, of_turn, &self.shares(priority).await?);
+        let others = of_others(&turn, &since, of_turn, &self.shares(priority, of).await?);
         Ok(Some((sooner + of_turn + others) as u32))
     }
 
-    /// The shares at this priority. Who comes while they are counted waits for that and has them as well.
-    async fn shares(&self, priority: i64) -> Result<Arc<Vec<QueueShare>>> {
+    /// The shares at this priority of a class. Who comes while they are counted waits for that and has them as well.
+    async fn shares(&self, priority: i64, waiting: &OfClass) -> Result<Arc<Vec<QueueShare>>> {
         let mut known = self.shares.lock().await;
         if let Some((counted, of, shares)) = &*known
-            && *of == priority
+            && (of.0, &of.1) == (priority, waiting)
             && counted.elapsed() < STAND
         {
             return Ok(shares.clone());
@@ -70,15 +82,18 @@ impl Store {
         let rows: Vec<(String, i64, i64, i64, String)> = sqlx::query_as(
             "SELECT t.turn, t.waiting, COALESCE(s.served_us, 0), t.first_us, t.first_id FROM \
              (SELECT turn, COUNT(*) AS waiting, MIN(created_us) AS first_us, MIN(id) AS first_id FROM runs \
-             WHERE state = 'queued' AND priority = $1 GROUP BY turn) AS t LEFT JOIN served s ON s.owner = t.turn",
+             WHERE state = 'queued' AND priority = $1 AND COALESCE(hardware_class, $2) = $3 GROUP BY turn) AS t \
+             LEFT JOIN served s ON s.owner = t.turn",
         )
         .bind(priority)
+        .bind(&waiting.usual)
+        .bind(&waiting.class)
         .fetch_all(&self.pool)
         .await?;
         let share =
             |(of, waiting, served_us, first_us, first)| QueueShare { of, waiting, since: (served_us, first_us, first) };
         let shares: Arc<Vec<QueueShare>> = Arc::new(rows.into_iter().map(share).collect());
-        *known = (shares.len() >= MANY).then(|| (Instant::now(), priority, shares.clone()));
+        *known = (shares.len() >= MANY).then(|| (Instant::now(), (priority, waiting.clone()), shares.clone()));
         Ok(shares)
     }
 }

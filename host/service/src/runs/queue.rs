@@ -8,6 +8,7 @@ use crate::Result;
 use crate::attempts::sql::{at_rest, begin, end, withdraw};
 use crate::attempts::worker::Worker;
 use crate::attempts::{Attempt, Kind, Outcome};
+use crate::classes::OfClass;
 use crate::model::State;
 use crate::runs::events_sql::append_event;
 use crate::runs::log::plain_event;
@@ -24,12 +25,14 @@ pub struct Granted {
     pub seconds: f64,
 }
 
-/// The run that is next of those with these priorities for which this holds.
+/// The run that is next of those with these priorities and of this class for which this holds.
+/// The class comes third, the usual one fourth; where the first is null, any will do.
 macro_rules! next {
     ($which:literal) => {
         concat!(
             "SELECT r.id FROM runs r LEFT JOIN served s ON s.owner = r.turn ",
-            "WHERE r.state = 'queued' AND r.priority BETWEEN $1 AND $2 AND ",
+            "WHERE r.state = 'queued' AND r.priority BETWEEN $1 AND $2 ",
+            "AND (CAST($3 AS TEXT) IS NULL OR COALESCE(r.hardware_class, $4) = $3) AND ",
             at_rest!("measure", "r.id"),
             " AND ",
             at_rest!("prepare", "r.id"),
@@ -56,32 +59,53 @@ impl Store {
     /// Begins an attempt at the next run: smallest priority, then whose turn was longest ago, then the oldest. Idle work is not
     /// among them.
     pub async fn begin_run(&self, worker: &Worker) -> Result<Option<Attempt>> {
-        self.begin_next(worker, Kind::Measure, i64::MIN..=BACKGROUND, next!("TRUE")).await
+        let class = Some(worker.class.as_str());
+        self.begin_next(worker, Kind::Measure, i64::MIN..=BACKGROUND, [class, class], next!("TRUE")).await
     }
 
     /// Begins an attempt at a run that the service queued for when it is idle.
     pub async fn begin_idle_run(&self, worker: &Worker) -> Result<Option<Attempt>> {
-        self.begin_next(worker, Kind::Measure, IDLE..=IDLE, next!("TRUE")).await
+        let class = Some(worker.class.as_str());
+        self.begin_next(worker, Kind::Measure, IDLE..=IDLE, [class, class], next!("TRUE")).await
     }
 
-    /// Begins to prepare the next run for a measuring machine. No visitor has more than a few prepared runs, so that those of others
-    /// are prepared in time for their turn.
+    /// Begins to prepare the next run for a measuring machine of whatever class. No visitor has more than a few prepared runs of one
+    /// class, so that those of others are prepared in time for their turn.
     pub async fn begin_preparing(&self, worker: &Worker) -> Result<Option<Attempt>> {
+        self.begin_to_prepare(worker, i64::MIN..=BACKGROUND).await
+    }
+
+    /// The same for idle work.
+    pub async fn begin_preparing_idle(&self, worker: &Worker) -> Result<Option<Attempt>> {
+        self.begin_to_prepare(worker, IDLE..=IDLE).await
+    }
+
+    async fn begin_to_prepare(&self, worker: &Worker, priorities: RangeInclusive<i64>) -> Result<Option<Attempt>> {
         let text = next!(
-            "r.prepared = 0 AND 8 > (SELECT COUNT(*) FROM runs p WHERE p.turn = r.turn AND p.state = 'queued' AND p.prepared = 1)"
+            "r.prepared = 0 AND 8 > (SELECT COUNT(*) FROM runs p WHERE p.turn = r.turn AND p.state = 'queued' AND p.prepared = 1 \
+             AND COALESCE(p.hardware_class, '') = COALESCE(r.hardware_class, ''))"
         );
-        self.begin_next(worker, Kind::Prepare, i64::MIN..=BACKGROUND, text).await
+        self.begin_next(worker, Kind::Prepare, priorities, [None, None], text).await
     }
 
-    /// Begins an attempt at the next prepared run.
-    pub async fn begin_prepared_run(&self, worker: &Worker) -> Result<Option<Attempt>> {
-        self.begin_next(worker, Kind::Measure, i64::MIN..=BACKGROUND, next!("r.prepared = 1")).await
+    /// Begins an attempt at the next prepared run of the worker's class, idle work last. Runs that name no class are of the usual one.
+    pub async fn begin_prepared_run(&self, worker: &Worker, usual: &str) -> Result<Option<Attempt>> {
+        let classes = [Some(worker.class.as_str()), Some(usual)];
+        self.begin_next(worker, Kind::Measure, i64::MIN..=IDLE, classes, next!("r.prepared = 1")).await
     }
 
-    /// Runs that wait for a measuring machine.
-    pub async fn prepared_runs(&self) -> Result<u64> {
-        let text = "SELECT COUNT(*) FROM runs WHERE state = 'queued' AND prepared = 1";
-        Ok(sqlx::query_scalar::<_, i64>(text).fetch_one(&self.pool).await? as u64)
+    /// Runs that wait for a measuring machine of this class, without idle work.
+    pub async fn prepared_runs(&self, of: &OfClass) -> Result<u64> {
+        let text = "SELECT COUNT(*) FROM runs WHERE state = 'queued' AND prepared = 1 AND priority <= $1 \
+                    AND COALESCE(hardware_class, $2) = $3";
+        let query = sqlx::query_scalar::<_, i64>(text).bind(BACKGROUND).bind(&of.usual).bind(&of.class);
+        Ok(query.fetch_one(&self.pool).await? as u64)
+    }
+
+    /// Runs of idle work that wait or are under way.
+    pub async fn idle_runs(&self) -> Result<u64> {
+        let text = "SELECT COUNT(*) FROM runs WHERE priority = $1 AND state IN ('queued', 'running')";
+        Ok(sqlx::query_scalar::<_, i64>(text).bind(IDLE).fetch_one(&self.pool).await? as u64)
     }
 
     /// A run waits for a measuring machine from now on; false when the attempt is not the current one.
@@ -102,11 +126,13 @@ impl Store {
         worker: &Worker,
         kind: Kind,
         priorities: RangeInclusive<i64>,
+        [class, usual]: [Option<&str>; 2],
         text: &'static str,
     ) -> Result<Option<Attempt>> {
         // Another worker may take what this one has chosen; then it chooses again.
         loop {
-            let query = sqlx::query_scalar(text).bind(*priorities.start()).bind(*priorities.end());
+            let query =
+                sqlx::query_scalar(text).bind(*priorities.start()).bind(*priorities.end()).bind(class).bind(usual);
             let Some(next): Option<String> = query.fetch_optional(&self.pool).await? else { return Ok(None) };
             let mut transaction = self.pool.begin().await?;
             let Some(attempt) = begin(&mut transaction, kind, &next, worker).await? else { continue };
@@ -184,11 +210,17 @@ impl Store {
         Ok(Granted { waiting: waiting as u64, seconds })
     }
 
-    /// Runs under way that others wait for: their ids, when they were started and what they were expected to take.
-    pub async fn running(&self) -> Result<Vec<(String, i64, f64)>> {
-        let text = "SELECT id, COALESCE(started_us, 0), expected_seconds FROM runs \
-                    WHERE state = 'running' AND priority <= $1";
-        Ok(sqlx::query_as(text).bind(BACKGROUND).fetch_all(&self.pool).await?)
+    /// Runs of a class under way that others wait for: when they were started and what they were expected to take.
+    pub async fn running(&self, of: &OfClass) -> Result<Vec<(i64, f64)>> {
+        let text = "SELECT COALESCE(started_us, 0), expected_seconds FROM runs \
+                    WHERE state = 'running' AND priority <= $1 AND COALESCE(hardware_class, $2) = $3";
+        Ok(sqlx::query_as(text).bind(BACKGROUND).bind(&of.usual).bind(&of.class).fetch_all(&self.pool).await?)
+    }
+
+    /// How many runs are under way that others wait for, of whatever class.
+    pub async fn running_in_all(&self) -> Result<u32> {
+        let text = "SELECT COUNT(*) FROM runs WHERE state = 'running' AND priority <= $1";
+        Ok(sqlx::query_scalar::<_, i64>(text).bind(BACKGROUND).fetch_one(&self.pool).await? as u32)
     }
 }
 

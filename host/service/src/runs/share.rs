@@ -5,8 +5,10 @@ use std::time::Instant;
 
 use tokio::sync::Mutex;
 
-/// The shares at one priority as they were a moment ago, if they were many.
-pub type Known = Arc<Mutex<Option<(Instant, i64, Arc<Vec<QueueShare>>)>>>;
+use crate::classes::OfClass;
+
+/// The shares at one priority of one hardware class as they were a moment ago, if they were many.
+pub type Known = Arc<Mutex<Option<(Instant, (i64, OfClass), Arc<Vec<QueueShare>>)>>>;
 
 /// What one participant has waiting.
 #[derive(Clone, Debug)]

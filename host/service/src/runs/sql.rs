@@ -114,8 +114,8 @@ impl Store {
         let added = sqlx::query(
             "INSERT INTO runs (id, owner, featured, priority, state, attempts, spec, object_a_name, object_b_name, \
              secret, expected_seconds, created_us, private, request_key, visibility, suite, campaign, rerun_of, turn, \
-             address, granted_seconds) \
-             VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17, $18, $19, $20) \
+             address, granted_seconds, hardware_class) \
+             VALUES ($1, $2, $3, $4, $5, 0, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17, $18, $19, $20, $21) \
              ON CONFLICT DO NOTHING",
         )
         .bind(&run.id)
@@ -138,6 +138,7 @@ impl Store {
         .bind(&run.turn)
         .bind(run.address.as_deref())
         .bind(run.granted_seconds)
+        .bind(run.spec.hardware_class.as_deref())
         .execute(&mut *transaction)
         .await?;
         if added.rows_affected() == 0 {

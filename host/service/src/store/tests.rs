@@ -31,7 +31,9 @@ mod rate_limits;
 mod suites;
 mod visibility;
 
-use fixtures::{add, advice_info, begin, end, handed, object, set_info, spec, worker, workload, workload_result};
+use fixtures::{
+    add, advice_info, begin, end, handed, object, set_info, spec, usual, worker, workload, workload_result,
+};
 pub(crate) use fixtures::{result, run};
 
 use super::*;
@@ -147,6 +149,7 @@ on_both!(
     a_token_is_that_of_one_machine_until_it_is_revoked,
     a_machine_that_has_changed_is_not_admitted,
     prepared_runs_go_to_machines_in_turn,
+    runs_go_to_machines_of_their_hardware_class,
     a_machine_reaches_its_own_attempt_alone,
     results_replace_those_of_an_earlier_attempt,
     the_newest_finished_featured_run_is_shown,
@@ -398,20 +401,20 @@ mod contract {
         );
         let mut foretold = Vec::new();
         for id in ["background", "a1", "a2", "a3", "b1"] {
-            foretold.push((store.runs_before(id).await.unwrap().unwrap(), id));
+            foretold.push((store.runs_before(id, &usual()).await.unwrap().unwrap(), id));
         }
         foretold.sort_unstable();
         assert_eq!(foretold.iter().map(|(before, _)| *before).collect::<Vec<_>>(), [0, 1, 2, 3, 4]);
         let foretold: Vec<String> = foretold.into_iter().map(|(_, id)| id.to_owned()).collect();
         let mut served = Vec::new();
         while let Some(attempt) = begin(&store, "m").await {
-            assert_eq!(store.running().await.unwrap().len(), 1);
+            assert_eq!(store.running(&usual()).await.unwrap().len(), 1);
             assert!(end(&store, &attempt, State::Done, None).await);
             served.push(attempt.job);
         }
         assert_eq!(served, ["a1", "b1", "a2", "a3", "background"]);
         assert_eq!(foretold, served, "what the pages say about the queue is what happens");
-        assert_eq!(store.runs_before("a1").await.unwrap(), None, "it waits no more");
+        assert_eq!(store.runs_before("a1", &usual()).await.unwrap(), None, "it waits no more");
     }
 
     pub async fn places_are_right_where_many_wait(store: Store) {
@@ -421,7 +424,7 @@ mod contract {
         }
         for i in 0..240 {
             let id = format!("r{i}");
-            foretold.push((store.runs_before(&id).await.unwrap().unwrap(), id));
+            foretold.push((store.runs_before(&id, &usual()).await.unwrap().unwrap(), id));
         }
         foretold.sort_unstable();
         for (place, (before, id)) in foretold.iter().enumerate() {

@@ -28,11 +28,15 @@ pub(crate) enum Known {
 }
 
 impl Engine {
-    /// The suite, and how far each public algorithm has come with it on this machine.
+    /// The suite, and how far each public algorithm has come with it on this hardware class, or on the usual one.
+    ///
+    /// # Errors
+    /// `Invalid` when no machine has this class.
     #[boxed]
-    pub async fn suite(&self) -> Result<SuiteInfo> {
+    pub async fn suite(&self, class: Option<&str>) -> Result<SuiteInfo> {
         let suite = &self.inner.suite;
-        let (known, tried) = (self.inner.known().await?, self.inner.store.tried().await?);
+        let class = self.inner.measures_on(class)?;
+        let (known, tried) = (self.inner.known(&class).await?, self.inner.store.tried().await?);
         let scenarios = suite.scenarios();
         let progress = |algorithm: AlgorithmInfo| -> Result<SuiteProgress> {
             let answered = scenarios.iter().filter(|spec| algorithm.queries.contains(&spec.query));
@@ -43,7 +47,7 @@ impl Engine {
             let (measured, waiting, of) = (of(Known::Measured), of(Known::Waiting), answered.clone().count() as u32);
             let mut failed = 0;
             for spec in answered.filter(|spec| known.of(&algorithm, spec).is_none()) {
-                let what = self.inner.of_the_suite(spec)?;
+                let what = self.inner.of_the_suite(spec, &class)?;
                 failed += u32::from(tried.contains(&Tried::of(&what, &algorithm)));
             }
             Ok(SuiteProgress { algorithm: algorithm.id, name: algorithm.name, measured, waiting, failed, of })
@@ -58,23 +62,28 @@ impl Engine {
             configurations: document.configurations,
             passes: document.passes,
             scenarios: scenarios.len() as u32,
-            hardware_class: self.inner.hardware_class(),
+            hardware_class: class.clone(),
+            hardware_classes: self.inner.hardware_classes(),
             oracle: ocb_core::oracle::VERSION,
             idle: self.inner.config.idle,
             progress: self.inner.public().into_iter().map(progress).collect::<Result<_>>()?,
         })
     }
 
-    /// Queues what these public algorithms have not been measured on yet, on this machine and by this oracle; of all of
+    /// Queues what these public algorithms have not been measured on yet, on each hardware class and by this oracle; of all of
     /// them when none is named. Whatever anybody waits for goes before it.
     #[boxed]
     pub async fn measure_suite(&self, only: &[String]) -> Result<Vec<RunInfo>> {
         let _alone = self.inner.store.locks.alone(Lock::Planning).await?;
-        self.queue_missing(only, &self.inner.known().await?).await
+        let mut queued = Vec::new();
+        for class in self.inner.hardware_classes() {
+            queued.extend(self.queue_missing(only, &self.inner.known(&class).await?, &class).await?);
+        }
+        Ok(queued)
     }
 
-    /// Queues what is not known of these, or of all. Whoever calls it is planning alone.
-    async fn queue_missing(&self, only: &[String], known: &AllKnown) -> Result<Vec<RunInfo>> {
+    /// Queues what is not known of these, or of all, on a class. Whoever calls it is planning alone.
+    async fn queue_missing(&self, only: &[String], known: &AllKnown, class: &str) -> Result<Vec<RunInfo>> {
         let inner = &self.inner;
         let public = inner.public();
         if let Some(unknown) = only.iter().find(|id| public.iter().all(|a| a.id != **id)) {
@@ -92,7 +101,7 @@ impl Engine {
             };
             let missing: Vec<String> = public.iter().filter(wanted).map(|a| a.id.clone()).collect();
             for some in missing.chunks(AT_ONCE) {
-                let spec = RunSpec { algorithms: some.to_vec(), ..spec.clone() };
+                let spec = RunSpec { algorithms: some.to_vec(), hardware_class: inner.named(class), ..spec.clone() };
                 let asking =
                     RunContext { priority: BACKGROUND, suite: Some(&inner.suite.sha256), ..RunContext::default() };
                 queued.push(self.queue(spec, asking).await?.0);
@@ -126,7 +135,8 @@ impl Engine {
             return Ok(());
         }
         let _alone = self.inner.store.locks.alone(Lock::Planning).await?;
-        self.queue_missing(&only, &self.inner.known_anywhere().await?).await.map(drop)
+        let known = self.inner.known_anywhere().await?;
+        self.queue_missing(&only, &known, &self.inner.hardware_class()).await.map(drop)
     }
 
     /// Queues what is missing of these, as far as they are public.
@@ -195,11 +205,12 @@ impl Inner {
         )))
     }
 
-    /// What is known of the suite here and now.
-    pub(crate) async fn known(&self) -> Result<AllKnown> {
+    /// What is known of the suite on this class now.
+    pub(crate) async fn known(&self, class: &str) -> Result<AllKnown> {
         let mut all = AllKnown::default();
         for row in self.store.suite_runs().await?.iter().filter(|row| self.is_of_the_suite(row)) {
-            if row.state != State::Done || self.is_of_now(row) {
+            let waits = row.state != State::Done && self.waiting_for(&row.spec).class == class;
+            if waits || row.state == State::Done && self.is_of_now(row, class) {
                 self.note(&mut all, row).await?;
             }
         }
@@ -241,10 +252,10 @@ impl Inner {
         row.suite.as_ref() == Some(&self.suite.sha256)
     }
 
-    /// Measured on this machine's class, judged by this oracle, in a jail like this.
-    pub(crate) fn is_of_now(&self, row: &RunRow) -> bool {
+    /// Measured on this class, judged by this oracle, in a jail like this.
+    pub(crate) fn is_of_now(&self, row: &RunRow, class: &str) -> bool {
         let here = |machine: &Environment| {
-            machine.hardware_class == self.hardware_class() && machine.profile == self.registry.profile().as_str()
+            machine.hardware_class == class && machine.profile == self.registry.profile().as_str()
         };
         row.environment.as_ref().is_some_and(here)
             && row.set.as_ref().is_some_and(|set| set.oracle == Some(ocb_core::oracle::VERSION))

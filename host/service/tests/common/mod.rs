@@ -101,8 +101,29 @@ pub async fn database(data: &Path) -> sqlx::AnyPool {
 
 /// This process as a measuring machine of such a service.
 pub fn here(config: &EngineConfig) -> Worker {
+    observed(config, None)
+}
+
+/// The same with a note, which makes it one of another hardware class.
+pub fn noted(config: &EngineConfig, note: &str) -> Worker {
+    observed(config, Some(note))
+}
+
+fn observed(config: &EngineConfig, note: Option<&str>) -> Worker {
     let runner = Runner { program: config.runner.clone(), profile: config.profile };
-    Worker::observe(runner, &config.plugins, None).unwrap()
+    Worker::observe(runner, &config.plugins, note).unwrap()
+}
+
+/// The file of a suite with one scenario.
+pub fn small_suite(data: &Path) -> PathBuf {
+    let object = "stock:torus-knot@600";
+    let document = serde_json::json!({
+        "version": 3, "scenes": [[object, object]], "separations": [{ "kind": "relative", "distance": 0.1 }],
+        "queries": ["collision_first"], "configurations": 30, "passes": 1, "budget_seconds": 5.0,
+    });
+    let file = data.join("suite.json");
+    std::fs::write(&file, document.to_string()).unwrap();
+    file
 }
 
 /// The next order for a machine, on which the sentinel always takes the same.

@@ -27,6 +27,8 @@ pub(crate) struct What {
     #[serde(default = "yes")]
     #[param(default = true)]
     people: bool,
+    /// The hardware class that it would measure on; the usual one when absent.
+    hardware_class: Option<String>,
 }
 
 fn yes() -> bool {
@@ -39,16 +41,17 @@ fn yes() -> bool {
         (status = 200, body = CampaignPreview, example = json!({ "suite_runs": 150, "suite_repeats": 144, "peoples_runs": 12, "expected_seconds": 5400.0, "hardware_class": "0d52c1f3b7a96e48", "oracle": 5, "suite_version": 1 })),
         (status = 401, description = "Not authenticated"),
         (status = 403, description = "Not a curator"),
+        (status = 422, description = "No machine has this hardware class"),
     ))]
 pub(crate) async fn preview_campaign(
     State(app): State<App>,
     Curator(_): Curator,
     Query(what): Query<What>,
 ) -> Result<Answer<CampaignPreview>> {
-    Ok(Answer(app.engine.preview_campaign(what.suite, what.people).await?))
+    Ok(Answer(app.engine.preview_campaign(what.suite, what.people, what.hardware_class.as_deref()).await?))
 }
 
-/// Has stored benchmarks measured again on this hardware class, suite and oracle, after whatever anybody waits for. With an
+/// Has stored benchmarks measured again on a hardware class, by this suite and oracle, after whatever anybody waits for. With an
 /// `Idempotency-Key` the same request, sent again because its answer was lost, gives the same campaign.
 #[utoipa::path(post, path = "/campaigns", tag = "curation", params(IdempotencyKey), request_body = CampaignRequest,
     responses(
@@ -57,7 +60,7 @@ pub(crate) async fn preview_campaign(
         (status = 401, description = "Not authenticated"),
         (status = 403, description = "Not a curator"),
         (status = 409, description = "There is nothing to measure again"),
-        (status = 422, description = "No reason, or neither suite nor people"),
+        (status = 422, description = "No reason, neither suite nor people, or no machine has this hardware class"),
     ))]
 pub(crate) async fn create_campaign(
     State(app): State<App>,

@@ -53,7 +53,7 @@ pub async fn a_campaign_repeats_a_run_once_and_takes_nobodys_turn(store: Store) 
     assert_eq!(store.repeat_of("c", "y").await.unwrap().unwrap().id, "2");
     assert_eq!(store.campaign_runs("c").await.unwrap().len(), 4);
     assert_eq!(store.granted_to("a").await.unwrap().waiting, 0, "nobody asked for these");
-    assert_eq!(store.waiting(5).await.unwrap().0, 5);
+    assert_eq!(store.waiting_in_all(5).await.unwrap().0, 5);
 
     // Whoever's run is repeated loses no turn by it: "a" has been served by the campaign alone.
     assert_eq!(begin(&store, "m").await.unwrap().job, "1");

@@ -8,6 +8,7 @@ use super::super::*;
 use super::rows::*;
 use crate::attempts::Attempt;
 use crate::attempts::worker::Worker;
+use crate::classes::OfClass;
 use crate::model::{
     AdviceInfo, Agreement, AlgorithmResult, ClassCount, Estimated, ObjectInfo, OutcomeInfo, OutcomeName, RecordingInfo,
     Rounding, RoundingEffect, RunSpec, SetInfo, State, Timeline, Visibility, WorkloadResult, WorkloadSpec,
@@ -183,6 +184,11 @@ pub(crate) fn result(algorithm: &str, n: u32) -> StoredResult {
 /// The worker of this machine.
 pub(crate) fn worker(machine: &str) -> Worker {
     Worker { machine: machine.into(), class: "class".into() }
+}
+
+/// The class of that worker, which is the usual one.
+pub(crate) fn usual() -> OfClass {
+    OfClass { class: "class".into(), usual: "class".into() }
 }
 
 /// Begins the next run.

@@ -1,10 +1,12 @@
 //! Machines: their tokens and facts, prepared runs and whose turn they are.
 
 use super::super::*;
-use super::{add, end, fresh_stages, run, worker};
+use super::{add, end, fresh_stages, run, usual, worker};
 use crate::attempts::Attempt;
+use crate::classes::OfClass;
 use crate::machines::sql::worker as of;
-use crate::model::{MachineFacts, State};
+use crate::model::{MachineFacts, RunSpec, State};
+use crate::runs::sql::RunRow;
 
 fn facts(class: &str, kernel: &str) -> MachineFacts {
     MachineFacts {
@@ -17,6 +19,7 @@ fn facts(class: &str, kernel: &str) -> MachineFacts {
         microcode: "0x1".into(),
         governor: "performance".into(),
         profile: "production".into(),
+        partition: None,
     }
 }
 
@@ -63,17 +66,17 @@ pub async fn prepared_runs_go_to_machines_in_turn(store: Store) {
         add(&store, run(&format!("a{n}"), Some("a"), 1, n)).await;
     }
     add(&store, run("b", Some("b"), 1, 50)).await;
-    assert!(store.begin_prepared_run(&of("m", "c")).await.unwrap().is_none(), "nothing is prepared");
+    assert!(store.begin_prepared_run(&of("m", "class"), "class").await.unwrap().is_none(), "nothing is prepared");
     let mut prepared = Vec::new();
     while let Some(attempt) = prepare(&store).await {
         prepared.push(attempt.job);
     }
     assert_eq!(prepared.len(), 9, "no more than eight of one visitor: {prepared:?}");
     assert_eq!(prepared.last().map(String::as_str), Some("b"));
-    assert_eq!(store.prepared_runs().await.unwrap(), 9);
+    assert_eq!(store.prepared_runs(&usual()).await.unwrap(), 9);
     let mut begun = Vec::new();
     for machine in ["m", "n", "o"] {
-        begun.push(store.begin_prepared_run(&of(machine, "c")).await.unwrap().unwrap());
+        begun.push(store.begin_prepared_run(&of(machine, "class"), "class").await.unwrap().unwrap());
     }
     let jobs: Vec<_> = begun.iter().map(|attempt| attempt.job.as_str()).collect();
     assert_eq!(jobs, ["a0", "b", "a1"], "preparing takes nobody's turn");
@@ -81,18 +84,59 @@ pub async fn prepared_runs_go_to_machines_in_turn(store: Store) {
     assert_eq!((row.state, row.attempts), (State::Running, 1), "preparing is no attempt");
     // What waits again stays prepared; what is asked for anew is not.
     assert!(store.put_back_run(&begun[0]).await.unwrap());
-    assert_eq!(store.prepared_runs().await.unwrap(), 7);
+    assert_eq!(store.prepared_runs(&usual()).await.unwrap(), 7);
     assert!(end(&store, &begun[1], State::Done, None).await);
     let b = store.run("b").await.unwrap().unwrap();
     assert!(store.queue_again(&b, &fresh_stages(&b.spec.algorithms)).await.unwrap());
-    assert_eq!(store.prepared_runs().await.unwrap(), 7);
+    assert_eq!(store.prepared_runs(&usual()).await.unwrap(), 7);
+}
+
+pub async fn runs_go_to_machines_of_their_hardware_class(store: Store) {
+    let named = |id: &str, class: Option<&str>, created_us| {
+        let plain = run(id, Some("a"), 1, created_us);
+        RunRow { spec: RunSpec { hardware_class: class.map(str::to_owned), ..plain.spec.clone() }, ..plain }
+    };
+    for n in 0..9 {
+        add(&store, named(&format!("new{n}"), Some("new"), n)).await;
+    }
+    add(&store, named("any", None, 20)).await;
+    add(&store, named("usual", Some("class"), 21)).await;
+    let mut prepared = Vec::new();
+    while let Some(attempt) = prepare(&store).await {
+        prepared.push(attempt.job);
+    }
+    assert_eq!(prepared.len(), 10, "eight of one class, and those of another are not behind them: {prepared:?}");
+    let new = OfClass { class: "new".into(), usual: "class".into() };
+    assert_eq!((store.prepared_runs(&usual()).await.unwrap(), store.prepared_runs(&new).await.unwrap()), (2, 8));
+    assert_eq!((store.waiting(1, &usual()).await.unwrap().0, store.waiting(1, &new).await.unwrap().0), (2, 9));
+    assert_eq!(
+        store.runs_before("usual", &usual()).await.unwrap(),
+        Some(1),
+        "those of the other class are not before it"
+    );
+    assert_eq!(store.runs_before("new2", &new).await.unwrap(), Some(2));
+    let next = async |machine: &str, class: &str, usual: &str| {
+        store.begin_prepared_run(&of(machine, class), usual).await.unwrap().map(|attempt| attempt.job)
+    };
+    assert_eq!(next("m", "class", "class").await.as_deref(), Some("any"));
+    assert_eq!(next("n", "new", "class").await.as_deref(), Some("new0"));
+    assert_eq!(next("o", "other", "class").await, None);
+    assert_eq!((store.running(&usual()).await.unwrap().len(), store.running(&new).await.unwrap().len()), (1, 1));
+    assert_eq!(store.runs_before("new2", &new).await.unwrap(), Some(2), "one of them is under way");
+    assert_eq!(next("m", "class", "class").await.as_deref(), Some("usual"));
+    assert_eq!(next("m", "class", "class").await, None, "the others are for other machines");
+    // The usual class has become another one: what names its class keeps it, what names none follows.
+    add(&store, named("later", None, 22)).await;
+    prepare(&store).await.unwrap();
+    assert_eq!(next("m", "class", "new").await, None);
+    assert_eq!(next("n", "new", "new").await.as_deref(), Some("new1"));
 }
 
 pub async fn a_machine_reaches_its_own_attempt_alone(store: Store) {
     store.keep_machine("m", "one").await.unwrap();
     add(&store, run("r", Some("a"), 1, 1)).await;
     prepare(&store).await.unwrap();
-    let mine = store.begin_prepared_run(&of("m", "c")).await.unwrap().unwrap();
+    let mine = store.begin_prepared_run(&of("m", "class"), "class").await.unwrap().unwrap();
     assert_eq!(store.attempt_of("m", &mine.id).await.unwrap(), Some(mine.clone()));
     assert_eq!(store.attempt_of("n", &mine.id).await.unwrap(), None);
     assert_eq!(store.attempt_of("machine m", &mine.id).await.unwrap(), None);
