@@ -5,6 +5,7 @@ import type { CampaignInfo, CampaignPreview, CampaignRequest } from './types'
 export interface What {
   suite: boolean
   people: boolean
+  hardware_class?: string
 }
 
 export const previewCampaign = (query: What): Promise<CampaignPreview> =>

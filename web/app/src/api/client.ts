@@ -3,7 +3,7 @@ import { asApiError, fromResponse } from './errors'
 import { nextOf } from './link'
 import type { paths } from './schema'
 import type {
-  Accuracy, AdviceInfo, AdviceSpec, AlgorithmInfo, Board, Chart, ChartKind, Citation, Ecdf, Estimate, ExampleInfo, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, Selected, SuiteInfo, Visibility, WorstCase,
+  Accuracy, AdviceInfo, AdviceSpec, AlgorithmInfo, Board, Chart, ChartKind, Citation, Ecdf, Estimate, ExampleInfo, Heatmap, HeatmapRequest, Meeting, ObjectInfo, RunInfo, RunSpec, Selected, Status, SuiteInfo, Visibility, WorstCase,
 } from './types'
 
 export const http = createClient<paths>({ baseUrl: '/' })
@@ -95,6 +95,8 @@ export const getChart = (id: string, query: { kind: ChartKind; accuracy: Accurac
 export type BoardQuery = Partial<Record<'suite' | 'question' | 'class' | 'hardware' | 'scene' | 'distance' | 'precision', string>> & { accuracy?: Accuracy }
 
 export const getBoard = (query: BoardQuery): Promise<Board> => answer(http.GET('/api/v1/board', { params: { query } }))
+
+export const getStatus = (): Promise<Status> => answer(http.GET('/api/v1/status'))
 
 export const getSuite = (): Promise<SuiteInfo> => answer(http.GET('/api/v1/suite'))
 

@@ -31,7 +31,7 @@ describe('toSpec', () => {
   })
 
   it('comes back through fromSpec', () => {
-    const asked = { ...form(), objectB: 'stock:dragon', question: 'pq' as const, thoroughness: 'count' as const, count: 500, distance: 0.1, solid: true, algorithms: ['both'] }
+    const asked = { ...form(), objectB: 'stock:dragon', question: 'pq' as const, thoroughness: 'count' as const, count: 500, distance: 0.1, solid: true, algorithms: ['both'], hardwareClass: 'new' }
     const grid = { ...form(), method: 'grid' as const, paper: true, rotate: 15, separation: 'step' as const, step: -1e-6 }
     const ladder = { ...form(), method: 'grid' as const, separation: 'ladder' as const }
     const trajectory = { ...form(), method: 'trajectory' as const, count: 700, centerDistance: 0.8 }

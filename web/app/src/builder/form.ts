@@ -32,6 +32,8 @@ export interface BuilderForm {
   budget: number | ''
   /** Names of the algorithms, with settings behind the id where the reader wants others; null: the usual ones. */
   algorithms: string[] | null
+  /** Empty: the usual one. */
+  hardwareClass: string
 }
 
 /** Of a trajectory that says no number: Zachmann's run. */
@@ -40,7 +42,7 @@ export const PUBLISHED_FRAMES = 5000
 export function initialForm(): BuilderForm {
   return {
     objectA: '', objectB: '', question: 'cd', contacts: 'first', solid: false, method: 'sphere', thoroughness: 'steps', rotate: 20, move: 20,
-    paper: false, count: 2000, seed: 0, poses: '', centerDistance: 1, hitShare: 0.5, separation: 'relative', distance: 0, step: 0.01, passes: 5, budget: 60, algorithms: null,
+    paper: false, count: 2000, seed: 0, poses: '', centerDistance: 1, hitShare: 0.5, separation: 'relative', distance: 0, step: 0.01, passes: 5, budget: 60, algorithms: null, hardwareClass: '',
   }
 }
 
@@ -173,6 +175,7 @@ export function toSpec(form: BuilderForm, algorithms: readonly AlgorithmInfo[]):
       algorithms: chosen,
       passes,
       budget_seconds: budget,
+      ...(form.hardwareClass && { hardware_class: form.hardwareClass }),
     },
   }
 }
@@ -185,6 +188,7 @@ export function fromSpec(spec: RunSpec, algorithms: readonly AlgorithmInfo[]): B
   form.question = spec.query === 'proximity' ? 'pq' : 'cd'
   form.contacts = spec.query === 'collision_all' ? 'all' : 'first'
   form.solid = spec.semantics === 'solid'
+  form.hardwareClass = spec.hardware_class ?? ''
   const { method } = spec
   form.method = method.kind
   if (method.kind === 'sphere' || method.kind === 'grid') {
