@@ -53,6 +53,7 @@ fn spec(args: &BenchArgs) -> Result<WorkloadSpec> {
         passes: args.passes,
         budget_seconds: args.budget,
         seed: args.run_seed,
+        reduce: None,
     };
     spec.check().map_err(Failure::Input)?;
     Ok(spec)

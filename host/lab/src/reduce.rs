@@ -24,26 +24,14 @@ use ocb_core::pose::Pose;
 use ocb_core::scene::Geometry;
 use ocb_core::workload::{Answered, Kind, Recorded};
 
+use crate::model::{ReduceTerms, Reduction};
 use crate::recording::{About, Recording};
 use crate::scene_file::SceneFile;
 use crate::workload::{PairPart, parts};
 use crate::{LabError, Result};
 use choose::{Asked, Problem};
-pub use report::{Changed, HeldOut, ReducedObject, Reduction};
-pub use stand_in::{BodyKind, StandIn};
+pub use stand_in::StandIn;
 pub use urdf::{Robot, Urdf};
-
-/// What the reduced scene may do to answers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Terms {
-    /// An answer may be the right one for a distance that differs from the true one by this, in the unit of the scene.
-    pub tolerance: f64,
-    /// The same holds for every query of which one object, with what stands for it, is moved relative to the other by less than
-    /// this, in the unit of the scene.
-    pub near: f64,
-    /// Whatever stands for an object contains it, so that no collision is ever missed.
-    pub outside_only: bool,
-}
 
 /// What foreign libraries make of an object.
 #[derive(Clone, Debug, Default)]
@@ -73,21 +61,16 @@ pub struct Reduced {
 /// `Invalid` for terms that make no sense and for a recording of which no query can be used, and what `make` fails with.
 pub fn reduce<E: From<LabError>>(
     recording: &Recording,
-    terms: Terms,
+    terms: ReduceTerms,
     make: Make<E>,
     watch: &dyn Watch,
 ) -> Result<Option<Reduced>, E> {
-    let bad = |why: &str| Err(LabError::Invalid(why.into()).into());
-    if !(terms.tolerance > 0.0 && terms.tolerance.is_finite()) {
-        return bad("The tolerance must be a positive length.");
-    }
-    if !(terms.near >= 0.0 && 2.0 * terms.near < terms.tolerance) {
-        return bad("The neighbourhood must be 0 or more, and less than half of the tolerance.");
-    }
+    let bad = |why: String| E::from(LabError::Invalid(why));
+    terms.check().map_err(bad)?;
     let Some(stand_ins) = stand_ins(recording, terms, make, watch)? else { return Ok(None) };
     let (asked, left_out) = asked(recording);
     if asked.is_empty() {
-        return bad("None of the recorded queries can be used.");
+        return Err(bad("None of the recorded queries can be used.".into()));
     }
     let Some(problem) = Problem::certify(asked, stand_ins, terms, watch) else { return Ok(None) };
     let (seen, later) = problem.split();
@@ -110,7 +93,7 @@ pub fn reduce<E: From<LabError>>(
 /// Of each object itself and what may stand for it, the simplest first.
 fn stand_ins<E: From<LabError>>(
     recording: &Recording,
-    terms: Terms,
+    terms: ReduceTerms,
     make: Make<E>,
     watch: &dyn Watch,
 ) -> Result<Option<Vec<Vec<StandIn>>>, E> {

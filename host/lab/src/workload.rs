@@ -142,6 +142,7 @@ pub fn replay(
         hits: judged.hits.iter().filter(|hit| **hit == Some(true)).count() as u64,
         recorded: judged.answers(),
         order_gains: order_gains(&tracks),
+        reduced: None,
         tracks,
         timeline,
         passes: wanted.passes,

@@ -30,6 +30,7 @@ mod page;
 mod people;
 mod plugin;
 mod preview;
+mod reduction;
 mod replay;
 mod result;
 mod saved;
@@ -83,6 +84,9 @@ pub use people::{
 };
 pub use plugin::{AlgorithmInfo, BuildInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport, Repro};
 pub use preview::{Beside, Preview};
+pub use reduction::{
+    BodyKind, ChangedAnswer, LaterQueries, ReduceTerms, ReducedObject, ReducedScene, ReducedSpeed, Reduction,
+};
 pub use replay::{Difference, Recipe, RecipeAlgorithm, RecipeFile, RecipeObject, RecipeVersions, Replay, Replayed};
 pub use result::{AlgorithmResult, Estimated, TimeSummary, VerdictCount};
 pub use saved::SavedConfigurations;

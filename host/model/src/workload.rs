@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use crate::outcome::OutcomeInfo;
+use crate::reduction::ReducedScene;
 use crate::workload_job::Timeline;
 
 pub use order::{OrderGain, order_gains};
@@ -50,6 +51,9 @@ pub struct WorkloadResult {
     /// first.
     #[serde(default)]
     pub order_gains: Vec<OrderGain>,
+    /// The simplest scene that keeps the answers, where it was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reduced: Option<ReducedScene>,
     /// Processes per algorithm, order and pair of objects.
     pub passes: u32,
     /// Seed of the orders and of the equivalent instances.

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
 use crate::State;
+use crate::reduction::ReduceTerms;
 use crate::workload::{PairTime, Track, WorkloadResult};
 
 /// How a recording is replayed.
@@ -21,16 +22,24 @@ pub struct WorkloadSpec {
     /// Seed of the orders and of the equivalent instances; drawn when absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
+    /// Also look for the simplest scene that keeps the answers on these terms, and measure what it saves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reduce: Option<ReduceTerms>,
 }
 
 impl Default for WorkloadSpec {
     fn default() -> Self {
         let tracks = vec![Track::Shuffled, Track::Recorded];
-        Self { algorithms: Vec::new(), tracks, passes: 3, budget_seconds: 10.0, seed: None }
+        Self { algorithms: Vec::new(), tracks, passes: 3, budget_seconds: 10.0, seed: None, reduce: None }
     }
 }
 
 impl WorkloadSpec {
+    /// How often each algorithm and order measures: a reduced scene is compared with its objects in turn, twice, in the first order.
+    pub fn turns(&self) -> usize {
+        self.tracks.len() + if self.reduce.is_some() { 3 } else { 0 }
+    }
+
     /// # Errors
     /// What is wrong with it, in one sentence.
     pub fn check(&self) -> Result<(), String> {
@@ -42,6 +51,7 @@ impl WorkloadSpec {
         if !(*budget_seconds > 0.0 && *budget_seconds <= 86_400.0) {
             return Err(format!("The budget must be above 0 and at most 86400 s, not {budget_seconds}."));
         }
+        self.reduce.map_or(Ok(()), |terms| terms.check())?;
         match tracks[..] {
             [_] => Ok(()),
             [first, second] if first != second => Ok(()),
@@ -67,7 +77,7 @@ pub struct WorkloadInfo {
     pub total: u64,
     /// Replays under way, or carried out before this one if nothing else is requested; 0 when it does not wait.
     pub runs_ahead: u32,
-    /// Why it failed or was cancelled, one sentence.
+    /// Why it failed or was cancelled, or what it does behind the replay, one sentence.
     pub message: Option<String>,
     /// When it was asked for.
     pub created_us: i64,
@@ -212,5 +222,10 @@ mod tests {
         assert!(told(|spec| spec.budget_seconds = f64::NAN).contains("at most 86400 s, not NaN"));
         assert!(told(|spec| spec.tracks.clear()).contains("each once"));
         assert!(told(|spec| spec.tracks[0] = Track::Recorded).contains("each once"));
+        let terms = |tolerance, near| Some(ReduceTerms { tolerance, near, outside_only: false });
+        let reduce = |reduce| WorkloadSpec { reduce, ..WorkloadSpec::default() }.check().err().unwrap_or_default();
+        assert_eq!(reduce(terms(0.1, 0.04)), "");
+        assert!(reduce(terms(f64::NAN, 0.0)).contains("a positive length"));
+        assert!(reduce(terms(0.1, 0.05)).contains("less than half"));
     }
 }

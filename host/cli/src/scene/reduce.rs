@@ -8,11 +8,10 @@ use std::sync::Arc;
 
 use ocb_service::Recording;
 use ocb_service::advising::{Advisor, SHELF};
-use ocb_service::model::{AlgorithmOnWorkload, Track, WorkloadResult, WorkloadSpec};
-use ocb_service::reduce::{self, Reduction, Robot, Terms};
+use ocb_service::model::{ReduceTerms, ReducedScene, ReducedSpeed, Track, WorkloadResult, WorkloadSpec};
+use ocb_service::reduce::{self, Robot};
 use ocb_service::scene_import::Wanted;
 use ocb_service::truth::Machine;
-use serde::Serialize;
 
 use crate::advise::{lengths, work};
 use crate::args::{ReduceArgs, Store};
@@ -20,34 +19,10 @@ use crate::failure::{Failure, INTERRUPTED, NOT_ALL_WELL, Result};
 use crate::open::{self, Purpose};
 use crate::{output, workload};
 
-/// What is printed and written.
-#[derive(Serialize)]
-struct Report {
-    #[serde(flatten)]
-    reduction: Reduction,
-    /// What the reduced scene saves.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    speed: Vec<Speed>,
-}
-
-/// An algorithm on both scenes. Each was replayed twice, in the order objects, bodies, bodies, objects.
-#[derive(Serialize)]
-struct Speed {
-    algorithm: String,
-    /// Mean time of a query about the objects, nanoseconds; absent, as the next two, if not every replay was complete.
-    before_ns: Option<f64>,
-    /// Mean time of a query about what stands for them, nanoseconds.
-    after_ns: Option<f64>,
-    /// How many times faster, of either half of the replays.
-    faster: Option<[f64; 2]>,
-    /// Wrong answers about what stands for them.
-    wrong: u64,
-}
-
 /// Reduces, replays, prints, writes.
 pub async fn reduce(store: &Store, args: &ReduceArgs, json: bool) -> Result<ExitCode> {
     let recording = Arc::new(Recording::read(&args.recording)?);
-    let terms = Terms {
+    let terms = ReduceTerms {
         tolerance: lengths::of_scene("The tolerance", &args.tolerance, args.unit, false)?,
         near: lengths::of_scene("The neighbourhood", &args.near, args.unit, true)?,
         outside_only: args.outside_only,
@@ -58,6 +33,7 @@ pub async fn reduce(store: &Store, args: &ReduceArgs, json: bool) -> Result<Exit
         passes: args.passes,
         budget_seconds: args.budget,
         seed: None,
+        reduce: None,
     };
     spec.check().map_err(Failure::Input)?;
     let wanted = Wanted { packages: args.package.clone(), ..Wanted::default() };
@@ -79,7 +55,7 @@ pub async fn reduce(store: &Store, args: &ReduceArgs, json: bool) -> Result<Exit
         false => speed(store, &spec, &recording, &after).await?,
     };
     let Some(speed) = speed else { return Ok(stopped()) };
-    let report = Report { reduction: reduced.reduction, speed };
+    let report = ReducedScene { reduction: reduced.reduction, speed };
     let mut written = Vec::new();
     if let Some(folder) = &args.out {
         if let (Some(robot), Some(file)) = (robot, &args.urdf) {
@@ -123,7 +99,7 @@ async fn speed(
     spec: &WorkloadSpec,
     before: &Arc<Recording>,
     after: &Arc<Recording>,
-) -> Result<Option<Vec<Speed>>> {
+) -> Result<Option<Vec<ReducedSpeed>>> {
     let engine = open::open(store, Purpose::Look).await?;
     let mut results: Vec<WorkloadResult> = Vec::new();
     for recording in [before, after, after, before] {
@@ -136,21 +112,6 @@ async fn speed(
         }
     }
     engine.shutdown().await;
-    Ok(Some((0..results[0].tracks[0].algorithms.len()).map(|at| compared(&results, at)).collect()))
-}
-
-/// One algorithm in the four replays.
-fn compared(results: &[WorkloadResult], at: usize) -> Speed {
-    let all: Vec<&AlgorithmOnWorkload> = results.iter().map(|result| &result.tracks[0].algorithms[at]).collect();
-    // Means over different queries are not compared.
-    let complete = all.iter().all(|it| it.n == it.of);
-    let mean = |replay: usize| all[replay].total.filter(|_| complete).map(|total| total.ns / all[replay].n as f64);
-    let times = (|| Some([mean(0)?, mean(1)?, mean(2)?, mean(3)?]))();
-    Speed {
-        algorithm: all[0].algorithm.clone(),
-        before_ns: times.map(|[first, .., last]| f64::midpoint(first, last)),
-        after_ns: times.map(|[_, second, third, _]| f64::midpoint(second, third)),
-        faster: times.map(|[first, second, third, last]| [first / second, last / third]),
-        wrong: all[1].wrong.max(all[2].wrong),
-    }
+    let Ok(all) = <[WorkloadResult; 4]>::try_from(results) else { return Ok(None) };
+    Ok(Some(ReducedSpeed::of(all.each_ref())))
 }

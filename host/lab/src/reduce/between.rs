@@ -4,8 +4,8 @@ use ocb_core::configuration::Configuration;
 use ocb_core::lod::Interval;
 use ocb_core::oracle::{Pair, Shape};
 
-use super::Terms;
 use super::body::{Body, Contains, ROUNDING};
+use crate::model::ReduceTerms;
 
 /// The distance of two bodies; 0 of bodies that collide.
 pub fn between([a, b]: [&Body; 2], configuration: &Configuration) -> Interval {
@@ -37,25 +37,23 @@ pub fn of_balls([a, b]: [&Body; 2], configuration: &Configuration) -> f64 {
     ((p - q).norm() * (1.0 - ROUNDING) - a.radius - b.radius).max(0.0)
 }
 
-impl Terms {
-    /// Is the answer about what stands for the objects (`reduced`) the right one for a distance within the tolerance of the
-    /// objects' own (`truth`), here and wherever one object is moved relative to the other so that no point of it, or of what stands
-    /// for it, moves by more than `near`? `limit` is the distance up to which
-    /// the answer to a yes-or-no query is yes; absent where the distance itself is asked.
-    pub fn keep(&self, limit: Option<f64>, truth: Interval, reduced: Interval) -> bool {
-        let Self { tolerance, near, outside_only } = *self;
-        if let Some(limit) = limit {
-            let no = truth.lo - near > limit && reduced.lo - near > limit;
-            // What contains the objects is never farther apart than they are.
-            let yes = truth.hi + near <= limit && (outside_only || reduced.hi + near <= limit);
-            if no || yes {
-                return true;
-            }
+/// Is the answer about what stands for the objects (`reduced`) the right one for a distance within the tolerance of the objects'
+/// own (`truth`), here and wherever one object is moved relative to the other so that no point of it, or of what stands for it,
+/// moves by more than `near`? `limit` is the distance up to which the answer to a yes-or-no query is yes; absent where the distance
+/// itself is asked.
+pub fn keep(terms: &ReduceTerms, limit: Option<f64>, truth: Interval, reduced: Interval) -> bool {
+    let ReduceTerms { tolerance, near, outside_only } = *terms;
+    if let Some(limit) = limit {
+        let no = truth.lo - near > limit && reduced.lo - near > limit;
+        // What contains the objects is never farther apart than they are.
+        let yes = truth.hi + near <= limit && (outside_only || reduced.hi + near <= limit);
+        if no || yes {
+            return true;
         }
-        // Either distance changes by no more than the points move.
-        let under = truth.hi - reduced.lo + 2.0 * near <= tolerance;
-        under && (outside_only || reduced.hi - truth.lo + 2.0 * near <= tolerance)
     }
+    // Either distance changes by no more than the points move.
+    let under = truth.hi - reduced.lo + 2.0 * near <= tolerance;
+    under && (outside_only || reduced.hi - truth.lo + 2.0 * near <= tolerance)
 }
 
 #[cfg(test)]
@@ -68,29 +66,33 @@ mod tests {
 
     #[test]
     fn an_answer_is_kept_within_the_tolerance_or_on_the_same_side() {
-        let both = Terms { tolerance: 1.0, near: 0.0, outside_only: false };
+        let both = ReduceTerms { tolerance: 1.0, near: 0.0, outside_only: false };
         // Distances.
-        assert!(both.keep(None, at(5.0, 5.0), at(4.5, 5.5)));
-        assert!(!both.keep(None, at(5.0, 5.0), at(3.5, 3.5)) && !both.keep(None, at(5.0, 5.0), at(6.5, 6.5)));
+        assert!(keep(&both, None, at(5.0, 5.0), at(4.5, 5.5)));
+        assert!(!keep(&both, None, at(5.0, 5.0), at(3.5, 3.5)) && !keep(&both, None, at(5.0, 5.0), at(6.5, 6.5)));
         // Collisions: a far pair may come nearer by anything, and a hit may become a gap within the tolerance.
-        assert!(both.keep(Some(0.0), at(5.0, 5.0), at(0.1, 0.1)));
-        assert!(!both.keep(Some(0.0), at(5.0, 5.0), at(0.0, 0.0)));
-        assert!(both.keep(Some(0.0), at(0.0, 0.0), at(0.9, 0.9)) && !both.keep(Some(0.0), at(0.0, 0.0), at(1.1, 1.1)));
-        assert!(both.keep(Some(0.0), at(0.9, 0.9), at(0.0, 0.0)));
+        assert!(keep(&both, Some(0.0), at(5.0, 5.0), at(0.1, 0.1)));
+        assert!(!keep(&both, Some(0.0), at(5.0, 5.0), at(0.0, 0.0)));
+        assert!(
+            keep(&both, Some(0.0), at(0.0, 0.0), at(0.9, 0.9)) && !keep(&both, Some(0.0), at(0.0, 0.0), at(1.1, 1.1))
+        );
+        assert!(keep(&both, Some(0.0), at(0.9, 0.9), at(0.0, 0.0)));
         // A limit.
-        assert!(both.keep(Some(3.0), at(1.0, 1.0), at(2.9, 2.9)) && !both.keep(Some(3.0), at(1.0, 1.0), at(3.1, 3.1)));
-        let outside = Terms { outside_only: true, ..both };
-        assert!(!outside.keep(Some(0.0), at(5.0, 5.0), at(0.0, 0.0)));
+        assert!(
+            keep(&both, Some(3.0), at(1.0, 1.0), at(2.9, 2.9)) && !keep(&both, Some(3.0), at(1.0, 1.0), at(3.1, 3.1))
+        );
+        let outside = ReduceTerms { outside_only: true, ..both };
+        assert!(!keep(&outside, Some(0.0), at(5.0, 5.0), at(0.0, 0.0)));
         // An interval of what contains the objects may be wider than what is known of them.
-        assert!(outside.keep(Some(0.0), at(0.0, 0.0), at(0.0, 9.0)));
+        assert!(keep(&outside, Some(0.0), at(0.0, 0.0), at(0.0, 9.0)));
     }
 
     #[test]
     fn a_neighbourhood_asks_for_more_room() {
-        let terms = Terms { tolerance: 1.0, near: 0.2, outside_only: false };
-        assert!(terms.keep(None, at(5.0, 5.0), at(4.5, 4.5)) && !terms.keep(None, at(5.0, 5.0), at(4.3, 4.3)));
+        let terms = ReduceTerms { tolerance: 1.0, near: 0.2, outside_only: false };
+        assert!(keep(&terms, None, at(5.0, 5.0), at(4.5, 4.5)) && !keep(&terms, None, at(5.0, 5.0), at(4.3, 4.3)));
         assert!(
-            terms.keep(Some(0.0), at(5.0, 5.0), at(0.3, 0.3)) && !terms.keep(Some(0.0), at(5.0, 5.0), at(0.1, 0.1))
+            keep(&terms, Some(0.0), at(5.0, 5.0), at(0.3, 0.3)) && !keep(&terms, Some(0.0), at(5.0, 5.0), at(0.1, 0.1))
         );
     }
 }

@@ -7,12 +7,11 @@ use ocb_core::configuration::Configuration;
 use ocb_core::lod::Interval;
 use rayon::prelude::*;
 
-use super::Terms;
-use super::between::{between, of_balls};
-use super::report::{Changed, HeldOut};
+use super::between::{between, keep, of_balls};
 use super::stand_in::StandIn;
+use crate::model::{ChangedAnswer, LaterQueries, ReduceTerms};
 
-/// Changed answers that are listed.
+/// ChangedAnswer answers that are listed.
 const LISTED: usize = 20;
 /// This share of the recording is left out, at its end.
 const LATER: usize = 5;
@@ -42,7 +41,7 @@ pub struct Problem {
     pub asked: Vec<Asked>,
     /// By object.
     pub stand_ins: Vec<Vec<StandIn>>,
-    terms: Terms,
+    terms: ReduceTerms,
 }
 
 /// Of each object, by its place in the scene: which of its stand-ins.
@@ -50,7 +49,12 @@ pub type Chosen = Vec<usize>;
 
 impl Problem {
     /// Finds the truth of each query; nothing when it was stopped.
-    pub fn certify(asked: Vec<Asked>, stand_ins: Vec<Vec<StandIn>>, terms: Terms, watch: &dyn Watch) -> Option<Self> {
+    pub fn certify(
+        asked: Vec<Asked>,
+        stand_ins: Vec<Vec<StandIn>>,
+        terms: ReduceTerms,
+        watch: &dyn Watch,
+    ) -> Option<Self> {
         let own: Chosen = stand_ins.iter().map(|all| all.len() - 1).collect();
         let mut problem = Self { asked, stand_ins, terms };
         let all: Vec<&Asked> = problem.asked.iter().collect();
@@ -131,7 +135,8 @@ impl Problem {
         let total = 2 * order.len() as u64;
         let mut done = 0;
         for share in [0.5, 1.0] {
-            let terms = Terms { tolerance: share * self.terms.tolerance, near: share * self.terms.near, ..self.terms };
+            let terms =
+                ReduceTerms { tolerance: share * self.terms.tolerance, near: share * self.terms.near, ..self.terms };
             for &object in &order {
                 watch.step("choosing", done, total);
                 done += 1;
@@ -154,21 +159,21 @@ impl Problem {
     }
 
     /// What became of later queries; nothing when it was stopped.
-    pub fn hold(&self, chosen: &Chosen, rows: &[u32], watch: &dyn Watch) -> Option<HeldOut> {
+    pub fn hold(&self, chosen: &Chosen, rows: &[u32], watch: &dyn Watch) -> Option<LaterQueries> {
         let judge = |asked: &Asked| (!self.keeps(asked, chosen, &self.terms)).then(|| self.changed(asked, chosen));
         let asked: Vec<&Asked> = rows.iter().map(|row| &self.asked[*row as usize]).collect();
-        let mut changed: Vec<Changed> = self.each(&asked, watch, judge)?.into_iter().flatten().collect();
+        let mut changed: Vec<ChangedAnswer> = self.each(&asked, watch, judge)?.into_iter().flatten().collect();
         let missed = changed.iter().filter(|changed| changed.missed).count() as u64;
         let share = Share::of(changed.len() as u32, rows.len() as u32);
         changed.sort_by(|x, y| y.missed.cmp(&x.missed).then(y.off().total_cmp(&x.off())));
         changed.truncate(LISTED);
-        Some(HeldOut { queries: rows.len() as u64, changed: share, missed, examples: changed })
+        Some(LaterQueries { queries: rows.len() as u64, changed: share, missed, examples: changed })
     }
 
     /// Both intervals of a query whose answer changed.
-    fn changed(&self, asked: &Asked, chosen: &Chosen) -> Changed {
+    fn changed(&self, asked: &Asked, chosen: &Chosen) -> ChangedAnswer {
         let reduced = self.reduced(asked, chosen);
-        Changed {
+        ChangedAnswer {
             row: asked.row,
             objects: asked.objects,
             distance: [asked.truth.lo, asked.truth.hi],
@@ -190,15 +195,15 @@ impl Problem {
         between(self.bodies(asked, chosen), &asked.configuration)
     }
 
-    fn keeps(&self, asked: &Asked, chosen: &Chosen, terms: &Terms) -> bool {
+    fn keeps(&self, asked: &Asked, chosen: &Chosen, terms: &ReduceTerms) -> bool {
         if self.is_unchanged(asked, chosen) {
             return true;
         }
         let bodies = self.bodies(asked, chosen);
         let balls = Interval { lo: of_balls(bodies, &asked.configuration), hi: f64::INFINITY };
         // Most pairs of a scene are far apart.
-        asked.limit.is_some() && terms.keep(asked.limit, asked.truth, balls)
-            || terms.keep(asked.limit, asked.truth, between(bodies, &asked.configuration))
+        asked.limit.is_some() && keep(terms, asked.limit, asked.truth, balls)
+            || keep(terms, asked.limit, asked.truth, between(bodies, &asked.configuration))
     }
 
     /// Are both objects themselves?
@@ -207,7 +212,7 @@ impl Problem {
     }
 
     /// What was asked for.
-    pub fn terms(&self) -> Terms {
+    pub fn terms(&self) -> ReduceTerms {
         self.terms
     }
 

@@ -7,10 +7,10 @@ use nalgebra::Point3;
 use ocb_core::mesh::Mesh;
 use ocb_core::pose::Pose;
 use ocb_core::scene::{Geometry, around, tessellate};
-use serde::Serialize;
 
+use super::Make;
 use super::body::Body;
-use super::{Make, Terms};
+use crate::model::{BodyKind, ReduceTerms};
 use crate::scene_file::SceneFile;
 use crate::{LabError, Result};
 
@@ -20,24 +20,6 @@ const PRECISION: f64 = 1.0 / 20.0;
 const FINEST: f64 = 1.0 / 50.0;
 /// A hull is larger by this share, so that rounding leaves no vertex outside.
 const HULL: f64 = 1e-9;
-
-/// The kinds of bodies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum BodyKind {
-    /// The object itself.
-    Object,
-    /// A ball around it.
-    Sphere,
-    /// A capsule around it.
-    Capsule,
-    /// A box around it.
-    Box,
-    /// Its convex hull.
-    Hull,
-    /// A mesh with fewer triangles, near its surface.
-    Level,
-}
 
 /// A body that may stand for an object, or the object itself.
 #[derive(Clone, Debug)]
@@ -60,7 +42,7 @@ pub fn of<E: From<LabError>>(
     scene: &SceneFile,
     geometry: &Geometry,
     name: &str,
-    terms: Terms,
+    terms: ReduceTerms,
     make: Make<E>,
 ) -> Result<Option<Vec<StandIn>>, E> {
     let Geometry::Mesh { sha256, solid } = geometry else {
@@ -107,7 +89,7 @@ fn mesh(kind: BodyKind, mesh: Arc<Mesh>, solid: bool) -> StandIn {
     StandIn { kind, geometry, place: Pose::identity(), mesh: Some(mesh), elements, body: Arc::new(body) }
 }
 
-fn primitive(kind: BodyKind, geometry: &Geometry, place: Pose, terms: Terms) -> Result<StandIn> {
+fn primitive(kind: BodyKind, geometry: &Geometry, place: Pose, terms: ReduceTerms) -> Result<StandIn> {
     let bad = |why| LabError::Invalid(format!("A primitive of the scene cannot be tessellated: {why}."));
     let usual = tessellate::default_bound(geometry);
     let bound = usual.min((PRECISION * terms.tolerance).max(FINEST * usual));

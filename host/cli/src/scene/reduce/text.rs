@@ -2,22 +2,21 @@
 
 use std::path::PathBuf;
 
-use ocb_service::reduce::{BodyKind, HeldOut, Reduction};
+use ocb_service::model::{BodyKind, LaterQueries, ReducedObject, ReducedScene, ReducedSpeed, Reduction};
 
-use super::Report;
 use crate::{output, units};
 
 /// Changed answers that are listed.
 const LISTED: usize = 5;
 
 /// Everything that a terminal shows.
-pub fn text(report: &Report, names: &[&str], written: &[PathBuf]) -> String {
-    let Report { reduction, speed } = report;
+pub fn text(report: &ReducedScene, names: &[&str], written: &[PathBuf]) -> String {
+    let ReducedScene { reduction, speed } = report;
     let mut text = vec![objects(reduction), String::new()];
     text.extend(certified(reduction));
     text.extend(reduction.held_out.as_ref().map(|held_out| held(held_out, reduction, names)));
     if !speed.is_empty() {
-        let row = |it: &super::Speed| {
+        let row = |it: &ReducedSpeed| {
             let time = |ns: Option<f64>| ns.map_or_else(|| "incomplete".to_owned(), units::time);
             let faster = it.faster.map(|[x, y]| format!("{:.2} to {:.2}", x.min(y), x.max(y)));
             vec![
@@ -41,7 +40,7 @@ pub fn text(report: &Report, names: &[&str], written: &[PathBuf]) -> String {
 }
 
 fn objects(reduction: &Reduction) -> String {
-    let row = |it: &ocb_service::reduce::ReducedObject| {
+    let row = |it: &ReducedObject| {
         let body = match it.body {
             BodyKind::Object => "unchanged",
             BodyKind::Sphere => "sphere",
@@ -58,7 +57,7 @@ fn objects(reduction: &Reduction) -> String {
 
 fn certified(reduction: &Reduction) -> Vec<String> {
     let Reduction { tolerance, near, outside_only, queries, left_out, hits, grazing, largest_change, .. } = reduction;
-    let sum = |of: fn(&ocb_service::reduce::ReducedObject) -> u64| reduction.objects.iter().map(of).sum::<u64>();
+    let sum = |of: fn(&ReducedObject) -> u64| reduction.objects.iter().map(of).sum::<u64>();
     let around = if *near > 0.0 {
         format!(", and wherever one object, with its body, is moved relative to the other by less than {near}")
     } else {
@@ -85,8 +84,8 @@ fn certified(reduction: &Reduction) -> Vec<String> {
     text
 }
 
-fn held(held_out: &HeldOut, reduction: &Reduction, names: &[&str]) -> String {
-    let HeldOut { queries, changed, missed, examples } = held_out;
+fn held(held_out: &LaterQueries, reduction: &Reduction, names: &[&str]) -> String {
+    let LaterQueries { queries, changed, missed, examples } = held_out;
     let mut text = format!(
         "Chosen without the last {queries} queries, the bodies change {} of them by more than the tolerance: {:.3} % [{:.3}, {:.3}], \
          {missed} of them missed collisions.",
@@ -117,16 +116,15 @@ fn held(held_out: &HeldOut, reduction: &Reduction, names: &[&str]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use ocb_service::reduce::{Changed, ReducedObject};
+    use ocb_service::model::ChangedAnswer;
 
     use super::*;
-    use crate::scene::reduce::Speed;
 
-    fn report(changed: u32) -> Report {
+    fn report(changed: u32) -> ReducedScene {
         let object =
             |name: &str, body, after| ReducedObject { name: name.into(), body, before: 300, after, queries: 50 };
-        let example = Changed { row: 45, objects: [0, 1], distance: [0.0; 2], reduced: [0.25; 2], missed: true };
-        let held_out = HeldOut {
+        let example = ChangedAnswer { row: 45, objects: [0, 1], distance: [0.0; 2], reduced: [0.25; 2], missed: true };
+        let held_out = LaterQueries {
             queries: 10,
             changed: ocb_advice::Share::of(changed, 10),
             missed: 1,
@@ -144,13 +142,14 @@ mod tests {
             largest_change: None,
             held_out: Some(held_out),
         };
-        let speed = Speed { algorithm: "box-tree".into(), before_ns: None, after_ns: None, faster: None, wrong: 0 };
-        Report { reduction, speed: vec![speed] }
+        let speed =
+            ReducedSpeed { algorithm: "box-tree".into(), before_ns: None, after_ns: None, faster: None, wrong: 0 };
+        ReducedScene { reduction, speed: vec![speed] }
     }
 
     #[test]
     fn the_text_says_what_is_certified_and_what_is_not() {
-        let told = |report: &Report| text(report, &["arm", "hand"], &[]);
+        let told = |report: &ReducedScene| text(report, &["arm", "hand"], &[]);
         let both = told(&report(1));
         assert!(both.contains("600 elements became 302. Certified for each of 50 recorded queries:"), "{both}");
         assert!(both.contains("Of 7 recorded collisions, 2 became gaps") && both.contains("incomplete"), "{both}");
