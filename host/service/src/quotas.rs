@@ -113,7 +113,7 @@ impl Inner {
     /// `Invalid` when a replay may measure longer than a guest's run may take, or its owner may in all.
     pub fn replay_may_take(&self, owner: &str, spec: &WorkloadSpec, algorithms: usize) -> Result<()> {
         let Some(kind) = kind(owner) else { return Ok(()) };
-        let turns = (algorithms * spec.tracks.len()) as f64;
+        let turns = (algorithms * spec.turns()) as f64;
         let limit = match kind {
             Kind::Guest => self.config.ceilings.guest_run.as_secs_f64(),
             Kind::Account | Kind::Address => self.ceiling(kind),

@@ -165,6 +165,7 @@ fn migrations(sqlite: bool) -> Vec<Migration> {
         one(41, "sentinels", include_str!("../migrations/0041_sentinels.sql")),
         one(42, "rate limits", include_str!("../migrations/0042_rate_limits.sql")),
         one(43, "run classes", include_str!("../migrations/0043_run_classes.sql")),
+        one(44, "reduced scenes", include_str!("../migrations/0044_reduced_scenes.sql")),
     ]
 }
 

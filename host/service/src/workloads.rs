@@ -1,5 +1,6 @@
 //! Recordings that visitors bring: asking for a replay, looking at it, ending it.
 
+mod reduce;
 mod replay;
 pub mod sql;
 pub mod work;
@@ -163,6 +164,19 @@ impl Engine {
         let blob = self.inner.store.workload_table(id).await?;
         let none = || EngineError::NotFound("This recording has not been replayed to its end.".to_owned());
         self.inner.blobs.get(&blob.ok_or_else(none)?).await
+    }
+
+    /// The recording about the reduced scene, and a name for its file.
+    ///
+    /// # Errors
+    /// `NotFound` where no reduced scene was asked for, and before the end.
+    #[boxed]
+    pub async fn reduced_recording(&self, id: &str) -> Result<(Vec<u8>, String)> {
+        let told = self.inner.workload_row(id).await?.recording;
+        let blob = self.inner.store.reduced_recording(id).await?;
+        let none = || EngineError::NotFound("This replay has no reduced scene.".to_owned());
+        let name = format!("{}-reduced.ocbrec", told.file.trim_end_matches(".ocbrec"));
+        Ok((self.inner.blobs.get(&blob.ok_or_else(none)?).await?, name))
     }
 
     /// The recording and the name of its file.

@@ -104,6 +104,7 @@ fn spec(algorithms: &[&str]) -> WorkloadSpec {
         passes: 2,
         budget_seconds: 60.0,
         seed: Some(5),
+        reduce: None,
     }
 }
 

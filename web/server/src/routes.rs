@@ -95,6 +95,7 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(workloads::workload_mesh))
         .routes(routes!(workloads::workload_queries))
         .routes(routes!(workloads::workload_recording))
+        .routes(routes!(workloads::reduced_recording))
         .routes(routes!(configurations::remove_configurations))
         .routes(routes!(configurations::deletion_preview_of_configurations))
         .routes(routes!(configurations::configurations_file))

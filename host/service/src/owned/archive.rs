@@ -115,8 +115,11 @@ impl Engine {
         let workload = self.workload(id).await?;
         packer.json(&format!("{folder}/workload.json"), &workload)?;
         packer.add(&format!("{folder}/recording.ocbrec"), &self.workload_recording(id).await?.0)?;
-        if workload.result.is_some() {
+        if let Some(result) = workload.result {
             packer.add(&format!("{folder}/queries.parquet"), &self.workload_queries(id).await?)?;
+            if result.reduced.is_some() {
+                packer.add(&format!("{folder}/reduced.ocbrec"), &self.reduced_recording(id).await?.0)?;
+            }
         }
         Ok(())
     }

@@ -176,9 +176,12 @@ pub(crate) async fn take(connection: &mut AnyConnection, what: &OwnedIds) -> Res
     }
     for id in &what.workloads {
         forget_attempts(&mut *connection, id).await?;
-        let text = "DELETE FROM workloads WHERE id = $1 RETURNING blob, queries";
-        let gone: Vec<(String, Option<String>)> = sqlx::query_as(text).bind(id).fetch_all(&mut *connection).await?;
-        files.extend(gone.into_iter().flat_map(|(blob, queries)| queries.into_iter().chain([blob])));
+        let text = "DELETE FROM workloads WHERE id = $1 RETURNING blob, queries, reduced";
+        let gone: Vec<(String, Option<String>, Option<String>)> =
+            sqlx::query_as(text).bind(id).fetch_all(&mut *connection).await?;
+        files.extend(
+            gone.into_iter().flat_map(|(blob, queries, reduced)| queries.into_iter().chain(reduced).chain([blob])),
+        );
     }
     for id in &what.plugins {
         // One that was made public meanwhile stays.
@@ -242,7 +245,7 @@ async fn forget(connection: &mut AnyConnection, sha256: &str) -> Result<Option<u
          AND NOT EXISTS (SELECT 1 FROM results WHERE records = $6 OR triangle_tests = $7) \
          AND NOT EXISTS (SELECT 1 FROM submissions WHERE blob = $8) \
          AND NOT EXISTS (SELECT 1 FROM saved_configurations WHERE blob = $9) \
-         AND NOT EXISTS (SELECT 1 FROM workloads WHERE blob = $11 OR queries = $12) \
+         AND NOT EXISTS (SELECT 1 FROM workloads WHERE blob = $11 OR queries = $12 OR reduced = $13) \
          AND NOT EXISTS (SELECT 1 FROM advice WHERE papers LIKE $10) RETURNING bytes",
     )
     .bind(sha256)
@@ -255,6 +258,7 @@ async fn forget(connection: &mut AnyConnection, sha256: &str) -> Result<Option<u
     .bind(sha256)
     .bind(sha256)
     .bind(&named)
+    .bind(sha256)
     .bind(sha256)
     .bind(sha256)
     .fetch_optional(&mut *connection)

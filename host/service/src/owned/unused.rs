@@ -48,6 +48,7 @@ impl Store {
             going.insert(id);
             files.extend(self.texts("SELECT blob FROM workloads WHERE id = $1", id).await?);
             files.extend(self.texts("SELECT queries FROM workloads WHERE id = $1", id).await?);
+            files.extend(self.texts("SELECT reduced FROM workloads WHERE id = $1 AND reduced IS NOT NULL", id).await?);
         }
         let mut unused = Vec::new();
         for sha256 in files {
@@ -71,10 +72,10 @@ impl Store {
                      UNION SELECT id FROM submissions WHERE blob = $6 \
                      UNION SELECT id FROM saved_configurations WHERE blob = $7 \
                      UNION SELECT id FROM advice WHERE papers LIKE $8 \
-                     UNION SELECT id FROM workloads WHERE blob = $9 OR queries = $10";
+                     UNION SELECT id FROM workloads WHERE blob = $9 OR queries = $10 OR reduced = $11";
         let query = sqlx::query_scalar(users).bind(sha256).bind(sha256).bind(&named);
         let query = query.bind(sha256).bind(sha256).bind(sha256).bind(sha256);
-        Ok(query.bind(&named).bind(sha256).bind(sha256).fetch_all(&self.pool).await?)
+        Ok(query.bind(&named).bind(sha256).bind(sha256).bind(sha256).fetch_all(&self.pool).await?)
     }
 
     async fn texts(&self, text: &'static str, id: &str) -> Result<Vec<String>> {

@@ -87,21 +87,28 @@ impl Store {
         }
     }
 
-    /// Notes how far it is.
-    pub async fn replay_is_at(&self, id: &str, done: u64) -> Result<()> {
-        let text = "UPDATE workloads SET done = $1 WHERE id = $2 AND state = 'running'";
-        sqlx::query(text).bind(done as i64).bind(id).execute(&self.pool).await?;
+    /// Notes how far it is, and what else it does.
+    pub async fn replay_is_at(&self, id: &str, done: u64, message: Option<&str>) -> Result<()> {
+        let text = "UPDATE workloads SET done = $1, message = $2 WHERE id = $3 AND state = 'running'";
+        sqlx::query(text).bind(done as i64).bind(message).bind(id).execute(&self.pool).await?;
         Ok(())
     }
 
     /// Keeps what was found, once, from the current attempt; one that was cancelled meanwhile stays as it is.
-    pub async fn accept_replay(&self, attempt: &Attempt, result: &WorkloadResult, queries: &str) -> Result<bool> {
+    pub async fn accept_replay(
+        &self,
+        attempt: &Attempt,
+        result: &WorkloadResult,
+        queries: &str,
+        reduced: Option<&str>,
+    ) -> Result<bool> {
         let mut transaction = self.pool.begin().await?;
         if !end(&mut transaction, attempt, Outcome::Accepted).await? {
             return Ok(false);
         }
-        let text = "UPDATE workloads SET result = $1, queries = $2, done = $3 WHERE id = $4 AND state = 'running'";
-        let query = sqlx::query(text).bind(to_json(result)?).bind(queries).bind(result.queries as i64);
+        let text = "UPDATE workloads SET result = $1, queries = $2, done = $3, reduced = $4, message = NULL \
+                    WHERE id = $5 AND state = 'running'";
+        let query = sqlx::query(text).bind(to_json(result)?).bind(queries).bind(result.queries as i64).bind(reduced);
         query.bind(&attempt.job).execute(&mut *transaction).await?;
         let done = end_open(&mut transaction, &attempt.job, State::Done, None).await?;
         transaction.commit().await?;
@@ -152,6 +159,13 @@ impl Store {
     /// The blob with the table of its queries.
     pub async fn workload_table(&self, id: &str) -> Result<Option<String>> {
         let text = "SELECT queries FROM workloads WHERE id = $1";
+        let blob: Option<Option<String>> = sqlx::query_scalar(text).bind(id).fetch_optional(&self.pool).await?;
+        Ok(blob.flatten())
+    }
+
+    /// The blob with the recording about its reduced scene.
+    pub async fn reduced_recording(&self, id: &str) -> Result<Option<String>> {
+        let text = "SELECT reduced FROM workloads WHERE id = $1";
         let blob: Option<Option<String>> = sqlx::query_scalar(text).bind(id).fetch_optional(&self.pool).await?;
         Ok(blob.flatten())
     }

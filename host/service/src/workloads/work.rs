@@ -7,6 +7,7 @@ use std::time::Duration;
 use ocb_lab::workload::workload_parquet;
 use tokio::time::sleep;
 
+use super::reduce::{Doing, Reducing};
 use super::replay::replay;
 use super::sql::WorkloadRow;
 use crate::attempts::sql::end;
@@ -68,13 +69,26 @@ async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, row: &WorkloadRow, sto
     let done = Arc::new(AtomicU64::new(0));
     let so_far = done.clone();
     let tell = move |progress: ocb_lab::workload::Progress| so_far.store(progress.done, Ordering::Relaxed);
-    let replaying = replay(inner, recording.clone(), row.spec.clone(), algorithms, stop.clone(), tell, || {});
+    let doing = Arc::new(Doing::default());
+    let replaying = async {
+        let of = (recording.clone(), row.spec.clone(), algorithms.clone());
+        let mut replayed = replay(inner, of.0, of.1, of.2, stop.clone(), tell, || {}).await?;
+        let Some(terms) = row.spec.reduce else { return Ok((replayed, None)) };
+        let reducing =
+            Reducing { inner, recording: &recording, spec: &row.spec, algorithms: &algorithms, stop, doing: &doing };
+        let (reduced, file) = reducing.reduced(terms, &replayed.result).await?;
+        replayed.result.reduced = Some(reduced);
+        Ok((replayed, Some(file)))
+    };
     tokio::pin!(replaying);
     let noted = async {
         loop {
             tokio::select! {
                 replayed = &mut replaying => break replayed,
-                () = sleep(NOTE) => inner.store.replay_is_at(&row.id, done.load(Ordering::Relaxed)).await?,
+                () = sleep(NOTE) => {
+                    let (done, doing) = (done.load(Ordering::Relaxed), doing.now());
+                    inner.store.replay_is_at(&row.id, done, doing.as_deref()).await?;
+                }
             }
         }
     };
@@ -85,13 +99,22 @@ async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, row: &WorkloadRow, sto
         );
         (longest, reason)
     });
-    let replayed = in_time(noted, stop, limit).await?;
+    let (replayed, reduced) = in_time(noted, stop, limit).await?;
     let table = workload_parquet(&replayed.rows, &recording.queries)?;
     let length = table.len();
     let _keeping = inner.store.locks.keeping().await?;
     let queries = inner.blobs.put(table).await?;
     inner.store.add_blob(&queries, length, "application/vnd.apache.parquet").await?;
-    if !inner.store.accept_replay(attempt, &replayed.result, &queries).await? {
+    let reduced = match reduced {
+        Some(file) => {
+            let length = file.len();
+            let reduced = inner.blobs.put(file).await?;
+            inner.store.add_blob(&reduced, length, "application/zip").await?;
+            Some(reduced)
+        }
+        None => None,
+    };
+    if !inner.store.accept_replay(attempt, &replayed.result, &queries, reduced.as_deref()).await? {
         tracing::warn!("workload {}: the result of attempt {} is not kept", row.id, attempt.number);
     }
     Ok(())

@@ -197,6 +197,18 @@ pub(crate) async fn workload_recording(State(app): State<App>, Path(id): Path<St
     Ok(download("application/zip", &name, bytes))
 }
 
+/// The same queries about the reduced scene, where one was asked for.
+#[utoipa::path(get, path = "/workloads/{id}/reduced.ocbrec", tag = "runs",
+    params(("id" = String, Path, description = "Id of the workload")),
+    responses(
+        (status = 200, description = "The recording", body = [u8], content_type = "application/zip"),
+        (status = 404, description = "The visitor has no such workload, it has not ended, or no reduced scene was asked for"),
+    ))]
+pub(crate) async fn reduced_recording(State(app): State<App>, Path(id): Path<String>) -> Result<Response> {
+    let (bytes, name) = app.engine.reduced_recording(&id).await?;
+    Ok(download("application/zip", &name, bytes))
+}
+
 /// Ends it; what has ended stays as it is. Curators may end any, in a browser session; they do not see it.
 #[utoipa::path(post, path = "/workloads/{id}/cancel", tag = "runs",
     params(("id" = String, Path, description = "Id of the workload")),

@@ -224,6 +224,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "get /workloads/{id}/objects/{object}/mesh.glb",
             "get /workloads/{id}/queries.parquet",
             "get /workloads/{id}/recording.ocbrec",
+            "get /workloads/{id}/reduced.ocbrec",
             "get /status",
             "get /suite",
             "get /data",

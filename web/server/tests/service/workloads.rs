@@ -89,6 +89,54 @@ pub async fn replayed(guest: &Guest) -> String {
 }
 
 #[tokio::test]
+async fn a_replay_also_finds_the_simplest_scene_when_it_is_asked_to() {
+    let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
+    let guest = service.guest();
+    let with = |reduce: Value| {
+        let mut spec = spec();
+        spec["reduce"] = reduce;
+        spec
+    };
+    let refused = send(&guest, with(json!({ "tolerance": 0.1, "near": 0.05 })), recording(40)).await;
+    assert!(problem(refused, 422).await.contains("less than half of the tolerance"));
+    let mut longer = with(json!({ "tolerance": 0.1 }));
+    longer["budget_seconds"] = json!(200);
+    let refused = send(&guest, longer, recording(40)).await;
+    assert!(problem(refused, 422).await.contains("may measure for"), "four replays are counted as four");
+    let sent = send(&guest, with(json!({ "tolerance": 2.0, "outside_only": true })), recording(400)).await;
+    assert_eq!(sent.status(), StatusCode::CREATED);
+    let place = header(&sent, "location");
+    let ended = done(&guest, &place).await;
+    assert_eq!((&ended["state"], &ended["message"]), (&"done".into(), &Value::Null));
+    let reduced = &ended["result"]["reduced"];
+    // With so much tolerance a ball will do for the knot; the ball is as simple as can be.
+    let bodies: Vec<_> = reduced["objects"].as_array().expect("a list").iter().map(|it| &it["body"]).collect();
+    assert_eq!((bodies.len(), bodies[1]), (2, &json!("object")), "{reduced:#}");
+    assert!(reduced["objects"][0]["after"].as_u64() < reduced["objects"][0]["before"].as_u64(), "{reduced:#}");
+    assert_eq!((&reduced["queries"], &reduced["outside_only"]), (&json!(400), &json!(true)));
+    assert_eq!(reduced["held_out"]["queries"], 80);
+    let speed = &reduced["speed"][0];
+    assert_eq!((&speed["algorithm"], &speed["wrong"]), (&json!("box-tree"), &json!(0)));
+    assert!(speed["faster"][0].as_f64().is_some_and(|ratio| ratio > 0.0), "{speed}");
+    // Its recording can be replayed in turn, and goes with the replay.
+    let (bytes, _) = guest.bytes(&format!("{place}/reduced.ocbrec")).await;
+    let again = send(&guest, spec(), bytes).await;
+    let second = header(&again, "location");
+    let of_bodies = done(&guest, &second).await;
+    assert_eq!((&of_bodies["state"], &of_bodies["result"]["queries"]), (&"done".into(), &json!(400)));
+    assert_eq!(of_bodies["result"]["reduced"], Value::Null);
+    let none = guest.get(&format!("{second}/reduced.ocbrec")).send().await.expect("an answer");
+    assert!(problem(none, 404).await.contains("no reduced scene"));
+    let blobs = service.blobs();
+    let gone = guest.request(Method::DELETE, &place).send().await.expect("an answer");
+    assert_eq!(gone.status(), StatusCode::NO_CONTENT);
+    // Recording and table; the reduced recording is the other one's.
+    assert_eq!(service.blobs(), blobs - 2);
+    let gone = guest.request(Method::DELETE, &second).send().await.expect("an answer");
+    assert_eq!((gone.status(), service.blobs()), (StatusCode::NO_CONTENT, blobs - 4));
+}
+
+#[tokio::test]
 async fn a_recording_is_uploaded_replayed_and_taken_away() {
     let service = Service::start_with(&["libocb_box_tree.so", "libocb_brute_force.so"]).await;
     let guest = service.guest();
