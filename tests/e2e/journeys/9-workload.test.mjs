@@ -100,11 +100,31 @@ test('a replay is asked for again and deleted on a telephone', async (t) => {
   await v.picture('workload-390')
   await v.at('again').locator('summary').first().click()
   await v.at('again').getByTestId('orders-recorded').check()
+  // The simplest scene is asked for as well.
+  await v.at('again').getByTestId('reduce').check()
+  await v.at('reduce-tolerance').fill('0')
+  await v.page.getByText('The tolerance must be above 0.').waitFor()
+  await v.at('reduce-tolerance').fill('0.1')
+  await v.at('reduce-outside').check()
+  await v.accessible('the form of another replay')
   await v.at('again-start').click()
   await until('the other replay', () => !v.page.url().includes(first))
   const second = v.page.url().split('/').at(-1)
   assert.deepEqual((await v.api(`/workloads/${second}`)).spec.tracks, ['recorded'])
   await until('the other replay to end', async () => (await state(v)) === 'done')
+  const { reduced } = (await v.api(`/workloads/${second}`)).result
+  assert.ok(reduced.outside_only && reduced.objects.length > 0 && reduced.speed.length === 2)
+  const objects = v.at('reduced').getByTestId('reduced-object')
+  assert.deepEqual((await objects.evaluateAll((all) => all.map((one) => one.dataset.body))).toSorted(), reduced.objects.map(({ body }) => body).toSorted())
+  assert.match(await v.at('reduced-certified').textContent(), /no collision is missed/)
+  assert.match(await v.at('reduce-command').textContent(), /ocb scene reduce .*--tolerance 0\.1 .*--outside-only/s)
+  await v.at('reduced').scrollIntoViewIfNeeded()
+  await v.accessible('a reduced scene on a telephone')
+  await v.picture('workload-reduced-390')
+  const files = []
+  v.page.on('download', (file) => files.push(file.suggestedFilename()))
+  await v.at('reduced-file').click()
+  await until('the reduced recording', () => files.some((name) => name.endsWith('-reduced.ocbrec')))
 
   for (const id of [second, first]) {
     await v.go(`/workloads/${id}`)

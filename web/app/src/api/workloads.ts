@@ -40,5 +40,5 @@ export const getGroup = (id: string, query: { sequence?: number; group?: number 
 export const getWorkloadMesh = (id: string, object: number): Promise<ArrayBuffer> => fetchBytes(`${workloadFile(id)}/objects/${object}/mesh.glb`)
 
 /** Files of a workload; without a name its JSON. */
-export const workloadFile = (id: string, file?: 'queries.parquet' | 'recording.ocbrec'): string =>
+export const workloadFile = (id: string, file?: 'queries.parquet' | 'recording.ocbrec' | 'reduced.ocbrec'): string =>
   ['/api/v1/workloads', encodeURIComponent(id), ...(file ? [file] : [])].join('/')

@@ -11,15 +11,22 @@ describe('the spec of a replay', () => {
     expect(toSpec({ ...usualForm(), algorithms: ['brute'], orders: 'recorded' })).toMatchObject({ spec: { algorithms: ['brute'], tracks: ['recorded'] } })
   })
 
+  it('asks for the simplest scene when that is wanted, and takes it over', () => {
+    const form = { ...usualForm(), reduce: { wanted: true, tolerance: 0.01, near: 0.001, outsideOnly: true } }
+    const asked = toSpec(form)
+    expect(asked).toMatchObject({ spec: { reduce: { tolerance: 0.01, near: 0.001, outside_only: true } } })
+    expect('spec' in asked && fromSpec(asked.spec, known)).toEqual(form)
+  })
+
   it('is refused with the reason before it is sent', () => {
-    const refused = [{ algorithms: [] }, { passes: '' as const }, { passes: 1.5 }, { passes: 65 }, { budget: '' as const }, { budget: 0 }, { budget: 86_401 }]
+    const refused = [{ algorithms: [] }, { passes: '' as const }, { passes: 1.5 }, { passes: 65 }, { budget: '' as const }, { budget: 0 }, { budget: 86_401 }, { reduce: { wanted: true, tolerance: 0, near: 0, outsideOnly: false } }, { reduce: { wanted: true, tolerance: 0.1, near: 0.05, outsideOnly: false } }]
     for (const change of refused) expect(toSpec({ ...usualForm(), ...change })).toHaveProperty('problem')
   })
 
   it('is taken over from an earlier replay, without algorithms that are no longer installed', () => {
     const before = { algorithms: ['fcl', 'box-tree:leaf_size=4', 'gone'], tracks: ['recorded' as const], passes: 5, budget_seconds: 9 }
     const form = fromSpec(before, known)
-    expect(form).toEqual({ algorithms: ['fcl', 'box-tree:leaf_size=4'], orders: 'recorded', passes: 5, budget: 9 })
+    expect(form).toEqual({ algorithms: ['fcl', 'box-tree:leaf_size=4'], orders: 'recorded', passes: 5, budget: 9, reduce: usualForm().reduce })
     expect(fromSpec({}, known)).toEqual(usualForm())
     expect(fromSpec({ algorithms: ['all'] }, known).algorithms).toEqual(['box-tree', 'fcl', 'brute'])
     expect(fromSpec({ algorithms: ['gone'] }, known).algorithms).toBeNull()

@@ -1,5 +1,5 @@
 import type { AlgorithmInfo } from '../api/types'
-import type { Track, WorkloadResult, WorkloadSpec } from '../api/types'
+import type { ReduceTerms, Track, WorkloadResult, WorkloadSpec } from '../api/types'
 import { quote } from '../builder/command-line'
 import { plainId } from '../builder/form'
 
@@ -12,20 +12,41 @@ export interface SpecForm {
   orders: Orders
   passes: number | ''
   budget: number | ''
+  reduce: ReduceForm
 }
 
-export const usualForm = (): SpecForm => ({ algorithms: null, orders: 'both', passes: 3, budget: 10 })
+/** The simplest scene that keeps the answers. */
+export interface ReduceForm {
+  wanted: boolean
+  /** Lengths in the unit of the scene. */
+  tolerance: number | ''
+  near: number | ''
+  outsideOnly: boolean
+}
+
+export const usualForm = (): SpecForm => ({
+  algorithms: null, orders: 'both', passes: 3, budget: 10, reduce: { wanted: false, tolerance: 0.001, near: 0, outsideOnly: false },
+})
 
 /** The names that are chosen, or the usual ones. */
 export const chosenNames = ({ algorithms }: SpecForm, known: readonly AlgorithmInfo[]): string[] =>
   algorithms ?? known.filter(({ usual }) => usual).map(({ id }) => id)
 
 /** The form as the API wants it, or what is wrong with it, in a sentence. */
-export function toSpec({ algorithms, orders, passes, budget }: SpecForm): { spec: WorkloadSpec } | { problem: string } {
+export function toSpec({ algorithms, orders, passes, budget, reduce }: SpecForm): { spec: WorkloadSpec } | { problem: string } {
   if (algorithms?.length === 0) return { problem: 'Choose at least one algorithm.' }
   if (passes === '' || !Number.isInteger(passes) || passes < 1 || passes > 64) return { problem: 'The number of processes must be a whole number from 1 to 64.' }
   if (budget === '' || !(budget > 0 && budget <= 86_400)) return { problem: 'The budget must be above 0 and at most 86,400 seconds.' }
-  return { spec: { algorithms: algorithms ?? [], tracks: orders === 'both' ? ['shuffled', 'recorded'] : [orders], passes, budget_seconds: budget, seed: null } }
+  const terms = toTerms(reduce)
+  if (terms && 'problem' in terms) return terms
+  return { spec: { algorithms: algorithms ?? [], tracks: orders === 'both' ? ['shuffled', 'recorded'] : [orders], passes, budget_seconds: budget, seed: null, ...(terms && { reduce: terms }) } }
+}
+
+function toTerms({ wanted, tolerance, near, outsideOnly }: ReduceForm): ReduceTerms | { problem: string } | null {
+  if (!wanted) return null
+  if (tolerance === '' || !(tolerance > 0)) return { problem: 'The tolerance must be above 0.' }
+  if (near === '' || !(near >= 0 && 2 * near < tolerance)) return { problem: 'The neighbourhood must be 0 or more, and less than half of the tolerance.' }
+  return { tolerance, near, outside_only: outsideOnly }
 }
 
 /** The form that would ask for a replay again, as far as its algorithms are still installed. */
@@ -39,6 +60,7 @@ export function fromSpec(spec: Partial<WorkloadSpec>, known: readonly AlgorithmI
     orders: only && !other ? only : 'both',
     passes: spec.passes ?? form.passes,
     budget: spec.budget_seconds ?? form.budget,
+    reduce: spec.reduce ? { wanted: true, tolerance: spec.reduce.tolerance, near: spec.reduce.near ?? 0, outsideOnly: spec.reduce.outside_only ?? false } : form.reduce,
   }
 }
 
