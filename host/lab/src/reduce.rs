@@ -24,7 +24,7 @@ use ocb_core::pose::Pose;
 use ocb_core::scene::Geometry;
 use ocb_core::workload::{Answered, Kind, Recorded};
 
-use crate::model::{ReduceTerms, Reduction};
+use crate::model::{FRONTIER, ReduceTerms, Reduction};
 use crate::recording::{About, Recording};
 use crate::scene_file::SceneFile;
 use crate::workload::{PairPart, parts};
@@ -53,6 +53,8 @@ pub struct Reduced {
     pub recording: Recording,
     /// What stands for each object, in the order of the scene.
     pub stand_ins: Vec<StandIn>,
+    /// Other tolerances with the same queries about their bodies, where they were asked for.
+    pub others: Vec<(f64, Recording)>,
 }
 
 /// Reduces the scene of a recording; nothing when it was stopped.
@@ -77,17 +79,23 @@ pub fn reduce<E: From<LabError>>(
     let held_out = match later.is_empty() {
         true => None,
         false => {
-            let Some(chosen) = problem.choose(&seen, watch) else { return Ok(None) };
+            let Some(chosen) = problem.choose(&seen, terms, watch) else { return Ok(None) };
             let Some(held_out) = problem.hold(&chosen, &later, watch) else { return Ok(None) };
             Some(held_out)
         }
     };
-    let Some(chosen) = problem.choose(&problem.all(), watch) else { return Ok(None) };
+    let Some(chosen) = problem.choose(&problem.all(), terms, watch) else { return Ok(None) };
     let reduction = report::reduction(recording, &problem, &chosen, held_out, left_out, watch)?;
     let Some(reduction) = reduction else { return Ok(None) };
+    let mut others = Vec::new();
+    for factor in FRONTIER.into_iter().filter(|_| terms.frontier) {
+        let terms = terms.times(factor);
+        let Some(chosen) = problem.choose(&problem.all(), terms, watch) else { return Ok(None) };
+        others.push((terms.tolerance, reduced(recording, &problem, &chosen)));
+    }
     let recording = reduced(recording, &problem, &chosen);
     let stand_ins = problem.stand_ins.into_iter().zip(chosen).map(|(mut all, at)| all.swap_remove(at)).collect();
-    Ok(Some(Reduced { reduction, recording, stand_ins }))
+    Ok(Some(Reduced { reduction, recording, stand_ins, others }))
 }
 
 /// Of each object itself and what may stand for it, the simplest first.

@@ -85,7 +85,8 @@ pub use people::{
 pub use plugin::{AlgorithmInfo, BuildInfo, CheckLine, CheckVerdict, ParameterInfo, PluginReport, Repro};
 pub use preview::{Beside, Preview};
 pub use reduction::{
-    BodyKind, ChangedAnswer, LaterQueries, ReduceTerms, ReducedObject, ReducedScene, ReducedSpeed, Reduction,
+    BodyKind, ChangedAnswer, FRONTIER, LaterQueries, ReduceTerms, ReducedObject, ReducedScene, ReducedSpeed, Reduction,
+    frontier,
 };
 pub use replay::{Difference, Recipe, RecipeAlgorithm, RecipeFile, RecipeObject, RecipeVersions, Replay, Replayed};
 pub use result::{AlgorithmResult, Estimated, TimeSummary, VerdictCount};

@@ -1,10 +1,14 @@
 //! No more model than a recording needs: what stands for each object of its scene, and what that does to answers.
 
+mod frontier;
+
 use ocb_advice::Share;
+use ocb_chart::Chart;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use crate::WorkloadResult;
+pub use frontier::frontier;
 
 /// What a reduced scene may do to answers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -19,9 +23,26 @@ pub struct ReduceTerms {
     /// Whatever stands for an object contains it, so that no collision is ever missed.
     #[serde(default)]
     pub outside_only: bool,
+    /// Also choose and measure bodies for a half, a quarter and an eighth of the tolerance, and for two, four and eight times as much,
+    /// with neighbourhoods in proportion.
+    #[serde(default)]
+    pub frontier: bool,
 }
 
+/// The other tolerances of a frontier, in tolerances.
+pub const FRONTIER: [f64; 6] = [0.125, 0.25, 0.5, 2.0, 4.0, 8.0];
+
 impl ReduceTerms {
+    /// How many replays about bodies a reduction measures.
+    pub fn replays(&self) -> usize {
+        2 + if self.frontier { FRONTIER.len() } else { 0 }
+    }
+
+    /// The same for another tolerance.
+    pub fn times(&self, factor: f64) -> Self {
+        Self { tolerance: factor * self.tolerance, near: factor * self.near, ..*self }
+    }
+
     /// # Errors
     /// What is wrong with them, in one sentence.
     pub fn check(&self) -> Result<(), String> {
@@ -137,6 +158,9 @@ pub struct ReducedScene {
     /// What the reduced scene saves.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub speed: Vec<ReducedSpeed>,
+    /// Speed against tolerance, where it was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frontier: Option<Chart>,
 }
 
 /// An algorithm on both scenes. Each was replayed twice, in the order objects, bodies, bodies, objects.

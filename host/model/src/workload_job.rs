@@ -35,9 +35,9 @@ impl Default for WorkloadSpec {
 }
 
 impl WorkloadSpec {
-    /// How often each algorithm and order measures: a reduced scene is compared with its objects in turn, twice, in the first order.
+    /// How often each algorithm measures: a reduced scene is compared with its objects, in the first order.
     pub fn turns(&self) -> usize {
-        self.tracks.len() + if self.reduce.is_some() { 3 } else { 0 }
+        self.tracks.len() + self.reduce.map_or(0, |terms| terms.replays() + 1)
     }
 
     /// # Errors
@@ -222,7 +222,7 @@ mod tests {
         assert!(told(|spec| spec.budget_seconds = f64::NAN).contains("at most 86400 s, not NaN"));
         assert!(told(|spec| spec.tracks.clear()).contains("each once"));
         assert!(told(|spec| spec.tracks[0] = Track::Recorded).contains("each once"));
-        let terms = |tolerance, near| Some(ReduceTerms { tolerance, near, outside_only: false });
+        let terms = |tolerance, near| Some(ReduceTerms { tolerance, near, outside_only: false, frontier: false });
         let reduce = |reduce| WorkloadSpec { reduce, ..WorkloadSpec::default() }.check().err().unwrap_or_default();
         assert_eq!(reduce(terms(0.1, 0.04)), "");
         assert!(reduce(terms(f64::NAN, 0.0)).contains("a positive length"));

@@ -106,6 +106,7 @@ test('a replay is asked for again and deleted on a telephone', async (t) => {
   await v.page.getByText('The tolerance must be above 0.').waitFor()
   await v.at('reduce-tolerance').fill('0.1')
   await v.at('reduce-outside').check()
+  await v.at('reduce-frontier').check()
   await v.accessible('the form of another replay')
   await v.at('again-start').click()
   await until('the other replay', () => !v.page.url().includes(first))
@@ -118,7 +119,8 @@ test('a replay is asked for again and deleted on a telephone', async (t) => {
   assert.deepEqual((await objects.evaluateAll((all) => all.map((one) => one.dataset.body))).toSorted(), reduced.objects.map(({ body }) => body).toSorted())
   assert.match(await v.at('reduced-certified').textContent(), /no collision is missed/)
   assert.match(await v.at('reduce-command').textContent(), /ocb scene reduce .*--tolerance 0\.1 .*--outside-only/s)
-  await v.at('reduced').scrollIntoViewIfNeeded()
+  assert.ok(reduced.frontier.series[0].points.length === 8, 'the objects and seven tolerances')
+  await v.at('frontier').scrollIntoViewIfNeeded()
   await v.accessible('a reduced scene on a telephone')
   await v.picture('workload-reduced-390')
   const files = []

@@ -56,6 +56,9 @@ pub struct ReduceArgs {
     /// Every body contains the object that it stands for, so that no collision is missed, anywhere.
     #[arg(long)]
     pub outside_only: bool,
+    /// Also choose and replay bodies for a half to an eighth of the tolerance, and for two to eight times as much: speed against error.
+    #[arg(long, requires = "algorithm")]
+    pub frontier: bool,
     /// Unit of the scene, for lengths such as 1mm.
     #[arg(long, value_enum, default_value_t = Unit::M)]
     pub unit: Unit,

@@ -8,7 +8,8 @@ use std::sync::Arc;
 
 use ocb_service::Recording;
 use ocb_service::advising::{Advisor, SHELF};
-use ocb_service::model::{ReduceTerms, ReducedScene, ReducedSpeed, Track, WorkloadResult, WorkloadSpec};
+use ocb_service::chart::Chart;
+use ocb_service::model::{ReduceTerms, ReducedScene, ReducedSpeed, Track, WorkloadResult, WorkloadSpec, frontier};
 use ocb_service::reduce::{self, Robot};
 use ocb_service::scene_import::Wanted;
 use ocb_service::truth::Machine;
@@ -26,6 +27,7 @@ pub async fn reduce(store: &Store, args: &ReduceArgs, json: bool) -> Result<Exit
         tolerance: lengths::of_scene("The tolerance", &args.tolerance, args.unit, false)?,
         near: lengths::of_scene("The neighbourhood", &args.near, args.unit, true)?,
         outside_only: args.outside_only,
+        frontier: args.frontier,
     };
     let spec = WorkloadSpec {
         algorithms: args.algorithm.clone(),
@@ -50,12 +52,12 @@ pub async fn reduce(store: &Store, args: &ReduceArgs, json: bool) -> Result<Exit
     let Some(reduced) = reduced.await?? else { return Ok(stopped()) };
     let robot = robot.map(|robot| robot.with(&reduced));
     let after = Arc::new(reduced.recording);
-    let speed = match args.algorithm.is_empty() {
-        true => Some(Vec::new()),
-        false => speed(store, &spec, &recording, &after).await?,
+    let measured = match args.algorithm.is_empty() {
+        true => Some((Vec::new(), None)),
+        false => measured(store, &spec, &recording, (terms.tolerance, &after), reduced.others).await?,
     };
-    let Some(speed) = speed else { return Ok(stopped()) };
-    let report = ReducedScene { reduction: reduced.reduction, speed };
+    let Some((speed, frontier)) = measured else { return Ok(stopped()) };
+    let report = ReducedScene { reduction: reduced.reduction, speed, frontier };
     let mut written = Vec::new();
     if let Some(folder) = &args.out {
         if let (Some(robot), Some(file)) = (robot, &args.urdf) {
@@ -93,16 +95,19 @@ fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf> {
     Ok(path)
 }
 
-/// Replays both scenes in turn; nothing when interrupted.
-async fn speed(
+/// Replays both scenes in turn, and then those for other tolerances; nothing when interrupted.
+async fn measured(
     store: &Store,
     spec: &WorkloadSpec,
     before: &Arc<Recording>,
-    after: &Arc<Recording>,
-) -> Result<Option<Vec<ReducedSpeed>>> {
+    (tolerance, after): (f64, &Arc<Recording>),
+    others: Vec<(f64, Recording)>,
+) -> Result<Option<(Vec<ReducedSpeed>, Option<Chart>)>> {
     let engine = open::open(store, Purpose::Look).await?;
+    let (tolerances, others): (Vec<f64>, Vec<_>) = others.into_iter().map(|(at, it)| (at, Arc::new(it))).unzip();
+    let all = [before, after, after, before].into_iter().chain(&others);
     let mut results: Vec<WorkloadResult> = Vec::new();
-    for recording in [before, after, after, before] {
+    for recording in all {
         match workload::replay(&engine, recording.clone(), spec.clone()).await {
             Ok(Some(replayed)) => results.push(replayed.result),
             other => {
@@ -112,6 +117,11 @@ async fn speed(
         }
     }
     engine.shutdown().await;
-    let Ok(all) = <[WorkloadResult; 4]>::try_from(results) else { return Ok(None) };
-    Ok(Some(ReducedSpeed::of(all.each_ref())))
+    let Some(([first, second, third, last], more)) = results.split_first_chunk() else { return Ok(None) };
+    let frontier = (!more.is_empty()).then(|| {
+        let mut points: Vec<_> = tolerances.into_iter().zip(more).chain([(tolerance, second)]).collect();
+        points.sort_by(|x, y| x.0.total_cmp(&y.0));
+        frontier(first, &points)
+    });
+    Ok(Some((ReducedSpeed::of([first, second, third, last]), frontier)))
 }

@@ -110,11 +110,11 @@ impl Problem {
         (seen, later)
     }
 
-    /// The simplest bodies that keep the answers of these queries; nothing when it was stopped.
+    /// The simplest bodies that keep the answers of these queries on these terms; nothing when it was stopped.
     ///
     /// Objects that are asked about most often, and have most triangles, come first. At first each pair may use half of the
     /// tolerance, so that no object takes all of it from the others.
-    pub fn choose(&self, rows: &[u32], watch: &dyn Watch) -> Option<Chosen> {
+    pub fn choose(&self, rows: &[u32], terms: ReduceTerms, watch: &dyn Watch) -> Option<Chosen> {
         let mut of_object: Vec<Vec<&Asked>> = vec![Vec::new(); self.stand_ins.len()];
         for row in rows {
             let asked = &self.asked[*row as usize];
@@ -135,8 +135,7 @@ impl Problem {
         let total = 2 * order.len() as u64;
         let mut done = 0;
         for share in [0.5, 1.0] {
-            let terms =
-                ReduceTerms { tolerance: share * self.terms.tolerance, near: share * self.terms.near, ..self.terms };
+            let terms = terms.times(share);
             for &object in &order {
                 watch.step("choosing", done, total);
                 done += 1;

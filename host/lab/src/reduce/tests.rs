@@ -108,7 +108,7 @@ fn distances(recording: &Recording) -> Vec<[f64; 2]> {
 fn outside_only_misses_no_collision_and_keeps_what_is_far_apart() {
     let before = recording(queries(&[Kind::Collide]));
     let side = knot(2000).longest_side();
-    let terms = ReduceTerms { tolerance: 0.02 * side, near: 0.0, outside_only: true };
+    let terms = ReduceTerms { tolerance: 0.02 * side, near: 0.0, outside_only: true, frontier: false };
     let after = done(&before, terms, &make);
     let bodies: Vec<BodyKind> = after.reduction.objects.iter().map(|it| it.body).collect();
     assert_eq!(bodies[2], BodyKind::Sphere, "an object that nothing comes near is a ball: {bodies:?}");
@@ -130,7 +130,7 @@ fn outside_only_misses_no_collision_and_keeps_what_is_far_apart() {
 fn distances_change_by_no_more_than_the_tolerance_also_where_objects_are_moved() {
     let before = recording(queries(&[Kind::Distance, Kind::Tolerance]));
     let side = knot(2000).longest_side();
-    let terms = ReduceTerms { tolerance: 0.05 * side, near: 0.01 * side, outside_only: false };
+    let terms = ReduceTerms { tolerance: 0.05 * side, near: 0.01 * side, outside_only: false, frontier: false };
     let mut after = done(&before, terms, &make);
     let bodies: Vec<BodyKind> = after.reduction.objects.iter().map(|it| it.body).collect();
     assert!(bodies[..3].contains(&BodyKind::Level), "{bodies:?}");
@@ -166,7 +166,8 @@ fn what_a_foreign_library_makes_is_not_believed() {
         Ok(Some(Simplified { levels: vec![smaller.clone()], hull: Some(smaller) }))
     };
     for outside_only in [true, false] {
-        let after = done(&before, ReduceTerms { tolerance: 0.01 * side, near: 0.0, outside_only }, &lies);
+        let after =
+            done(&before, ReduceTerms { tolerance: 0.01 * side, near: 0.0, outside_only, frontier: false }, &lies);
         let bodies: Vec<BodyKind> = after.reduction.objects.iter().map(|it| it.body).collect();
         assert!(!bodies.contains(&BodyKind::Hull), "a hull that contains nothing is none: {bodies:?}");
         assert!(!bodies[..2].contains(&BodyKind::Level), "{bodies:?}");
@@ -182,7 +183,7 @@ fn a_choice_that_does_not_hold_later_says_so() {
         let near = if query.group < 32 { 5.0 } else { 0.72 + 0.01 * (query.group - 32) as f64 };
         query.configuration.pose_b.translation.x = near * side;
     }
-    let terms = ReduceTerms { tolerance: 0.01 * side, near: 0.0, outside_only: true };
+    let terms = ReduceTerms { tolerance: 0.01 * side, near: 0.0, outside_only: true, frontier: false };
     let after = done(&recording(asked), terms, &make);
     let held_out = after.reduction.held_out.expect("a fifth is held out");
     assert_eq!((held_out.queries, held_out.missed), (32, 0));
@@ -195,7 +196,7 @@ fn a_choice_that_does_not_hold_later_says_so() {
 fn terms_without_sense_are_refused() {
     let before = recording(queries(&[Kind::Collide]));
     let refused = |tolerance, near| {
-        let terms = ReduceTerms { tolerance, near, outside_only: false };
+        let terms = ReduceTerms { tolerance, near, outside_only: false, frontier: false };
         reduce(&before, terms, &make, &Unwatched).err().map(|e| e.to_string()).unwrap_or_default()
     };
     assert!(refused(0.0, 0.0).contains("tolerance") && refused(f64::NAN, 0.0).contains("tolerance"));
@@ -212,7 +213,7 @@ fn a_reduced_recording_is_read_again_with_meshes_that_stay() {
         object.geometry = Geometry::Mesh { sha256: name.clone(), solid: false };
     }
     before.scene.meshes.insert(name, mesh);
-    let after = done(&before, ReduceTerms { tolerance: 1e-7, near: 0.0, outside_only: true }, &make);
+    let after = done(&before, ReduceTerms { tolerance: 1e-7, near: 0.0, outside_only: true, frontier: false }, &make);
     assert!(after.reduction.objects[..2].iter().all(|it| it.body == BodyKind::Object));
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("reduced.ocbrec");
@@ -230,6 +231,6 @@ fn a_reduction_that_is_stopped_says_nothing() {
             true
         }
     }
-    let terms = ReduceTerms { tolerance: 1.0, near: 0.0, outside_only: true };
+    let terms = ReduceTerms { tolerance: 1.0, near: 0.0, outside_only: true, frontier: false };
     assert!(reduce(&recording(queries(&[Kind::Collide])), terms, &make, &Stopped).expect("no fault").is_none());
 }

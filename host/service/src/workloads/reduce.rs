@@ -13,7 +13,7 @@ use crate::advice::jailed::{Advisor, SHELF};
 use crate::blocking::blocking;
 use crate::engine::Inner;
 use crate::measure::Stop;
-use crate::model::{ReduceTerms, ReducedScene, ReducedSpeed, WorkloadResult, WorkloadSpec};
+use crate::model::{ReduceTerms, ReducedScene, ReducedSpeed, WorkloadResult, WorkloadSpec, frontier};
 use crate::{EngineError, Result};
 
 /// What a replay does after all queries were replayed, in a sentence.
@@ -58,14 +58,25 @@ pub(super) struct Reducing<'a> {
 
 impl Reducing<'_> {
     /// Reduces the scene after its objects were replayed, and replays bodies, bodies and objects again. Also the recording about the
-    /// bodies, as a file.
+    /// bodies, as a file. For a frontier, the bodies of other tolerances are replayed as well.
     pub async fn reduced(&self, terms: ReduceTerms, first: &WorkloadResult) -> Result<(ReducedScene, Vec<u8>)> {
-        let Reduced { reduction, recording, .. } = self.reduce(terms).await?;
+        let Reduced { reduction, recording, others, .. } = self.reduce(terms).await?;
         let bodies = Arc::new(recording);
         let second = self.again(&bodies, "Measuring the reduced scene.").await?;
         let third = self.again(&bodies, "Measuring the reduced scene again.").await?;
         let last = self.again(self.recording, "Measuring the objects again.").await?;
         let speed = ReducedSpeed::of([first, &second, &third, &last]);
+        let mut points = Vec::new();
+        for (tolerance, recording) in others {
+            let what = format!("Measuring the scene for a tolerance of {tolerance}.");
+            points.push((tolerance, self.again(&Arc::new(recording), &what).await?));
+        }
+        let frontier = terms.frontier.then(|| {
+            let mut all: Vec<_> = points.iter().map(|(tolerance, result)| (*tolerance, result)).collect();
+            all.push((terms.tolerance, &second));
+            all.sort_by(|x, y| x.0.total_cmp(&y.0));
+            frontier(first, &all)
+        });
         let folder = self.inner.config.data.clone();
         let file = blocking(move || {
             let fault = |e: std::io::Error| EngineError::fault("Writing the reduced recording failed", e);
@@ -73,7 +84,7 @@ impl Reducing<'_> {
             bodies.write(file.path())?;
             std::fs::read(file.path()).map_err(fault)
         });
-        Ok((ReducedScene { reduction, speed }, file.await?))
+        Ok((ReducedScene { reduction, speed, frontier }, file.await?))
     }
 
     async fn reduce(&self, terms: ReduceTerms) -> Result<Reduced> {

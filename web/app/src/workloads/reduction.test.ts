@@ -37,9 +37,9 @@ describe('a reduced scene in words', () => {
 })
 
 it('is repeated on the command line', () => {
-  const terms = { tolerance: 0.01, near: 0.001, outside_only: true }
+  const terms = { tolerance: 0.01, near: 0.001, outside_only: true, frontier: true }
   expect(reduceCommand('my arm.ocbrec', terms, ['fcl', 'box-tree']).split(' \\\n  ')).toEqual([
-    "ocb scene reduce 'my arm.ocbrec'", '--tolerance 0.01', '--near 0.001', '--outside-only', '--algorithm fcl,box-tree', '--out reduced',
+    "ocb scene reduce 'my arm.ocbrec'", '--tolerance 0.01', '--near 0.001', '--outside-only', '--frontier', '--algorithm fcl,box-tree', '--out reduced',
   ])
   expect(reduceCommand('a.ocbrec', { tolerance: 1 }, []).split(' \\\n  ')).toEqual(['ocb scene reduce a.ocbrec', '--tolerance 1', '--out reduced'])
 })

@@ -44,6 +44,7 @@ export function reduceCommand(file: string, terms: ReduceTerms, algorithms: read
     `--tolerance ${terms.tolerance}`,
     ...(terms.near ? [`--near ${terms.near}`] : []),
     ...(terms.outside_only ? ['--outside-only'] : []),
+    ...(terms.frontier ? ['--frontier'] : []),
     ...(algorithms.length > 0 ? [`--algorithm ${algorithms.map(quote).join(',')}`] : []),
     '--out reduced',
   ].join(' \\\n  ')

@@ -12,14 +12,14 @@ describe('the spec of a replay', () => {
   })
 
   it('asks for the simplest scene when that is wanted, and takes it over', () => {
-    const form = { ...usualForm(), reduce: { wanted: true, tolerance: 0.01, near: 0.001, outsideOnly: true } }
+    const form = { ...usualForm(), reduce: { wanted: true, tolerance: 0.01, near: 0.001, outsideOnly: true, frontier: true } }
     const asked = toSpec(form)
-    expect(asked).toMatchObject({ spec: { reduce: { tolerance: 0.01, near: 0.001, outside_only: true } } })
+    expect(asked).toMatchObject({ spec: { reduce: { tolerance: 0.01, near: 0.001, outside_only: true, frontier: true } } })
     expect('spec' in asked && fromSpec(asked.spec, known)).toEqual(form)
   })
 
   it('is refused with the reason before it is sent', () => {
-    const refused = [{ algorithms: [] }, { passes: '' as const }, { passes: 1.5 }, { passes: 65 }, { budget: '' as const }, { budget: 0 }, { budget: 86_401 }, { reduce: { wanted: true, tolerance: 0, near: 0, outsideOnly: false } }, { reduce: { wanted: true, tolerance: 0.1, near: 0.05, outsideOnly: false } }]
+    const refused = [{ algorithms: [] }, { passes: '' as const }, { passes: 1.5 }, { passes: 65 }, { budget: '' as const }, { budget: 0 }, { budget: 86_401 }, { reduce: { wanted: true, tolerance: 0, near: 0, outsideOnly: false, frontier: false } }, { reduce: { wanted: true, tolerance: 0.1, near: 0.05, outsideOnly: false, frontier: false } }]
     for (const change of refused) expect(toSpec({ ...usualForm(), ...change })).toHaveProperty('problem')
   })
 

@@ -22,10 +22,12 @@ export interface ReduceForm {
   tolerance: number | ''
   near: number | ''
   outsideOnly: boolean
+  /** Also for other tolerances. */
+  frontier: boolean
 }
 
 export const usualForm = (): SpecForm => ({
-  algorithms: null, orders: 'both', passes: 3, budget: 10, reduce: { wanted: false, tolerance: 0.001, near: 0, outsideOnly: false },
+  algorithms: null, orders: 'both', passes: 3, budget: 10, reduce: { wanted: false, tolerance: 0.001, near: 0, outsideOnly: false, frontier: false },
 })
 
 /** The names that are chosen, or the usual ones. */
@@ -42,11 +44,11 @@ export function toSpec({ algorithms, orders, passes, budget, reduce }: SpecForm)
   return { spec: { algorithms: algorithms ?? [], tracks: orders === 'both' ? ['shuffled', 'recorded'] : [orders], passes, budget_seconds: budget, seed: null, ...(terms && { reduce: terms }) } }
 }
 
-function toTerms({ wanted, tolerance, near, outsideOnly }: ReduceForm): ReduceTerms | { problem: string } | null {
+function toTerms({ wanted, tolerance, near, outsideOnly, frontier }: ReduceForm): ReduceTerms | { problem: string } | null {
   if (!wanted) return null
   if (tolerance === '' || !(tolerance > 0)) return { problem: 'The tolerance must be above 0.' }
   if (near === '' || !(near >= 0 && 2 * near < tolerance)) return { problem: 'The neighbourhood must be 0 or more, and less than half of the tolerance.' }
-  return { tolerance, near, outside_only: outsideOnly }
+  return { tolerance, near, outside_only: outsideOnly, frontier }
 }
 
 /** The form that would ask for a replay again, as far as its algorithms are still installed. */
@@ -60,7 +62,7 @@ export function fromSpec(spec: Partial<WorkloadSpec>, known: readonly AlgorithmI
     orders: only && !other ? only : 'both',
     passes: spec.passes ?? form.passes,
     budget: spec.budget_seconds ?? form.budget,
-    reduce: spec.reduce ? { wanted: true, tolerance: spec.reduce.tolerance, near: spec.reduce.near ?? 0, outsideOnly: spec.reduce.outside_only ?? false } : form.reduce,
+    reduce: spec.reduce ? { wanted: true, tolerance: spec.reduce.tolerance, near: spec.reduce.near ?? 0, outsideOnly: spec.reduce.outside_only ?? false, frontier: spec.reduce.frontier ?? false } : form.reduce,
   }
 }
 

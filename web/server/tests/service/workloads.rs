@@ -103,7 +103,8 @@ async fn a_replay_also_finds_the_simplest_scene_when_it_is_asked_to() {
     longer["budget_seconds"] = json!(200);
     let refused = send(&guest, longer, recording(40)).await;
     assert!(problem(refused, 422).await.contains("may measure for"), "four replays are counted as four");
-    let sent = send(&guest, with(json!({ "tolerance": 2.0, "outside_only": true })), recording(400)).await;
+    let sent =
+        send(&guest, with(json!({ "tolerance": 2.0, "outside_only": true, "frontier": true })), recording(400)).await;
     assert_eq!(sent.status(), StatusCode::CREATED);
     let place = header(&sent, "location");
     let ended = done(&guest, &place).await;
@@ -118,6 +119,10 @@ async fn a_replay_also_finds_the_simplest_scene_when_it_is_asked_to() {
     let speed = &reduced["speed"][0];
     assert_eq!((&speed["algorithm"], &speed["wrong"]), (&json!("box-tree"), &json!(0)));
     assert!(speed["faster"][0].as_f64().is_some_and(|ratio| ratio > 0.0), "{speed}");
+    // The objects, which have no tolerance, and bodies for seven tolerances.
+    let points = reduced["frontier"]["series"][0]["points"].as_array().expect("a list");
+    let at: Vec<Option<f64>> = points.iter().map(|point| point["x"].as_f64()).collect();
+    assert_eq!(at, [None, Some(0.25), Some(0.5), Some(1.0), Some(2.0), Some(4.0), Some(8.0), Some(16.0)]);
     // Its recording can be replayed in turn, and goes with the replay.
     let (bytes, _) = guest.bytes(&format!("{place}/reduced.ocbrec")).await;
     let again = send(&guest, spec(), bytes).await;

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use ocb_service::chart::Chart;
 use ocb_service::model::{BodyKind, LaterQueries, ReducedObject, ReducedScene, ReducedSpeed, Reduction};
 
 use crate::{output, units};
@@ -11,7 +12,7 @@ const LISTED: usize = 5;
 
 /// Everything that a terminal shows.
 pub fn text(report: &ReducedScene, names: &[&str], written: &[PathBuf]) -> String {
-    let ReducedScene { reduction, speed } = report;
+    let ReducedScene { reduction, speed, .. } = report;
     let mut text = vec![objects(reduction), String::new()];
     text.extend(certified(reduction));
     text.extend(reduction.held_out.as_ref().map(|held_out| held(held_out, reduction, names)));
@@ -35,8 +36,25 @@ pub fn text(report: &ReducedScene, names: &[&str], written: &[PathBuf]) -> Strin
                 .to_owned(),
         );
     }
+    text.extend(report.frontier.as_ref().map(frontier));
     text.extend(written.iter().map(|path| path.display().to_string()));
     text.join("\n")
+}
+
+/// A row for each tolerance, a column for each algorithm.
+fn frontier(chart: &Chart) -> String {
+    let mut at: Vec<Option<f64>> = chart.series.iter().flat_map(|it| &it.points).map(|point| point.x).collect();
+    at.sort_by(|x, y| x.unwrap_or(0.0).total_cmp(&y.unwrap_or(0.0)));
+    at.dedup();
+    let row = |x: &Option<f64>| {
+        let times = chart.series.iter().map(|it| it.points.iter().find(|point| point.x == *x));
+        let times = times.map(|point| point.map_or_else(|| "-".to_owned(), |point| units::time(point.y)));
+        [x.map_or_else(|| "objects".to_owned(), |x| format!("{x}"))].into_iter().chain(times).collect()
+    };
+    let names = chart.series.iter().map(|it| it.name.as_str());
+    let headings: Vec<&str> = ["tolerance"].into_iter().chain(names).collect();
+    let right: Vec<usize> = (1..headings.len()).collect();
+    format!("{}:\n{}", chart.title, output::table(&headings, at.iter().map(row).collect(), &right))
 }
 
 fn objects(reduction: &Reduction) -> String {
@@ -116,6 +134,7 @@ fn held(held_out: &LaterQueries, reduction: &Reduction, names: &[&str]) -> Strin
 
 #[cfg(test)]
 mod tests {
+    use ocb_service::chart::{Axis, Form, Point, Scale, Series};
     use ocb_service::model::ChangedAnswer;
 
     use super::*;
@@ -144,7 +163,38 @@ mod tests {
         };
         let speed =
             ReducedSpeed { algorithm: "box-tree".into(), before_ns: None, after_ns: None, faster: None, wrong: 0 };
-        ReducedScene { reduction, speed: vec![speed] }
+        let points = [Point { x: None, ..Point::at(0.0, 900.0, 50) }, Point::at(0.001, 300.0, 50)];
+        let frontier = chart(&[("box-tree", &points), ("fcl", &points[..1])]);
+        ReducedScene { reduction, speed: vec![speed], frontier: Some(frontier) }
+    }
+
+    fn chart(series: &[(&str, &[Point])]) -> Chart {
+        let axis = || Axis::new("", "", Scale::Log);
+        let series = series.iter().map(|(name, points)| Series {
+            name: (*name).to_owned(),
+            style: None,
+            form: Form::Line,
+            points: points.to_vec(),
+        });
+        Chart {
+            kind: "frontier".into(),
+            title: "Time against tolerance".into(),
+            finding: String::new(),
+            x: axis(),
+            y: axis(),
+            series: series.collect(),
+            notes: Vec::new(),
+            preliminary: false,
+        }
+    }
+
+    #[test]
+    fn the_frontier_has_a_row_for_each_tolerance() {
+        let text = text(&report(0), &["arm", "hand"], &[]);
+        let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
+        let at = rows.iter().position(|row| row == &["tolerance", "box-tree", "fcl"]).expect("a heading");
+        let of = |word: &str| rows[at..].iter().find(|row| row.first() == Some(&word)).expect("a row").len();
+        assert_eq!((of("objects"), of("0.001")), (5, 4), "900 ns twice, then 300 ns and nothing: {text}");
     }
 
     #[test]

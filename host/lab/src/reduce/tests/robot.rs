@@ -52,7 +52,7 @@ fn a_rewritten_robot_has_the_bodies_where_the_reduced_scene_has_them() {
     let folder = tempfile::tempdir().expect("a folder");
     for (kind, outside_only) in [(Kind::Collide, true), (Kind::Distance, false)] {
         let (path, before) = robot(folder.path(), kind);
-        let terms = ReduceTerms { tolerance: 0.01, near: 0.0, outside_only };
+        let terms = ReduceTerms { tolerance: 0.01, near: 0.0, outside_only, frontier: false };
         let after = done(&before, terms, &make);
         let written = Robot::read(&path, &Wanted::default(), &before).expect("a robot").with(&after);
         assert!(written.text.contains("<!-- This stays. -->") && written.text.contains("the &lt;base>"));
