@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 
 #include "spool.hpp"
 
@@ -12,6 +13,7 @@ using namespace ocb::record;
 
 struct ocb_recording {
   std::mutex mutex;
+  // Nothing after a file could not be written.
   std::unique_ptr<Spool> spool;
   std::uint32_t library;
 };
@@ -27,11 +29,15 @@ auto with(ocb_recording *recording, auto otherwise, const auto &act) noexcept {
     return otherwise;
   const std::lock_guard lock(recording->mutex);
   try {
-    return act(*recording->spool);
+    if (recording->spool)
+      return act(*recording->spool);
+  } catch (const std::runtime_error &) {
+    // The disk is full: a row or a line may be there in part, and another behind it could not be read.
+    recording->spool.reset();
   } catch (...) {
-    // The disk is full, or memory is.
-    return otherwise;
+    // Memory is full, or it cannot be recorded.
   }
+  return otherwise;
 }
 
 // The reason why a query is none; nothing for one that is.

@@ -217,7 +217,7 @@ void Spool::note() {
   std::string lines;
   for (const auto &[reason, count] : dropped_)
     lines += "{\"reason\": " + json(reason) + ", \"count\": " + std::to_string(count) + "}\n";
-  append("dropped.jsonl", lines);
+  write_whole(folder_ + "/dropped.jsonl", lines.data(), lines.size());
 }
 
 // Keeps the queries of every second group of those that are kept.
