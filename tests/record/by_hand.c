@@ -1,8 +1,9 @@
-/* Records itself into the folder that it is given, and is killed in the middle of it. */
+/* Records itself into the folder that it is given, until its disk is full, and is killed. */
 #include <math.h>
 #include <opencollbench/record.h>
 #include <signal.h>
 #include <string.h>
+#include <sys/resource.h>
 
 int main(int argc, char **argv) {
   static const double vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, radius = 0.5, none = 0;
@@ -29,12 +30,41 @@ int main(int argc, char **argv) {
     if (ocb_recording_query(recording, &query) != 0)
       return 4;
   }
+  /* The other primitives, and the other kinds of queries, whose times are not known. */
+  static const double box_size[] = {1, 2, 0.1}, cylinder_size[] = {0.5, 2}, capsule_size[] = {0.25, 0};
+  const int32_t others[] = {ocb_recording_primitive(recording, OCB_BOX, box_size),
+                            ocb_recording_primitive(recording, OCB_CYLINDER, cylinder_size),
+                            ocb_recording_primitive(recording, OCB_CAPSULE, capsule_size)};
+  static const ocb_kind kinds[] = {OCB_COLLIDE, OCB_CONTACTS, OCB_TOLERANCE, OCB_TOLERANCE};
+  static const double limits[] = {0, 3, 0.25, 20};
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 4; ++k) {
+      const int hit = k == 0 || k == 3;
+      ocb_query other = {.kind = kinds[k], .objects = {corner, others[i]}, .limit = limits[k], .seconds = -1, .group = 5 + (uint64_t)i};
+      other.answered = hit ? OCB_ANSWERED | OCB_HIT : OCB_ANSWERED;
+      memcpy(other.poses, query.poses, sizeof query.poses);
+      other.poses[1][3] = k == 0 ? 0 : 10;
+      if (ocb_recording_query(recording, &other) != 0)
+        return 7;
+    }
   query.poses[1][3] = NAN;
   if (ocb_recording_query(recording, &query) != -1)
     return 5;
   query.poses[1][3] = 0, query.objects[0] = no_mesh;
   if (ocb_recording_query(recording, &query) != -1)
     return 6;
+  /* A disk that is full in the middle of a row ends the recording: a row behind it could not be read. */
+  query.objects[0] = corner;
+  signal(SIGXFSZ, SIG_IGN);
+  struct rlimit limit;
+  getrlimit(RLIMIT_FSIZE, &limit);
+  const struct rlimit full = {22 * 256 + 100, limit.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &full);
+  if (ocb_recording_query(recording, &query) != -1)
+    return 8;
+  setrlimit(RLIMIT_FSIZE, &limit);
+  if (ocb_recording_query(recording, &query) != -1)
+    return 9;
   raise(SIGKILL);
   ocb_recording_close(recording);
   return 0;

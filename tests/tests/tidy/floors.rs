@@ -148,6 +148,7 @@ fn a_crate_depends_only_on_what_is_listed_for_it() {
         ("ocb-chart", &[]),
         ("ocb-citation", &[]),
         ("ocb-slurm", &[]),
+        ("opencollbench-record", &[]),
         ("ocb-advice", &["ocb-core"]),
         (ADVISOR, &["ocb-advice", "ocb-core", "ocb-sandbox", METHODS, PLUGIN_API]),
         ("ocb-sandbox", &["ocb-core", PLUGIN_API]),

@@ -1,5 +1,7 @@
 //! `ocb record`: programs that know nothing of it, on Debian's libfcl and on python-fcl, are recorded, and their answers stay.
 
+mod by_hand;
+
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -179,37 +181,6 @@ fn coal_and_mujoco_are_recorded_in_python() {
         closer += usize::from(told == Some(true));
     }
     assert!(mujoco.queries.len() == 60 && closer > 3, "{closer} of {}", mujoco.queries.len());
-}
-
-#[test]
-fn a_program_can_record_itself() {
-    let desk = Desk::new();
-    let built = Path::new(env!("CARGO_BIN_EXE_ocb")).with_file_name("record");
-    assert!(built.join("libocb_record.so").exists(), "{} is missing; run `make recorders` first", built.display());
-    let (program, spool) = (desk.path("by_hand"), desk.path("spool"));
-    let mut compiler = command("cc");
-    compiler.args(["-std=gnu11", "-Wall", "-Wextra", "-Werror", "-pedantic"]);
-    compiler.arg(format!("-I{ROOT}/host/record/include")).arg(format!("{ROOT}/tests/record/by_hand.c"));
-    compiler.arg("-o").arg(&program).arg(format!("-L{0}", built.display())).args(["-locb_record", "-lm"]);
-    let (code, _, stderr) = said(compiler.output().expect("a compiler"));
-    assert_eq!(code, 0, "{stderr}");
-    let ended = command(&program).arg(&spool).env("LD_LIBRARY_PATH", &built).status().expect("it starts");
-    assert_eq!(std::os::unix::process::ExitStatusExt::signal(&ended), Some(9), "{ended}");
-
-    let out = desk.path("h.ocbrec").to_str().expect("text").to_owned();
-    let packed = desk.json(&["record", "--out", &out, "--spool", spool.to_str().expect("text")]);
-    assert_eq!(
-        (&packed["objects"], &packed["queries"], &packed["seen"]),
-        (&2.into(), &10.into(), &12.into()),
-        "{packed}"
-    );
-    let recording = read(&desk, "h.ocbrec");
-    assert_eq!(recording.about.program, "by \"hand\"");
-    assert_eq!(dropped(&recording), [("a pose is not finite", 1), ("an object was not recorded", 1)]);
-    let result =
-        desk.json(&["bench", "--workload", &out, "--algorithm", "box-tree", "--passes", "1", "--order", "recorded"]);
-    let claims = &result["recorded"]["claims"];
-    assert_eq!((&claims[0]["claim"], &claims[0]["count"]), (&"right".into(), &10.into()), "{claims}");
 }
 
 #[test]
