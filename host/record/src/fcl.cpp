@@ -2,11 +2,7 @@
 #include <limits>
 
 #include "fcl_objects.hpp"
-#include "next.hpp"
-#include "process.hpp"
-
-#define OCB_STRING(text) #text
-#define OCB_TEXT(text) OCB_STRING(text)
+#include "replaces.hpp"
 
 // The names that the compiler gives these functions, with which programs are linked.
 #define COLLIDE_OBJECTS _ZN3fcl7collideIdEEmPKNS_15CollisionObjectIT_EES5_RKNS_16CollisionRequestIS2_EERNS_15CollisionResultIS2_EE
@@ -49,7 +45,7 @@ Query query(Spool &spool, const Pair &pair, bool &convex) {
   query.library = spool.library("fcl", FCL_VERSION);
   for (int i = 0; i < 2; ++i) {
     const auto [object, is_convex] = describe(spool, *pair.geometries[i], query.library);
-    query.objects[i] = object, query.poses[i] = matrix(*pair.poses[i]);
+    query.objects[i] = object, query.poses[i] = matrix(pair.poses[i]->linear(), pair.poses[i]->translation());
     convex = convex || is_convex;
   }
   return query;
@@ -64,10 +60,7 @@ std::size_t collide(const Pair &pair, const Request &request, const Result &resu
     Query it = query(spool, pair, convex);
     it.kind = request.num_max_contacts > 1 ? CONTACTS : COLLIDE;
     it.limit = static_cast<double>(request.num_max_contacts);
-    const bool more = contacts(result) > before;
-    // A result that already had contacts, or may have none, does not tell whether these two collide.
-    const bool told = more || (before == 0 && request.num_max_contacts > 0);
-    it.bits = !told || (convex && more) ? NONE : more ? ANSWERED | HIT : ANSWERED;
+    it.bits = hit_told(before, contacts(result), request.num_max_contacts, convex);
     return it;
   });
   return answer;
@@ -81,24 +74,13 @@ double distance(const Pair &pair, const fcl::DistanceResultd &result, const auto
     Query it = query(spool, pair, convex);
     it.kind = DISTANCE;
     it.distance = distance;
-    // A result that already had a smaller distance keeps it.
-    const bool told = distance < NO_ANSWER && (before == NO_ANSWER || distance < before);
-    it.bits = told && !(convex && distance <= 0) ? MEASURED : NONE;
+    it.bits = distance_told(before, distance, NO_ANSWER, convex);
     return it;
   });
   return distance;
 }
 
 } // namespace
-
-// Each asks the library first in line, unless a call is under way or another recorder sees the caller.
-#define OCB_REPLACES(name) asm(OCB_TEXT(name)) __attribute__((visibility("default")))
-#define OCB_NEXT(name, function)                                                                                                            \
-  static constexpr Symbol symbol{OCB_TEXT(name), "libfcl"};                                                                                 \
-  const auto [address, left] = symbol.next(reinterpret_cast<const void *>(function), __builtin_return_address(0));                          \
-  const auto real = reinterpret_cast<decltype(&function)>(address);                                                                         \
-  const Inside inside;                                                                                                                      \
-  const bool wanted = inside.first() && !left && recording()
 
 extern "C" {
 

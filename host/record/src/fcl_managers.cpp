@@ -1,24 +1,7 @@
 // The queries of one call of a collision manager of FCL are one group.
-#include "next.hpp"
-#include "process.hpp"
-
-#define OCB_STRING(text) #text
-
-namespace {
-using ocb::record::Symbol;
-using ocb::record::Together;
-} // namespace
+#include "replaces.hpp"
 
 // A member function of a manager takes the manager, perhaps another object or manager, data, and the function to call for each pair.
-#define OCB_GROUPS(mangled, which, parameters, arguments)                                                                                \
-  extern "C" void which parameters asm(OCB_STRING(mangled)) __attribute__((visibility("default")));                                      \
-  extern "C" void which parameters {                                                                                                     \
-    static constexpr Symbol symbol{OCB_STRING(mangled), "libfcl"};                                                                          \
-    const auto reached = symbol.next(reinterpret_cast<const void *>(which), __builtin_return_address(0));                                   \
-    const Together together;                                                                                                                \
-    reinterpret_cast<decltype(&which)>(reached.function) arguments;                                                                         \
-  }
-
 #define OCB_SELF (const void *self, void *data, void *call)
 #define OCB_OTHER (const void *self, void *other, void *data, void *call)
 

@@ -3,15 +3,9 @@
 
 #include <fcl/fcl.h>
 
-#include "spool.hpp"
+#include "described.hpp"
 
 namespace ocb::record {
-
-// An object of a query: its number in the spool, and whether it is a convex body, of which the surface alone is recorded.
-struct Known {
-  std::uint32_t object = 0;
-  bool convex = false;
-};
 
 // Throws `Unusable` for geometries that are not recorded. For one thread at a time.
 Known describe(Spool &spool, const fcl::CollisionGeometryd &geometry, std::uint32_t library);
@@ -20,8 +14,5 @@ Known describe(Spool &spool, const fcl::CollisionGeometryd &geometry, std::uint3
 const fcl::CollisionGeometryd &geometry(const fcl::CollisionObjectd &object);
 const fcl::Transform3d &pose(const fcl::CollisionObjectd &object);
 std::size_t contacts(const fcl::CollisionResultd &result);
-
-// A pose as the spool has it.
-Matrix matrix(const fcl::Transform3d &pose);
 
 } // namespace ocb::record
