@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use crate::failure::{Failure, Result};
 
 /// The libraries that are loaded first, with what they record.
-const PRELOADED: [(&str, &str); 1] = [("libocb_record_fcl.so", "FCL (libfcl)")];
+const PRELOADED: [(&str, &str); 2] =
+    [("libocb_record_fcl.so", "FCL (libfcl)"), ("libocb_record_coal.so", "Coal (libcoal)")];
 
 /// The recorders beside this program.
 pub struct Recorders {

@@ -1,6 +1,7 @@
 //! `ocb record`: programs that know nothing of it, on Debian's libfcl and on python-fcl, are recorded, and their answers stay.
 
 mod by_hand;
+mod coal;
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -27,15 +28,20 @@ fn said(Output { status, stdout, stderr }: Output) -> (i32, String, String) {
     (status.code().unwrap_or(-1), text(stdout), text(stderr))
 }
 
-/// The C++ program, compiled as its author would.
-fn robot(desk: &Desk) -> PathBuf {
-    let program = desk.path("robot");
+/// A C++ program, compiled as its author would.
+fn compiled(desk: &Desk, name: &str, options: &[&str]) -> PathBuf {
+    let program = desk.path(name);
     let mut compiler = command("c++");
     compiler.args(["-std=c++17", "-O2", "-isystem", "/usr/include/eigen3"]);
-    compiler.arg(format!("{ROOT}/tests/record/robot.cpp")).arg("-o").arg(&program).args(["-lfcl", "-lccd", "-pthread"]);
+    compiler.arg(format!("{ROOT}/tests/record/{name}.cpp")).arg("-o").arg(&program).args(options).arg("-pthread");
     let (code, _, stderr) = said(compiler.output().expect("a compiler"));
     assert_eq!(code, 0, "{stderr}");
     program
+}
+
+/// The program on FCL.
+fn robot(desk: &Desk) -> PathBuf {
+    compiled(desk, "robot", &["-lfcl", "-lccd"])
 }
 
 /// Python with the libraries, and a program.
@@ -227,7 +233,10 @@ fn what_cannot_be_recorded_is_told() {
     let desk = Desk::new();
     let (code, _, stderr) = record(&desk, "n.ocbrec", &[], &[Path::new("true")], &[]);
     assert_eq!(code, 2);
-    assert!(stderr.contains("Nothing was recorded: the program asked none of FCL (libfcl), python-fcl"), "{stderr}");
+    assert!(
+        stderr.contains("Nothing was recorded: the program asked none of FCL (libfcl), Coal (libcoal), python-fcl"),
+        "{stderr}"
+    );
     let (code, _, stderr) = record(&desk, "n.ocbrec", &[], &[Path::new("no-such-program")], &[]);
     assert_eq!((code, &*stderr), (2, "ocb: Cannot run no-such-program: no such file or directory.\n"));
     let (code, _, stderr) = record(&desk, "none/n.ocbrec", &[], &[Path::new("true")], &[]);

@@ -1,14 +1,15 @@
 """Records queries to Coal from Python: `coal.collide` and `coal.distance`, of objects and of geometries.
 
-Not seen: what managers with callbacks in C++, `ComputeCollision` and `ComputeDistance` ask. Not recorded, and counted: bodies with a
-swept sphere, negative security margins, and objects that are not a mesh, convex body, box, sphere, cylinder or capsule.
+Not seen: what `ComputeCollision` and `ComputeDistance` ask, and, where the recorder for C++ is not loaded, managers with callbacks in
+C++. Not recorded, and counted: bodies with a swept sphere, negative security margins, and objects that are not a mesh, convex body,
+box, sphere, cylinder or capsule.
 """
 
 import sys
 
 import numpy as np
 
-from .patching import replace
+from .patching import leave, replace
 from .shapes import Shapes, named, recording
 from .spool import ANSWERED, COLLIDE, CONTACTS, DISTANCE, HIT, MEASURED, TOLERANCE, Unusable
 
@@ -20,6 +21,7 @@ def patch(coal):
     """Puts recording functions in the place of the library's; a list of what to put back."""
     asked = _Coal(coal)
     modules = [coal, coal.coal_pywrap]
+    leave("coal", coal.coal_pywrap)
     undo = replace(modules, "collide", recording(coal.collide, asked.collided))
     return undo + replace(modules, "distance", recording(coal.distance, asked.measured))
 
