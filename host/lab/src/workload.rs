@@ -4,6 +4,7 @@
 //! Queries are replayed by pair of objects, because a process of a plugin holds one pair. Algorithms know triangles only; a
 //! primitive is given to them as a polyhedron around it.
 
+mod heatmap;
 mod parts;
 mod posed;
 mod recorded;
@@ -30,6 +31,7 @@ use crate::pairing::Pairing;
 use crate::recording::Recording;
 use crate::truth::on_all_cpus;
 use crate::{LabError, Result};
+pub use heatmap::{HeatmapFile, HeatmapFormat, object_heatmap};
 pub(crate) use parts::{Part as PairPart, parts};
 pub use posed::{mesh_of, posed_group};
 use recorded::Truths;
@@ -127,7 +129,7 @@ pub fn replay(
     let mut rows = Vec::new();
     let mut tracks = Vec::new();
     for (&track, tallies) in wanted.tracks.iter().zip(tallies) {
-        rows.extend(tallies.iter().flat_map(|tally| tally.rows(track, &judged.hits)));
+        rows.extend(tallies.iter().flat_map(|tally| tally.rows(track, &judged)));
         let algorithms = tallies.into_iter().map(|tally| tally.result(&recording.queries)).collect();
         tracks.push(TrackResult { track, algorithms });
     }

@@ -105,8 +105,9 @@ pub use truth::{ContactRow, TruthRow};
 pub use unranked::{Controls, Unranked, UnrankedCause};
 pub use visibility::{NewVisibility, Visibility};
 pub use workload::{
-    AlgorithmOnWorkload, ClaimCount, EndedPair, FalseAnswer, GroupTimes, LeftOut, OrderGain, PairTime, RecordedAnswers,
-    TotalTime, Track, TrackResult, WorkloadObject, WorkloadResult, order_gains,
+    AlgorithmOnWorkload, ClaimCount, EndedPair, FalseAnswer, GroupTimes, LeftOut, ObjectHeatmap, ObjectHeatmapRequest,
+    ObjectMeasure, OrderGain, PairTime, RecordedAnswers, TotalTime, Track, TrackResult, WorkloadObject, WorkloadResult,
+    order_gains,
 };
 pub use workload_job::{
     AlgorithmOnStretch, PosedGroup, PosedObject, RecordingInfo, Stretch, StretchResult, Timeline, TimelineSeries,

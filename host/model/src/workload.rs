@@ -1,5 +1,6 @@
 //! A recording that was replayed: what the recorded program was answered, and what each algorithm does with its queries.
 
+mod heatmap;
 mod order;
 
 use ocb_core::workload::Claim;
@@ -10,6 +11,7 @@ use crate::outcome::OutcomeInfo;
 use crate::reduction::ReducedScene;
 use crate::workload_job::Timeline;
 
+pub use heatmap::{ObjectHeatmap, ObjectHeatmapRequest, ObjectMeasure};
 pub use order::{OrderGain, order_gains};
 
 /// In which order the queries of a pair are put.

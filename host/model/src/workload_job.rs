@@ -146,6 +146,13 @@ pub struct Stretch {
     pub to: Option<u64>,
 }
 
+impl Stretch {
+    /// Does it hold the query of this number?
+    pub fn contains(self, sequence: u64) -> bool {
+        sequence >= self.from.unwrap_or(0) && self.to.is_none_or(|to| sequence < to)
+    }
+}
+
 /// What each algorithm does within a stretch of a recording.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct StretchResult {

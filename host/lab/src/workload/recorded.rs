@@ -17,6 +17,8 @@ pub struct Truths<'a> {
     recording: &'a Recording,
     /// Of each query: do the objects certainly collide, as surfaces? Nothing for those that are not replayed.
     pub hits: Vec<Option<bool>>,
+    /// Of each query: the triangle of each of its objects, in their order there, where these collide or are closest.
+    pub triangles: Vec<Option<[u32; 2]>>,
     counts: [u64; Claim::NAMES.len()],
     largest_error: f64,
     false_answers: Vec<FalseAnswer>,
@@ -28,6 +30,7 @@ impl<'a> Truths<'a> {
         Self {
             recording,
             hits: vec![None; recording.queries.len()],
+            triangles: vec![None; recording.queries.len()],
             counts: Default::default(),
             largest_error: 0.0,
             false_answers: Vec::new(),
@@ -41,6 +44,9 @@ impl<'a> Truths<'a> {
         for (i, (&row, placed)) in certified.rows.iter().zip(&certified.set.placed).enumerate() {
             self.hits[row as usize] = Some(placed.truth.hit);
             let recorded = &self.recording.queries[row as usize];
+            let [first, second] = [placed.truth.witness.triangle_a, placed.truth.witness.triangle_b];
+            let swapped = recorded.objects != objects;
+            self.triangles[row as usize] = Some(if swapped { [second, first] } else { [first, second] });
             let (outer, tau) = (placed.truth, pair.tau(&placed.configuration, U64));
             let inner = certified.inner.as_ref().map_or(outer, |inner| inner[i]);
             let bracket = Bracket { outer, inner, solid, tau };

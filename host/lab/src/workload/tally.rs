@@ -8,6 +8,7 @@ use ocb_core::statistics::{Statistic, quantile};
 use ocb_core::workload::Recorded;
 
 use super::Certified;
+use super::recorded::Truths;
 use super::table::WorkloadRow;
 use crate::algorithm::Algorithm;
 use crate::measure::Measured;
@@ -84,8 +85,8 @@ impl Tally {
         &self.answered
     }
 
-    /// Each answered query, in the order of the recording, of which it is known whether the objects collide.
-    pub fn rows(&self, track: Track, hits: &[Option<bool>]) -> impl Iterator<Item = WorkloadRow> {
+    /// Each answered query, in the order of the recording, with what is known of it.
+    pub fn rows(&self, track: Track, known: &Truths) -> impl Iterator<Item = WorkloadRow> {
         let mut answered = self.answered.clone();
         answered.sort_unstable_by_key(|(row, ..)| *row);
         let algorithm: Arc<str> = self.algorithm.info.id.as_str().into();
@@ -95,7 +96,8 @@ impl Tally {
             row,
             time_ns,
             verdict,
-            hit: hits[row as usize].unwrap_or(false),
+            hit: known.hits[row as usize].unwrap_or(false),
+            triangles: known.triangles[row as usize],
         })
     }
 
