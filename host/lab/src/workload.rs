@@ -33,7 +33,7 @@ use crate::truth::on_all_cpus;
 use crate::{LabError, Result};
 pub use heatmap::{HeatmapFile, HeatmapFormat, object_heatmap};
 pub(crate) use parts::{Part as PairPart, parts};
-pub use posed::{mesh_of, posed_group};
+pub use posed::{mesh_of, posed_group, posed_scene};
 use recorded::Truths;
 use shapes::{Solid, solids};
 pub use stretch::stretch;

@@ -106,8 +106,8 @@ pub use unranked::{Controls, Unranked, UnrankedCause};
 pub use visibility::{NewVisibility, Visibility};
 pub use workload::{
     AlgorithmOnWorkload, ClaimCount, EndedPair, FalseAnswer, GroupTimes, LeftOut, ObjectHeatmap, ObjectHeatmapRequest,
-    ObjectMeasure, OrderGain, PairTime, RecordedAnswers, TotalTime, Track, TrackResult, WorkloadObject, WorkloadResult,
-    order_gains,
+    ObjectMeasure, OrderGain, PairTime, PosedScene, RecordedAnswers, ScenePair, TotalTime, Track, TrackResult,
+    WorkloadObject, WorkloadResult, order_gains,
 };
 pub use workload_job::{
     AlgorithmOnStretch, PosedGroup, PosedObject, RecordingInfo, Stretch, StretchResult, Timeline, TimelineSeries,

@@ -2,6 +2,7 @@
 
 mod heatmap;
 mod order;
+mod scene;
 
 use ocb_core::workload::Claim;
 use serde::{Deserialize, Serialize};
@@ -13,6 +14,7 @@ use crate::workload_job::Timeline;
 
 pub use heatmap::{ObjectHeatmap, ObjectHeatmapRequest, ObjectMeasure};
 pub use order::{OrderGain, order_gains};
+pub use scene::{PosedScene, ScenePair};
 
 /// In which order the queries of a pair are put.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
