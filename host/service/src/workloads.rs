@@ -1,6 +1,8 @@
 //! Recordings that visitors bring: asking for a replay, looking at it, ending it.
 
 mod reduce;
+
+mod heatmaps;
 mod replay;
 pub mod sql;
 pub mod work;
@@ -15,8 +17,8 @@ use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::locks::Lock;
 use crate::model::{
-    AccountInfo, Cursor, Page, Part, PosedGroup, RecordingInfo, Role, State, Stretch, StretchResult, WhichGroup,
-    WorkloadInfo, WorkloadSpec,
+    AccountInfo, Cursor, Page, Part, PosedGroup, PosedScene, RecordingInfo, Role, State, Stretch, StretchResult,
+    WhichGroup, WorkloadInfo, WorkloadSpec,
 };
 use crate::quotas::{Visitor, turn};
 use crate::requests::Made;
@@ -191,6 +193,13 @@ impl Engine {
     pub async fn workload_group(&self, id: &str, which: WhichGroup) -> Result<PosedGroup> {
         let (_, recording) = self.inner.recording(id).await?;
         Ok(ocb_lab::workload::posed_group(&recording, which)?)
+    }
+
+    /// The scene with all its objects, and its pairs.
+    #[boxed]
+    pub async fn workload_scene(&self, id: &str) -> Result<PosedScene> {
+        let (_, recording) = self.inner.recording(id).await?;
+        blocking(move || Ok(ocb_lab::workload::posed_scene(&recording))).await
     }
 
     /// The triangles of an object of the scene, as algorithms get them.

@@ -23,6 +23,7 @@ mod service;
 mod stability;
 mod stability_runs;
 mod suite;
+mod workload_heatmaps;
 mod workloads;
 
 use axum::Router;
@@ -92,7 +93,12 @@ fn api() -> OpenApiRouter<App> {
         .routes(routes!(workloads::cancel_workload))
         .routes(routes!(workloads::show_stretch))
         .routes(routes!(workloads::show_group))
+        .routes(routes!(workloads::show_scene))
         .routes(routes!(workloads::workload_mesh))
+        .routes(routes!(workload_heatmaps::workload_heatmap))
+        .routes(routes!(workload_heatmaps::workload_heatmap_glb))
+        .routes(routes!(workload_heatmaps::workload_heatmap_ply))
+        .routes(routes!(workload_heatmaps::workload_heatmap_csv))
         .routes(routes!(workloads::workload_queries))
         .routes(routes!(workloads::workload_recording))
         .routes(routes!(workloads::reduced_recording))

@@ -14,17 +14,17 @@ use crate::extract::{Path, Query};
 use crate::problem::{Problem, Result};
 
 /// How values become colours in a file.
-#[derive(Deserialize, IntoParams)]
+#[derive(Default, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct Colouring {
     /// Colormap.
     #[serde(default)]
     #[param(inline)]
-    colormap: Colormap,
+    pub(super) colormap: Colormap,
     /// Scale.
     #[serde(default)]
     #[param(inline)]
-    scale: Scale,
+    pub(super) scale: Scale,
 }
 
 /// Values on the vertices of one object of the run.

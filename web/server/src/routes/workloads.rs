@@ -5,7 +5,9 @@ use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::{Extension, Json as Answer};
 use ocb_core::export::glb;
-use ocb_service::model::{Page, PosedGroup, Stretch, StretchResult, WhichGroup, WorkloadInfo, WorkloadSpec};
+use ocb_service::model::{
+    Page, PosedGroup, PosedScene, Stretch, StretchResult, WhichGroup, WorkloadInfo, WorkloadSpec,
+};
 use ocb_service::{EngineError, Visitor};
 use utoipa::ToSchema;
 
@@ -150,6 +152,18 @@ pub(crate) async fn show_group(
 ) -> Result<Answer<PosedGroup>> {
     let _slot = app.drawing.acquire().await;
     Ok(Answer(app.engine.workload_group(&id, which).await?))
+}
+
+/// The scene as it stands in space: all objects, the pairs that were asked, and those that it disables.
+#[utoipa::path(get, path = "/workloads/{id}/scene", tag = "runs",
+    params(("id" = String, Path, description = "Id of the workload")),
+    responses(
+        (status = 200, body = PosedScene),
+        (status = 404, description = "The visitor has no such workload"),
+    ))]
+pub(crate) async fn show_scene(State(app): State<App>, Path(id): Path<String>) -> Result<Answer<PosedScene>> {
+    let _slot = app.drawing.acquire().await;
+    Ok(Answer(app.engine.workload_scene(&id).await?))
 }
 
 /// An object of the scene as glTF binary, as algorithms get it.

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use ocb_core::configuration::Configuration;
 use ocb_core::pose::Pose;
-use ocb_core::scene::{Geometry, Scene, SceneObject};
+use ocb_core::scene::{DisabledPair, Geometry, Scene, SceneObject};
 use ocb_core::stock;
 use ocb_core::workload::{Answered, Kind, Recorded};
 use ocb_service::Recording;
@@ -51,7 +51,8 @@ fn recording(queries: u64) -> Vec<u8> {
         seen: queries + 2,
         dropped: vec![ocb_service::recording::Dropped { reason: "sampled".into(), count: 2 }],
     };
-    let scene = SceneFile { scene: Scene { name: "robot".into(), objects, disabled: Vec::new() }, meshes };
+    let disabled = vec![DisabledPair { a: 0, b: 1, reason: "adjacent links".into() }];
+    let scene = SceneFile { scene: Scene { name: "robot".into(), objects, disabled }, meshes };
     let recording = Recording { scene, about, queries: (0..queries).map(query).collect() };
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("robot.ocbrec");
@@ -202,6 +203,13 @@ async fn a_recording_is_uploaded_replayed_and_taken_away() {
     let none = guest.get(&format!("{place}/objects/2/mesh.glb")).send().await.expect("an answer");
     assert!(problem(none, 422).await.contains("it has 2"));
 
+    let scene = guest.json(&format!("{place}/scene")).await;
+    let pair = json!({ "objects": [0, 1], "queries": 2000, "disabled": "adjacent links" });
+    assert_eq!((&scene["pairs"], &scene["asked_though_disabled"]), (&json!([pair]), &1.into()));
+    assert_eq!((scene["objects"].as_array().map(Vec::len), &scene["placed_by_queries"]), (Some(2), &true.into()));
+
+    heatmaps(&guest, &place).await;
+
     // Another replay of it needs no upload, and under one key it is one.
     let again = json!({ "algorithms": ["brute-force"], "tracks": ["recorded"], "passes": 1, "budget_seconds": 5.0 });
     let ask = || guest.post(&format!("{place}/again")).header("idempotency-key", "k").json(&again).send();
@@ -223,6 +231,49 @@ async fn a_recording_is_uploaded_replayed_and_taken_away() {
     assert_eq!(remove("/api/v1/data".into()).await.expect("an answer").status(), StatusCode::OK);
     assert_eq!(service.blobs(), 0);
     service.stop().await;
+}
+
+/// The heatmaps of both objects agree with the counts of the result, and the files with the heatmaps.
+async fn heatmaps(guest: &Guest, place: &str) {
+    let of = |object: u32, file: &str, more: &str| {
+        format!("{place}/objects/{object}/heatmap{file}?algorithm=box-tree&order=shuffled&measure={more}")
+    };
+    let numbers = |map: &Value, what: &str| -> Vec<f64> {
+        map[what].as_array().expect("a list").iter().map(|it| it.as_f64().unwrap_or(0.0)).collect()
+    };
+    let counts = |map: &Value| numbers(map, "counts").iter().sum::<f64>();
+    let knot = guest.json(&of(0, "", "queries")).await;
+    assert_eq!((&knot["n"], &knot["unit"], &knot["object"]), (&2000.into(), &"queries".into(), &0.into()));
+    // Each query has one triangle of the knot, with three vertices; a vertex without a query has no value.
+    assert_eq!((counts(&knot), numbers(&knot, "values")), (6000.0, numbers(&knot, "counts")));
+    let values = knot["values"].as_array().expect("a list");
+    assert!(values.iter().any(Value::is_null) && values.iter().all(|value| *value != json!(0.0)));
+    let [first, second] = [of(0, "", "queries&to=1010"), of(0, "", "queries&from=1010")];
+    let [first, second] = [guest.json(&first).await, guest.json(&second).await];
+    assert_eq!((&first["n"], &second["n"]), (&1000.into(), &1000.into()));
+    let sum: Vec<f64> = numbers(&first, "counts").iter().zip(numbers(&second, "counts")).map(|(a, b)| a + b).collect();
+    assert_eq!(sum, numbers(&knot, "counts"));
+    let ball = guest.json(&of(1, "", "time")).await;
+    assert_eq!((&ball["n"], &ball["unit"], counts(&ball)), (&2000.into(), &"ns".into(), 6000.0));
+    let [lo, hi] = [0, 1].map(|end| ball["range"][end].as_f64().expect("a number"));
+    assert!(0.0 < lo && lo < hi, "{lo} to {hi}");
+    assert_eq!(guest.json(&of(1, "", "wrong")).await["range"], json!([0.0, 0.0]));
+
+    let (csv, media_type) = guest.bytes(&of(1, ".csv", "time")).await;
+    let csv = String::from_utf8(csv).expect("text");
+    let value = |line: &str| line.split(',').nth(1).and_then(|value| value.parse().ok()).unwrap_or(0.0);
+    assert_eq!(csv.lines().skip(1).map(value).collect::<Vec<f64>>(), numbers(&ball, "values"));
+    assert!(media_type.contains("csv") && csv.starts_with("vertex,value_ns,count\n"));
+    let (ply, _) = guest.bytes(&of(1, ".ply", "time&colormap=cividis&scale=log")).await;
+    let head = String::from_utf8_lossy(&ply[..600]).into_owned();
+    assert!(
+        head.contains("run: robot.ocbrec, object 1, order shuffled") && head.contains("colormap: cividis"),
+        "{head}"
+    );
+    assert!(guest.bytes(&of(1, ".glb", "time")).await.0.starts_with(b"glTF"));
+    let told = async |path: String| problem(guest.get(&path).send().await.expect("an answer"), 422).await;
+    assert!(told(of(2, "", "time")).await.contains("it has 2"));
+    assert!(told(of(0, "", "time").replace("box-tree", "gjk")).await.contains("those that did: box-tree"));
 }
 
 #[tokio::test]
