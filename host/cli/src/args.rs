@@ -19,7 +19,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-pub use bench::{BenchArgs, Contacts, OrderArg, Question};
+pub use bench::{BenchArgs, Contacts, Question};
 pub use campaigns::{CampaignArgs, CampaignCommand, CampaignOf};
 pub use data::{DataCommand, Deleted, PlaceArgs};
 pub use looking::{HeatmapArgs, SelectArgs, WorstArgs};
@@ -27,7 +27,7 @@ pub use mail::MailArgs;
 pub use plugins::{AdminCommand, PluginCommand, SubmitArgs};
 pub use record::RecordArgs;
 pub use runs::{ReplayArgs, RunCommand};
-pub use scene::{ImportArgs, ReduceArgs, SceneCommand};
+pub use scene::{ImportArgs, ReduceArgs, SceneCommand, SceneHeatmapArgs};
 pub use services::{CiteArgs, CiteAs, Cited, LookArgs, ServiceArgs, Shown, VisibilityArgs};
 pub use suite::{SuiteCommand, SuiteRunArgs};
 pub use work::WorkArgs;

@@ -122,6 +122,26 @@ choice! {
     } without PurpleOrange
 }
 choice! {
+    /// The order of the queries of a pair.
+    OrderArg => ocb_service::model::Track {
+        /// Another one in each process.
+        Shuffled,
+        /// As recorded: algorithms may use that a query is like the one before.
+        Recorded,
+    }
+}
+choice! {
+    /// What to show on an object of a recording.
+    ObjectMeasureArg => ocb_service::model::ObjectMeasure {
+        /// Mean time per query.
+        Time,
+        /// Share of the answers that are wrong.
+        Wrong,
+        /// How many queries.
+        Queries,
+    }
+}
+choice! {
     /// How values are spread over the colours.
     ScaleArg => ocb_core::colormap::Scale {
         /// Evenly.

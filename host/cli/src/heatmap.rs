@@ -6,20 +6,13 @@ use std::process::ExitCode;
 
 use ocb_service::Engine;
 use ocb_service::model::{Heatmap, HeatmapRequest, RunInfo};
+use ocb_service::workload::HeatmapFormat as Format;
 use serde_json::json;
 
 use crate::args::{HeatmapArgs, Store};
 use crate::failure::{Failure, Result};
 use crate::open::{self, Purpose};
 use crate::{output, run};
-
-/// Which file.
-#[derive(Clone, Copy)]
-enum Format {
-    Glb,
-    Ply,
-    Csv,
-}
 
 /// Writes the file.
 pub async fn heatmap(store: &Store, args: &HeatmapArgs, json: bool) -> Result<ExitCode> {
@@ -58,7 +51,8 @@ async fn write(engine: &Engine, args: &HeatmapArgs, format: Format, json: bool) 
     output::print(&format!("{} ({} of {})", args.output.display(), crate::units::bytes(bytes.len() as u64), run.id))
 }
 
-fn format_of(path: &Path) -> Result<Format> {
+/// By the end of its name.
+pub fn format_of(path: &Path) -> Result<Format> {
     match path.extension().and_then(|end| end.to_str()).map(str::to_lowercase).as_deref() {
         Some("glb") => Ok(Format::Glb),
         Some("ply") => Ok(Format::Ply),

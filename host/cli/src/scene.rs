@@ -1,5 +1,6 @@
 //! `ocb scene`: robots as scenes, and what a scene consists of.
 
+mod heatmap;
 mod reduce;
 
 use std::collections::BTreeMap;
@@ -15,11 +16,12 @@ use crate::args::{ImportArgs, SceneCommand, Store};
 use crate::failure::Result;
 use crate::output;
 
-/// Imports, reduces or shows.
+/// Imports, reduces, shows, or writes a heatmap.
 pub async fn scene(store: &Store, command: &SceneCommand, json: bool) -> Result<ExitCode> {
     match command {
         SceneCommand::Reduce(args) => reduce::reduce(store, args, json).await,
         SceneCommand::Import(args) => import(args, json),
+        SceneCommand::Heatmap(args) => heatmap::heatmap(args, json),
         SceneCommand::Show { file } => show(file, json),
     }
 }

@@ -11,7 +11,7 @@ use ocb_service::model::{Track, WorkloadResult, WorkloadSpec};
 use ocb_service::workload::{Progress, Replayed, workload_parquet};
 use ocb_service::{Engine, Recording, Stop};
 
-use crate::args::{BenchArgs, OrderArg, Store};
+use crate::args::{BenchArgs, Store};
 use crate::failure::{Failure, INTERRUPTED, NOT_ALL_WELL, Result};
 use crate::open::{self, Purpose};
 use crate::{output, serve};
@@ -43,8 +43,7 @@ pub async fn bench(store: &Store, args: &BenchArgs, file: &Path, json: bool) -> 
 
 fn spec(args: &BenchArgs) -> Result<WorkloadSpec> {
     let tracks = match args.order {
-        Some(OrderArg::Shuffled) => vec![Track::Shuffled],
-        Some(OrderArg::Recorded) => vec![Track::Recorded],
+        Some(order) => vec![order.into()],
         None => vec![Track::Shuffled, Track::Recorded],
     };
     let spec = WorkloadSpec {

@@ -1,8 +1,7 @@
 //! Recordings that visitors bring: asking for a replay, looking at it, ending it.
 
-mod reduce;
-
 mod heatmaps;
+mod reduce;
 mod replay;
 pub mod sql;
 pub mod work;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use crate::choice::OrderArg;
 use crate::placing::PlacingArgs;
 
 /// `ocb bench`
@@ -69,15 +70,6 @@ pub struct BenchArgs {
     /// Folder for the result files: records as Parquet and CSV, configurations, run.json, heatmaps as GLB and PLY.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-}
-
-/// The order of the queries of a pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum OrderArg {
-    /// Another one in each process.
-    Shuffled,
-    /// As recorded: algorithms may use that a query is like the one before.
-    Recorded,
 }
 
 /// A share of one, as 5% or 0.05.

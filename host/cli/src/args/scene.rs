@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 
 use super::Unit;
+use crate::choice::{ColormapArg, ObjectMeasureArg, OrderArg, ScaleArg};
 
 /// `ocb scene`
 #[derive(Debug, Subcommand)]
@@ -14,6 +15,8 @@ pub enum SceneCommand {
     /// Replace each object of a recording by the simplest body that keeps every recorded answer within a tolerance, certified for
     /// each recorded query, and measure what that saves.
     Reduce(ReduceArgs),
+    /// Write where on an object of a replayed recording an algorithm is slow or wrong, as .glb, .ply or .csv.
+    Heatmap(SceneHeatmapArgs),
     /// List the objects of a scene or a recording.
     Show {
         /// A scene (.ocbscene) or a recording (.ocbrec).
@@ -80,6 +83,42 @@ pub struct ReduceArgs {
     /// Folder for the reduced recording (reduced.ocbrec), the report (reduction.json) and the robot.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// `ocb scene heatmap`
+#[derive(Debug, Args)]
+pub struct SceneHeatmapArgs {
+    /// The recording (.ocbrec).
+    pub recording: PathBuf,
+    /// The table of its replay: queries.parquet of `ocb bench --workload`, or from the page of a replay.
+    pub queries: PathBuf,
+    /// Name of the object; all queries count that it takes part in.
+    #[arg(long, value_name = "NAME")]
+    pub object: String,
+    /// Algorithm.
+    #[arg(long, value_name = "ID")]
+    pub algorithm: String,
+    /// Order of the queries.
+    #[arg(long, value_enum, default_value_t = OrderArg::Shuffled)]
+    pub order: OrderArg,
+    /// What to show.
+    #[arg(long, value_enum, default_value_t = ObjectMeasureArg::Time)]
+    pub measure: ObjectMeasureArg,
+    /// Number of the first query [default: the first of the recording].
+    #[arg(long, value_name = "SEQUENCE")]
+    pub from: Option<u64>,
+    /// Number of the query behind the last one [default: the end of the recording].
+    #[arg(long, value_name = "SEQUENCE")]
+    pub to: Option<u64>,
+    /// Colours.
+    #[arg(long, value_enum, default_value_t = ColormapArg::Turbo)]
+    pub colormap: ColormapArg,
+    /// How values are mapped to colours.
+    #[arg(long, value_enum, default_value_t = ScaleArg::Linear)]
+    pub scale: ScaleArg,
+    /// File to write: .glb (colours and values), .ply (colours and quality) or .csv (vertex, value, count).
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
 }
 
 fn package(text: &str) -> Result<(String, PathBuf), String> {

@@ -1,4 +1,6 @@
-//! `ocb scene`: robots as scenes, without a store.
+//! `ocb scene`: robots as scenes, without a store, and heatmaps of the objects of a replay.
+
+use serde_json::json;
 
 use crate::support::Desk;
 
@@ -45,4 +47,49 @@ fn what_cannot_be_imported_is_said_in_one_sentence() {
     assert!(why(&["--joint", "turn=x"]).contains("the value is not a finite number"));
     assert!(why(&["--package", "arm"]).contains("a name, = and a value are needed"));
     assert!(why(&["--joint", "knee=1"]).contains("it has no joint \"knee\""));
+}
+
+#[test]
+fn a_heatmap_of_an_object_colours_the_face_that_was_near() {
+    let desk = Desk::with(&["libocb_box_tree.so"]);
+    // A ball before the face of the table at x = 0.5, in front of both of its triangles.
+    let pose = |[x, y, z]: [f64; 3]| json!([1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z]);
+    let places = [[0.7, 0.3, 0.1], [0.7, -0.3, -0.1], [0.7, 0.1, 0.3], [0.7, -0.1, -0.3]];
+    let query = |place| json!({ "objects": ["table", "ball"], "query": "distance", "pose_b": pose(place) });
+    let written = json!({
+        "objects": [
+            { "name": "table", "geometry": { "kind": "box", "size": [1, 1, 1] } },
+            { "name": "ball", "geometry": { "kind": "sphere", "radius": 0.1 } },
+        ],
+        "queries": places.map(query),
+    });
+    let poses = desk.file("poses.json", written.to_string());
+    let [recording, out] = ["tip.ocbrec", "out"].map(|name| desk.path(name).display().to_string());
+    assert_eq!(desk.run(&["record", "--poses", &poses, "--out", &recording]).code, 0);
+    let replay = ["bench", "--workload", &recording, "--algorithm", "box-tree", "--passes", "1", "--out", &out];
+    assert_eq!(desk.run(&replay).code, 0);
+
+    let queries = desk.path("out/queries.parquet").display().to_string();
+    let map = |object: &str, more: &[&str]| {
+        let to = ["scene", "heatmap", &recording, &queries, "--object", object, "--algorithm", "box-tree"];
+        desk.run(&[&to[..], more].concat())
+    };
+    let csv = desk.path("map.csv").display().to_string();
+    let ended = map("table", &["--measure", "queries", "--order", "recorded", "-o", &csv]);
+    assert_eq!((ended.code, ended.stdout), (0, format!("{csv} (4 queries about table)\n")), "{}", ended.stderr);
+    let written = std::fs::read_to_string(&csv).expect("a file");
+    let lines: Vec<&str> = written.lines().collect();
+    assert_eq!((lines[0], lines.len()), ("vertex,value_queries,count", 9));
+    assert_eq!(lines.iter().filter(|line| line.ends_with(",,0")).count(), 4, "{written}");
+    let ply = desk.path("map.ply").display().to_string();
+    assert_eq!(map("table", &["--to", "3", "-o", &ply]).code, 0);
+    let head = String::from_utf8_lossy(&std::fs::read(&ply).expect("a file")).into_owned();
+    for words in ["run: tip.ocbrec, object 0, order shuffled", "configurations: 3", "sequence in [0, 3)", "unit: ns"] {
+        assert!(head.contains(words), "{words}");
+    }
+    let told = |ended: crate::support::Ended| (ended.code, ended.stderr);
+    let (code, why) = told(map("chair", &["-o", &csv]));
+    assert!(code == 2 && why.contains("no object \"chair\""), "{why}");
+    let (code, why) = told(map("table", &["-o", &poses]));
+    assert!(code == 2 && why.contains("must end in .glb, .ply or .csv"), "{why}");
 }
