@@ -1,7 +1,10 @@
 // A visitor replays a recording: uploads it, follows it, reads what was found, chooses a stretch of it, and takes the files away.
 import assert from 'node:assert/strict'
+import { readFileSync, writeFileSync } from 'node:fs'
+import { dirname, join } from 'node:path'
 import { test } from 'node:test'
 import { recording } from '../recording.mjs'
+import { ocb } from '../service.mjs'
 import { until, visitor } from '../visitor.mjs'
 
 /** Uploads the recording with two algorithms and so many processes each; gives the id of the replay. */
@@ -90,6 +93,67 @@ test('a recording is replayed, read and explored', async (t) => {
   for (const name of ['workload-json', 'workload-parquet', 'workload-recording', 'timeline-svg']) await v.at(name).click()
   await until('the files', () => files.length === 4)
   assert.match(await v.at('workload-command').textContent(), new RegExp(`--run-seed ${result.seed}`))
+})
+
+test('a heatmap shows where on an object its queries are', async (t) => {
+  const v = await visitor(t, { width: 1280, height: 1000 })
+  const id = await upload(v, recording(), 1)
+  await until('the replay to end', async () => (await state(v)) === 'done')
+  const { result } = await v.api(`/workloads/${id}`)
+
+  // Object, algorithm, order and measure by keyboard; each is in the link.
+  await v.at('heat-object').selectOption('table')
+  await v.page.waitForURL(/object=1/)
+  await v.at('heat-algorithm').selectOption('box-tree')
+  await v.at('heat-order-recorded').focus()
+  await v.page.keyboard.press('Space')
+  await v.page.waitForURL(/order=recorded/)
+  await v.at('heat-queries').focus()
+  await v.page.keyboard.press('Space')
+  await v.page.waitForURL(/measure=queries/)
+  const query = 'algorithm=box-tree&order=recorded&measure=queries'
+  const map = await v.api(`/workloads/${id}/objects/1/heatmap?${query}`)
+  const asked = result.tracks[0].algorithms[0].pairs.filter(({ objects }) => objects.includes(1)).reduce((sum, { n }) => sum + n, 0)
+  assert.equal(map.n, asked, 'all queries that the table takes part in')
+  await until('the words of this heatmap', async () => (await v.at('heat-words').textContent()).startsWith(`${map.n} queries about table`))
+  await v.at('heat-stage').locator('[data-ready=true]').waitFor()
+  // Some of the faces are never near; their corners say so, in the legend as well.
+  const none = map.values.filter((value) => value === null).length
+  assert.match(await v.at('legend').textContent(), new RegExp(`n = ${map.n}.*no query touched this${none}`))
+  await until('colours', async () => (await v.colours(v.at('heat-stage'))).coloured > 2000)
+
+  // A vertex is read by its number, and by the middle of the picture.
+  const top = map.values.indexOf(map.range[1])
+  await v.at('pick-vertex').fill(String(top))
+  await v.at('pick-vertex').press('Enter')
+  await until('the value', async () => (await v.value('pick-value')) === map.range[1])
+  await v.at('heat-stage').getByTestId('viewer-0').focus()
+  await v.page.keyboard.press('ArrowLeft')
+  await v.page.keyboard.press('Enter')
+  const read = Number(await v.at('pick-vertex').getAttribute('data-vertex'))
+  if (map.values[read] !== null) assert.equal(await v.value('pick-value'), map.values[read])
+  else assert.match(await v.at('pick-value').textContent(), /no query touched this/)
+  await v.page.reload()
+  await until('the same heatmap', async () => (await v.at('heat-words').textContent()).startsWith(`${map.n} queries about table`))
+
+  // The command line makes the same table from the files of the page.
+  const [bytes, csv] = await Promise.all(['queries.parquet', `objects/1/heatmap.csv?${query}`].map(async (file) =>
+    (await v.context.request.get(`${new URL(v.page.url()).origin}/api/v1/workloads/${id}/${file}`)).body()))
+  const folder = dirname(recording())
+  writeFileSync(join(folder, `workload-${id}.parquet`), bytes)
+  const command = await v.at('heat-command').textContent()
+  const words = command.replaceAll('\\\n', ' ').split(/\s+/).slice(1, -1)
+  const made = join(folder, 'heatmap.csv')
+  ocb([...words.map((word) => (/\.(ocbrec|parquet)$/.test(word) ? join(folder, word) : word)), made])
+  assert.equal(readFileSync(made, 'utf8'), csv.toString())
+  const files = []
+  v.page.on('download', (file) => files.push(file.suggestedFilename()))
+  for (const end of ['glb', 'ply', 'csv']) await v.at(`heat-${end}`).click()
+  await until('the files', () => files.length === 3)
+
+  await v.accessible('a replay with a heatmap')
+  await v.at('heat-stage').scrollIntoViewIfNeeded()
+  await v.picture('workload-heatmap')
 })
 
 test('a replay is asked for again and deleted on a telephone', async (t) => {

@@ -103,6 +103,8 @@ export type AlgorithmOnStretch = Schemas['AlgorithmOnStretch']
 export type AlgorithmOnWorkload = Schemas['AlgorithmOnWorkload']
 export type FalseAnswer = Schemas['FalseAnswer']
 export type PairTime = Schemas['PairTime']
+export type ObjectHeatmap = Schemas['ObjectHeatmap']
+export type ObjectMeasure = Schemas['ObjectMeasure']
 export type PosedGroup = Schemas['PosedGroup']
 export type RecordedAnswers = Schemas['RecordedAnswers']
 export type StretchResult = Schemas['StretchResult']
@@ -120,3 +122,5 @@ export type Track = Schemas['Track']
 export type RecordedClaim = Schemas['RecordedClaim']
 /** Consecutive queries of a recording, from its first to the one behind its last. */
 export type Stretch = NonNullable<paths['/api/v1/workloads/{id}/stretch']['get']['parameters']['query']>
+/** Which queries about an object, and what is shown of them. */
+export type ObjectHeatmapRequest = NonNullable<paths['/api/v1/workloads/{id}/objects/{object}/heatmap']['get']['parameters']['query']>

@@ -1,5 +1,5 @@
 import { answer, fetchBytes, http, nothing, part, whole } from './client'
-import type { PosedGroup, Stretch, StretchResult, WorkloadInfo, WorkloadSpec } from './types'
+import type { ObjectHeatmap, ObjectHeatmapRequest, PosedGroup, Stretch, StretchResult, WorkloadInfo, WorkloadSpec } from './types'
 
 const of = (id: string) => ({ params: { path: { id } } })
 
@@ -35,6 +35,16 @@ export const getStretch = (id: string, query: Stretch): Promise<StretchResult> =
 /** A group as it stands in space. */
 export const getGroup = (id: string, query: { sequence?: number; group?: number }): Promise<PosedGroup> =>
   answer(http.GET('/api/v1/workloads/{id}/group', { params: { path: { id }, query } }))
+
+/** Values on the vertices of an object, from all queries that it takes part in. */
+export const getObjectHeatmap = (id: string, object: number, query: ObjectHeatmapRequest): Promise<ObjectHeatmap> =>
+  answer(http.GET('/api/v1/workloads/{id}/objects/{object}/heatmap', { params: { path: { id, object }, query } }))
+
+/** The same as a file. */
+export function objectHeatmapFile(id: string, object: number, end: 'csv' | 'glb' | 'ply', query: ObjectHeatmapRequest, log: boolean): string {
+  const given = Object.entries({ ...query, ...(end !== 'csv' && log && { scale: 'log' }) }).filter(([, value]) => value != null)
+  return `${workloadFile(id)}/objects/${object}/heatmap.${end}?${new URLSearchParams(given.map(([key, value]) => [key, String(value)]))}`
+}
 
 /** An object of the scene as binary glTF. */
 export const getWorkloadMesh = (id: string, object: number): Promise<ArrayBuffer> => fetchBytes(`${workloadFile(id)}/objects/${object}/mesh.glb`)

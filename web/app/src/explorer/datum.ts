@@ -5,7 +5,8 @@ export const FEW = 8
 export interface VertexData {
   values: readonly (number | null)[]
   counts: readonly number[]
-  dropped: readonly number[]
+  /** Absent where none is dropped. */
+  dropped?: readonly number[]
 }
 
 type Datum = Float32Array<ArrayBuffer>
@@ -25,7 +26,7 @@ function make(map: VertexData, fadeFew: boolean): Datum {
     const has = value !== null && Number.isFinite(value)
     out[i * 4] = has ? value : 0
     out[i * 4 + 1] = has ? 1 : 0
-    out[i * 4 + 2] = !has && (map.dropped[i] ?? 0) > 0 ? 1 : 0
+    out[i * 4 + 2] = !has && (map.dropped?.[i] ?? 0) > 0 ? 1 : 0
     out[i * 4 + 3] = fadeFew ? Math.min(1, (map.counts[i] ?? 0) / FEW) : 1
   })
   return out
@@ -50,7 +51,7 @@ export function coverage(maps: readonly VertexData[]): Coverage {
       if (value !== null) {
         total.coloured++
         if ((map.counts[i] ?? 0) < FEW) total.few++
-      } else if ((map.dropped[i] ?? 0) > 0) total.allDropped++
+      } else if ((map.dropped?.[i] ?? 0) > 0) total.allDropped++
       else total.noData++
     })
   }

@@ -4,8 +4,8 @@ import { createApp, h, nextTick, type App, type Component } from 'vue'
 import { createMemoryHistory, createRouter } from 'vue-router'
 import { listAlgorithms } from '../api/client'
 import { ApiError } from '../api/errors'
-import type { WorkloadInfo } from '../api/types'
-import { getStretch, getWorkload, startWorkload } from '../api/workloads'
+import type { ObjectHeatmap, WorkloadInfo } from '../api/types'
+import { getGroup, getObjectHeatmap, getStretch, getWorkload, startWorkload } from '../api/workloads'
 import WorkloadPage from '../pages/WorkloadPage.vue'
 import PairMatrix from './PairMatrix.vue'
 import { algorithm, pair, replay } from './sample'
@@ -19,6 +19,8 @@ let host = document.createElement('div')
 const router = createRouter({ history: createMemoryHistory(), routes: [{ path: '/:rest(.*)*', component: { render: () => null } }] })
 beforeEach(() => {
   vi.mocked(listAlgorithms).mockResolvedValue([])
+  const absent = new ApiError('Not in this test.', 404)
+  for (const fetched of [getGroup, getObjectHeatmap, getStretch]) vi.mocked<(...given: never[]) => Promise<unknown>>(fetched).mockRejectedValue(absent)
   // happy-dom has no pointers to capture.
   Element.prototype.setPointerCapture ??= () => undefined
 })
@@ -110,6 +112,35 @@ describe('the page of a replay', () => {
     await settle()
     expect(router.currentRoute.value.query).toEqual({})
     expect(host.querySelectorAll('[data-testid=pair-matrix] button')).toHaveLength(2)
+  })
+})
+
+describe('the heatmap of an object', () => {
+  const heatmap = (values: (number | null)[]): ObjectHeatmap => ({
+    object: 2, request: { algorithm: 'fast', order: 'shuffled', measure: 'wrong' }, unit: 'share', values, counts: values.map((value) => (value === null ? 0 : 9)), n: 27, range: [0, 0.5],
+  })
+
+  it('is that of the link, with its legend, and writes another choice into the link', async () => {
+    vi.mocked(getObjectHeatmap).mockResolvedValue(heatmap([0, 0.5, null, null]))
+    await page({ result: replay() }, '/workloads/1?object=2&measure=wrong&from=50')
+    expect(getObjectHeatmap).toHaveBeenLastCalledWith('1', 2, { algorithm: 'fast', order: 'shuffled', measure: 'wrong', from: 50 })
+    expect(at('heat-words')?.textContent).toContain('27 queries about ball reach 2 of its 4 vertices')
+    expect(at('legend')?.textContent).toMatch(/Share of wrong answers.*n = 27.*no query touched this2/)
+    expect(at('heat-ply')?.getAttribute('href')).toContain('/objects/2/heatmap.ply?algorithm=fast&order=shuffled&measure=wrong&from=50')
+    expect(at('heat-command')?.textContent).toContain('--object ball')
+    const object = at('heat-object') as HTMLSelectElement
+    object.value = '1'
+    object.dispatchEvent(new Event('change'))
+    await settle()
+    expect(router.currentRoute.value.query).toMatchObject({ object: '1', measure: 'wrong' })
+    expect(getObjectHeatmap).toHaveBeenLastCalledWith('1', 1, expect.objectContaining({ measure: 'wrong' }))
+  })
+
+  it('says what to do where the replay is too old, and the rest of the page stays', async () => {
+    vi.mocked(getObjectHeatmap).mockRejectedValue(new ApiError('Replay the recording again to get heatmaps.', 422))
+    await page({ result: replay() })
+    expect([...host.querySelectorAll('[role=alert]')].map((one) => one.textContent)).toContainEqual(expect.stringContaining('Replay the recording again'))
+    expect([at('legend'), at('heat-ply'), at('pair-matrix') === null]).toEqual([null, null, false])
   })
 })
 

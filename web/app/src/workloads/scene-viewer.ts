@@ -2,15 +2,20 @@ import { Box3, type BufferGeometry, DoubleSide, Matrix4, Mesh, MeshLambertMateri
 import { Stage } from '../explorer/stage'
 import { originOf } from '../explorer/surface'
 
-/** An object in its place, and whether it collides with another one. */
+/** How an object is drawn: as the others, strongly because it collides, or strongly because its pair is chosen. */
+export type Tone = 'usual' | 'hit' | 'chosen'
+
+const COLOUR: Record<Tone, string> = { usual: '--series-0', hit: '--bad', chosen: '--series-1' }
+
+/** An object in its place. */
 export interface Placed {
   surface: BufferGeometry
   /** Row-major. */
   pose: readonly number[]
-  hit: boolean
+  tone: Tone
 }
 
-/** Draws the objects of a group, those that collide in a colour of their own. */
+/** Draws objects of a scene, some of them in a colour of their own. */
 export class SceneViewer extends Stage {
   show(objects: readonly Placed[]): void {
     this.clear()
@@ -19,15 +24,16 @@ export class SceneViewer extends Stage {
     // Drawn about the first object: the graphics card has single precision, and a scene may be far from the origin.
     const about = new Vector3().setFromMatrixPosition(new Matrix4().fromArray([...first.pose]).transpose())
     const box = new Box3()
-    for (const { surface, pose, hit } of objects) {
+    for (const { surface, pose, tone } of objects) {
       if (!surface.getAttribute('normal')) surface.computeVertexNormals()
       const placed = new Matrix4().fromArray([...pose]).transpose().multiply(new Matrix4().makeTranslation(new Vector3(...originOf(surface))))
       placed.premultiply(new Matrix4().makeTranslation(about.clone().negate()))
+      const strong = tone !== 'usual'
       const material = new MeshLambertMaterial({
-        color: this.colour(hit ? '--bad' : '--series-0'), side: DoubleSide, transparent: true, opacity: hit ? 0.85 : 0.4, depthWrite: hit,
+        color: this.colour(COLOUR[tone]), side: DoubleSide, transparent: true, opacity: strong ? 0.85 : 0.4, depthWrite: strong,
       })
       const mesh = new Mesh(surface, material)
-      this.place(mesh, placed, hit ? 1 : 2)
+      this.place(mesh, placed, strong ? 1 : 2)
       mesh.updateMatrixWorld(true)
       box.expandByObject(mesh, true)
     }

@@ -1,5 +1,5 @@
 import type { AlgorithmInfo } from '../api/types'
-import type { ReduceTerms, Track, WorkloadResult, WorkloadSpec } from '../api/types'
+import type { ObjectHeatmapRequest, ReduceTerms, Track, WorkloadResult, WorkloadSpec } from '../api/types'
 import { quote } from '../builder/command-line'
 import { plainId } from '../builder/form'
 
@@ -64,6 +64,17 @@ export function fromSpec(spec: Partial<WorkloadSpec>, known: readonly AlgorithmI
     budget: spec.budget_seconds ?? form.budget,
     reduce: spec.reduce ? { wanted: true, tolerance: spec.reduce.tolerance, near: spec.reduce.near ?? 0, outsideOnly: spec.reduce.outside_only ?? false, frontier: spec.reduce.frontier ?? false } : form.reduce,
   }
+}
+
+/** A heatmap of an object on the command line, from the recording and the table of its replay. */
+export function heatmapCommand(file: string, table: string, object: string, { algorithm, order, measure, from, to }: ObjectHeatmapRequest): string {
+  return [
+    `ocb scene heatmap ${quote(file)} ${quote(table)}`,
+    `--object ${quote(object)} --algorithm ${quote(algorithm)} --order ${order} --measure ${measure}`,
+    ...(from == null ? [] : [`--from ${from}`]),
+    ...(to == null ? [] : [`--to ${to}`]),
+    '--output heatmap.ply',
+  ].join(' \\\n  ')
 }
 
 /** The same replay on the command line, with the seed that was used. */
