@@ -95,7 +95,7 @@ test('a recording is replayed, read and explored', async (t) => {
   assert.match(await v.at('workload-command').textContent(), new RegExp(`--run-seed ${result.seed}`))
 })
 
-test('a heatmap shows where on an object its queries are', async (t) => {
+test('a heatmap shows where on an object its queries are, and the scene shows the pair that is chosen', async (t) => {
   const v = await visitor(t, { width: 1280, height: 1000 })
   const id = await upload(v, recording(), 1)
   await until('the replay to end', async () => (await state(v)) === 'done')
@@ -151,9 +151,23 @@ test('a heatmap shows where on an object its queries are', async (t) => {
   for (const end of ['glb', 'ply', 'csv']) await v.at(`heat-${end}`).click()
   await until('the files', () => files.length === 3)
 
-  await v.accessible('a replay with a heatmap')
+  // A pair of the matrix is lit in the scene, which has all objects.
+  await v.at('scene-stage').scrollIntoViewIfNeeded()
+  assert.equal(await v.at('scene-stage').getAttribute('data-objects'), '3')
+  assert.match(await v.at('scene-words').textContent(), /3 of 3 pairs were asked\. The recording disables none/)
+  const before = await v.colours(v.at('scene-stage'))
+  await v.at('pair-matrix').locator('button[tabindex="0"]').focus()
+  await v.page.keyboard.press('Enter')
+  await v.page.waitForURL(/pair=\d-\d/)
+  const pair = new URL(v.page.url()).searchParams.get('pair')
+  assert.equal(await v.at('scene-pairs').locator('tr.chosen').getAttribute('data-pair'), pair)
+  assert.equal(await v.at('pair-matrix').locator('button[aria-pressed="true"]').count(), 1)
+  await until('the pair in its colour', async () => Object.keys((await v.colours(v.at('scene-stage'))).each).some((hue) => !(hue in before.each)))
+  await v.accessible('a replay with a heatmap and a chosen pair')
   await v.at('heat-stage').scrollIntoViewIfNeeded()
   await v.picture('workload-heatmap')
+  await v.at('scene-stage').scrollIntoViewIfNeeded()
+  await v.picture('workload-scene')
 })
 
 test('a replay is asked for again and deleted on a telephone', async (t) => {

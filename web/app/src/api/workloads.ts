@@ -1,5 +1,5 @@
 import { answer, fetchBytes, http, nothing, part, whole } from './client'
-import type { ObjectHeatmap, ObjectHeatmapRequest, PosedGroup, Stretch, StretchResult, WorkloadInfo, WorkloadSpec } from './types'
+import type { ObjectHeatmap, ObjectHeatmapRequest, PosedGroup, PosedScene, Stretch, StretchResult, WorkloadInfo, WorkloadSpec } from './types'
 
 const of = (id: string) => ({ params: { path: { id } } })
 
@@ -35,6 +35,9 @@ export const getStretch = (id: string, query: Stretch): Promise<StretchResult> =
 /** A group as it stands in space. */
 export const getGroup = (id: string, query: { sequence?: number; group?: number }): Promise<PosedGroup> =>
   answer(http.GET('/api/v1/workloads/{id}/group', { params: { path: { id }, query } }))
+
+/** The scene with all its objects, and its pairs. */
+export const getScene = (id: string): Promise<PosedScene> => answer(http.GET('/api/v1/workloads/{id}/scene', of(id)))
 
 /** Values on the vertices of an object, from all queries that it takes part in. */
 export const getObjectHeatmap = (id: string, object: number, query: ObjectHeatmapRequest): Promise<ObjectHeatmap> =>

@@ -5,7 +5,7 @@ import { createMemoryHistory, createRouter } from 'vue-router'
 import { listAlgorithms } from '../api/client'
 import { ApiError } from '../api/errors'
 import type { ObjectHeatmap, WorkloadInfo } from '../api/types'
-import { getGroup, getObjectHeatmap, getStretch, getWorkload, startWorkload } from '../api/workloads'
+import { getGroup, getObjectHeatmap, getScene, getStretch, getWorkload, startWorkload } from '../api/workloads'
 import WorkloadPage from '../pages/WorkloadPage.vue'
 import PairMatrix from './PairMatrix.vue'
 import { algorithm, pair, replay } from './sample'
@@ -20,7 +20,7 @@ const router = createRouter({ history: createMemoryHistory(), routes: [{ path: '
 beforeEach(() => {
   vi.mocked(listAlgorithms).mockResolvedValue([])
   const absent = new ApiError('Not in this test.', 404)
-  for (const fetched of [getGroup, getObjectHeatmap, getStretch]) vi.mocked<(...given: never[]) => Promise<unknown>>(fetched).mockRejectedValue(absent)
+  for (const fetched of [getGroup, getObjectHeatmap, getScene, getStretch]) vi.mocked<(...given: never[]) => Promise<unknown>>(fetched).mockRejectedValue(absent)
   // happy-dom has no pointers to capture.
   Element.prototype.setPointerCapture ??= () => undefined
 })
@@ -142,6 +142,27 @@ describe('the heatmap of an object', () => {
     expect([...host.querySelectorAll('[role=alert]')].map((one) => one.textContent)).toContainEqual(expect.stringContaining('Replay the recording again'))
     expect([at('legend'), at('heat-ply'), at('pair-matrix') === null]).toEqual([null, null, false])
   })
+})
+
+it('lights a pair of the matrix in the list of the scene, with why it is disabled', async () => {
+  const scenePairs = [{ objects: [0, 1], queries: 60, disabled: null }, { objects: [1, 2], queries: 0, disabled: 'adjacent links' }]
+  vi.mocked(getScene).mockResolvedValue({
+    objects: [0, 1, 2].map((object) => ({ object, pose: [] })), placed_by_queries: false, pairs: scenePairs, asked: 1, disabled: 1, asked_though_disabled: 0,
+  })
+  await page({ result: replay() })
+  expect(at('scene-words')?.textContent).toBe('1 of 3 pairs were asked. 1 is disabled; 1 is neither.')
+  host.querySelector<HTMLElement>('[data-testid=pair-matrix] button')?.click()
+  await settle()
+  expect(router.currentRoute.value.query).toEqual({ pair: '0-1' })
+  const lit = () => [...host.querySelectorAll('[data-testid=scene-pairs] tr.chosen')].map((row) => row.getAttribute('data-pair'))
+  expect([lit(), at('scene-lit')?.textContent]).toEqual([['0-1'], expect.stringContaining('arm against table: asked 60 times.')])
+  expect(host.querySelector('[data-testid=pair-matrix] button')?.getAttribute('aria-pressed')).toBe('true')
+  host.querySelector<HTMLElement>('[data-testid=scene-pairs] [data-pair="1-2"] button')?.click()
+  await settle()
+  expect([lit(), at('scene-lit')?.textContent]).toEqual([['1-2'], expect.stringContaining('table against ball: disabled (adjacent links).')])
+  at('scene-unlit')?.click()
+  await settle()
+  expect([lit(), router.currentRoute.value.query]).toEqual([[], {}])
 })
 
 it('walks the matrix with the arrow keys, over places without a pair', async () => {

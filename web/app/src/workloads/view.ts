@@ -19,6 +19,8 @@ export interface View {
   stretch: Stretch | null
   /** A query, whose group is shown in space; the slowest group without it. */
   at: number | null
+  /** The pair that is lit in the matrix and in the scene, the smaller place first. */
+  pair: [number, number] | null
   /** The object with a heatmap, by its place in the scene. */
   object: number
   /** What its heatmap shows. */
@@ -43,6 +45,7 @@ export function readView(query: Record<string, unknown>, result: WorkloadResult)
     lines: lines.length > 0 ? lines : ids.slice(0, LINES),
     stretch: readStretch(query),
     at: /^\d{1,15}$/.test(String(query['at'])) ? Number(query['at']) : null,
+    pair: pairIn(query['pair'], result),
     object: result.objects[placeIn(query['object'])] ? placeIn(query['object']) : dearest(algorithms.find(({ one }) => one.algorithm === algorithm)?.one),
     measure: (Object.keys(MEASURED) as ObjectMeasure[]).find((measure) => measure === query['measure']) ?? 'time',
     log: query['log'] === '1',
@@ -50,6 +53,11 @@ export function readView(query: Record<string, unknown>, result: WorkloadResult)
 }
 
 const placeIn = (text: unknown): number => (/^\d{1,6}$/.test(String(text)) ? Number(text) : -1)
+
+function pairIn(text: unknown, { objects }: Pick<WorkloadResult, 'objects'>): [number, number] | null {
+  const [a = -1, b = -1, ...more] = String(text ?? '').split('-').map(placeIn)
+  return more.length === 0 && a < b && objects[a] && objects[b] ? [a, b] : null
+}
 
 /** The object whose pairs take most of the time. */
 function dearest(one: AlgorithmOnWorkload | undefined): number {
