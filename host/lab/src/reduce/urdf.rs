@@ -15,6 +15,7 @@ use ocb_sandbox::given;
 use roxmltree::Node;
 
 use super::{Reduced, within};
+use crate::model::BodyKind;
 use crate::recording::Recording;
 use crate::scene_file::SceneFile;
 use crate::scene_import::{self, Wanted, kinematics};
@@ -101,7 +102,7 @@ impl Robot {
         let mut meshes = Vec::new();
         for Part { range, object, name, shown, origin } in &self.parts {
             let stand_in = &reduced.stand_ins[*object];
-            if stand_in.kind == super::BodyKind::Object {
+            if stand_in.kind == BodyKind::Object {
                 continue;
             }
             text.push_str(&self.text[from..range.start]);

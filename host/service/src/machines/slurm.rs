@@ -89,3 +89,37 @@ fn the_name_of_jobs_does_not_depend_on_a_password() {
     let [plain, other] = ["postgres://a:secret@db/ocb", "postgres://a:other@db:5432/ocb"].map(without_password);
     assert_eq!((plain.as_deref(), other.as_deref()), (Some("db:5432/ocb"), Some("db:5432/ocb")));
 }
+
+#[test]
+fn a_partition_has_the_class_that_its_nodes_tell() {
+    let node = |name: &str, class: &str, partition: Option<&str>, revoked_us| MachineInfo {
+        name: name.into(),
+        facts: Some(MachineFacts {
+            version: "1".into(),
+            runner_sha256: String::new(),
+            plugins: Vec::new(),
+            hardware_class: class.into(),
+            cpu: String::new(),
+            kernel: String::new(),
+            microcode: String::new(),
+            governor: String::new(),
+            profile: "production".into(),
+            partition: partition.map(str::to_owned),
+        }),
+        created_us: 0,
+        seen_us: Some(0),
+        revoked_us,
+        run: None,
+        trouble: None,
+        drift: None,
+    };
+    let nodes = [
+        node("a", "old", Some("new-nodes"), Some(1)),
+        node("b", "here", None, None),
+        node("c", "usual", Some("nodes"), None),
+        node("d", "new", Some("new-nodes"), None),
+    ];
+    let of = |partition| class_of(&nodes, partition);
+    assert_eq!((of("nodes").as_deref(), of("new-nodes").as_deref()), (Some("usual"), Some("new")), "one is revoked");
+    assert_eq!(of("others"), None, "no node has asked yet");
+}

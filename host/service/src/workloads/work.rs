@@ -73,7 +73,7 @@ async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, row: &WorkloadRow, sto
     let replaying = async {
         let of = (recording.clone(), row.spec.clone(), algorithms.clone());
         let mut replayed = replay(inner, of.0, of.1, of.2, stop.clone(), tell, || {}).await?;
-        let Some(terms) = row.spec.reduce else { return Ok((replayed, None)) };
+        let Some(terms) = row.spec.reduce else { return Ok::<_, EngineError>((replayed, None)) };
         let reducing =
             Reducing { inner, recording: &recording, spec: &row.spec, algorithms: &algorithms, stop, doing: &doing };
         let (reduced, file) = reducing.reduced(terms, &replayed.result).await?;

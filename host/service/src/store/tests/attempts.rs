@@ -257,7 +257,7 @@ pub async fn lost_checks_parts_and_advice_change_nothing(store: Store) {
     let (part, _) = store.begin_part(1, &me).await.unwrap().unwrap();
     assert!(store.add_workload(&workload("w", "me", "f")).await.unwrap());
     let (replay, _) = store.begin_replay(&me).await.unwrap().unwrap();
-    store.replay_is_at("w", 5).await.unwrap();
+    store.replay_is_at("w", 5, Some("It is doing something.")).await.unwrap();
     let advice = store.add_advice(&advice_info("v"), "me", "turn", &me).await.unwrap().unwrap();
     assert!(store.note_vetted(&check).await.unwrap());
     assert!(store.open_advice().await.unwrap().is_empty(), "a second service takes up nothing of the first");
@@ -291,11 +291,11 @@ pub async fn lost_checks_parts_and_advice_change_nothing(store: Store) {
     let (second, row) = store.begin_replay(&other).await.unwrap().unwrap();
     assert_eq!((row.attempts, row.done), (2, 0), "it begins anew");
     let found = workload_result();
-    assert!(!store.accept_replay(&replay, &found, "table").await.unwrap());
+    assert!(!store.accept_replay(&replay, &found, "table", None).await.unwrap());
     assert!(!store.give_up_replay(&replay, State::Failed, None).await.unwrap());
     assert_eq!(store.workload_table("w").await.unwrap(), None);
-    assert!(store.accept_replay(&second, &found, "table").await.unwrap());
-    assert!(!store.accept_replay(&second, &found, "other").await.unwrap());
+    assert!(store.accept_replay(&second, &found, "table", Some("smaller")).await.unwrap());
+    assert!(!store.accept_replay(&second, &found, "other", None).await.unwrap());
     assert_eq!(store.workload_table("w").await.unwrap().as_deref(), Some("table"));
     assert_eq!(store.workload_result("w").await.unwrap(), Some(found));
 
