@@ -6,6 +6,8 @@
 #include <sys/resource.h>
 
 int main(int argc, char **argv) {
+  /* A capsule without a radius; one without a length is a ball. */
+  static const double thin[] = {0, 1};
   static const double vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, radius = 0.5, none = 0;
   static const uint32_t corners[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}, wrong[] = {0, 1, 4};
   if (argc != 2 || ocb_recording_open("/nonexistent/spool", "p", "l", "1"))
@@ -18,6 +20,8 @@ int main(int argc, char **argv) {
   const int32_t no_mesh = ocb_recording_mesh(recording, "wrong", vertices, 4, wrong, 1);
   if (no_mesh >= 0 || ocb_recording_primitive(recording, OCB_SPHERE, &none) >= 0 || ocb_recording_query(NULL, NULL) != -1)
     return 3;
+  if (ocb_recording_primitive(recording, OCB_CAPSULE, thin) >= 0)
+    return 10;
   ocb_query query = {.kind = OCB_DISTANCE, .objects = {corner, ball}, .answered = OCB_MEASURED, .seconds = 1e-6};
   for (int i = 0; i < 2; ++i)
     for (int k = 0; k < 3; ++k)

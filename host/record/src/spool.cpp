@@ -156,9 +156,9 @@ std::uint32_t Spool::mesh(const std::string &name, const Triangles &mesh, const 
 }
 
 std::uint32_t Spool::primitive(const std::string &kind, const std::vector<double> &sizes, std::uint32_t library) {
-  for (const double size : sizes)
-    // A capsule may be a ball.
-    if (!(size >= SMALLEST && size <= LARGEST) && !(size == 0 && kind == "capsule"))
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    // A capsule may be a ball: it has a radius, and no length.
+    if (!(sizes[i] >= SMALLEST && sizes[i] <= LARGEST) && !(sizes[i] == 0 && kind == "capsule" && i == 1))
       throw Unusable{"a " + kind + " has a length that cannot be computed with"};
   std::string geometry = "{\"kind\": \"" + kind + "\", ";
   if (kind == "box")

@@ -67,9 +67,10 @@ class Spool:
         if key not in self._objects:
             if len(self._objects) >= MOST_OBJECTS:
                 raise Unusable(f"an object is beyond the first {MOST_OBJECTS}")
-            lengths = [x for value in shape.values() if not isinstance(value, str) for x in np.ravel(value)]
-            # A capsule may be a ball.
-            if not all(SMALLEST <= x <= LARGEST or (x == 0 and shape["kind"] == "capsule") for x in lengths):
+            lengths = [(field, x) for field, value in shape.items() if not isinstance(value, str) for x in np.ravel(value)]
+            # A capsule may be a ball: it has a radius, and no length.
+            ball = ("length", 0.0) if shape["kind"] == "capsule" else None
+            if not all(SMALLEST <= x <= LARGEST or (field, x) == ball for field, x in lengths):
                 raise Unusable(f"a {shape['kind']} has a length that cannot be computed with")
             line = {"id": len(self._objects), "name": name, "geometry": shape, "source": source}
             line |= dict(zip(("library", "version"), library))
