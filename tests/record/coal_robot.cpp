@@ -3,8 +3,8 @@
 //   coal_robot ROUNDS [killed]
 //
 // With `killed` it ends itself by SIGKILL after the first rounds.
-// Objects, geometries and pairs that are asked again are asked, through a manager, with results that are used again, with a callback
-// that throws through the library, by two threads, and in a child process.
+// Objects, geometries and pairs for repeated queries are asked, through a manager, with results that are used again, with a
+// callback that throws through the library, by two threads, and in a child process.
 #include <coal/BVH/BVH_model.h>
 #include <coal/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <coal/collision.h>
@@ -108,7 +108,7 @@ int main(int argc, char **argv) {
   std::fflush(stdout);
   if (killed)
     std::raise(SIGKILL);
-  // Of geometries, whose poses are no members of an object, and of a pair that is asked again; then into a result that has a contact.
+  // Of geometries, whose poses are no members of an object, and of pairs for repeated queries; then into a result with a contact.
   const Transform3s near = Transform3s::Identity();
   const coal::CollisionGeometry *one = mesh.collisionGeometryPtr(), *two = box.collisionGeometryPtr();
   const coal::ComputeCollision compute_collision(one, two);

@@ -1,5 +1,5 @@
-// Stands before libcoal in a program, and records what the program asks of it: collide and distance, of objects, of geometries and of
-// pairs that are asked again and again.
+// Stands before libcoal in a program, and records what the program asks of it: collide and distance, of objects, of geometries and
+// of pairs for repeated queries.
 #include <limits>
 
 #include "coal_objects.hpp"
