@@ -270,9 +270,21 @@ pub struct MeasuredAlgorithm {
 
 #[test]
 fn a_machine_is_silent_after_a_minute_without_a_run() {
+    let facts = MachineFacts {
+        version: "1".into(),
+        runner_sha256: String::new(),
+        plugins: Vec::new(),
+        hardware_class: "class".into(),
+        cpu: String::new(),
+        kernel: String::new(),
+        microcode: String::new(),
+        governor: String::new(),
+        profile: "production".into(),
+        partition: None,
+    };
     let info = |run: Option<&str>, seen_us, revoked_us| MachineInfo {
         name: "alpha".into(),
-        facts: None,
+        facts: Some(facts.clone()),
         created_us: 0,
         seen_us,
         revoked_us,

@@ -42,7 +42,7 @@ const at = (id: string) => host.querySelector<HTMLElement>(`[data-testid="${id}"
 const text = () => host.textContent.replace(/\s+/g, ' ')
 
 const info = (change: Partial<WorkloadInfo>): WorkloadInfo => ({
-  id: '1', spec: { algorithms: [], tracks: ['shuffled', 'recorded'], passes: 3, budget_seconds: 60, seed: null }, state: 'done', done: 100, total: 100, runs_ahead: 0, created_us: 1e15,
+  id: '1', spec: { algorithms: [], tracks: ['shuffled', 'recorded'], passes: 3, budget_seconds: 60, seed: null, reduce: null }, state: 'done', done: 100, total: 100, runs_ahead: 0, created_us: 1e15,
   recording: { file: 'arm.ocbrec', sha256: '', bytes: 2048, program: 'planner', libraries: ['fcl 0.7'], objects: 3, queries: 100, seen: 125 }, ...change,
 })
 async function page(change: Partial<WorkloadInfo>, path?: string) {
@@ -195,6 +195,6 @@ it('sends the recording with its spec, and shows why it was refused', async () =
   expect([button.disabled, text().includes('arm.ocbrec')]).toEqual([false, true])
   host.querySelector('form')?.dispatchEvent(new Event('submit', { cancelable: true }))
   await settle()
-  expect(startWorkload).toHaveBeenCalledWith({ algorithms: [], tracks: ['shuffled', 'recorded'], passes: 3, budget_seconds: 10, seed: null }, file)
+  expect(startWorkload).toHaveBeenCalledWith({ algorithms: [], tracks: ['shuffled', 'recorded'], passes: 3, budget_seconds: 10, seed: null, reduce: null }, file)
   expect(at('workload-problem')?.textContent).toContain('arm.ocbrec: It is a scene without queries.')
 })

@@ -11,7 +11,7 @@ const sum = (scene: ReducedScene, of: 'before' | 'after') => scene.objects.reduc
 
 /** How much smaller the scene became, and what that is worth. */
 export function savedWords(scene: ReducedScene): string {
-  const faster = scene.speed.flatMap(({ algorithm, faster: range }) => (range ? [{ algorithm, least: Math.min(...range) }] : [])).sort((a, b) => b.least - a.least)[0]
+  const faster = (scene.speed ?? []).flatMap(({ algorithm, faster: range }) => (range ? [{ algorithm, least: Math.min(...range) }] : [])).toSorted((a, b) => b.least - a.least)[0]
   const gain = faster ? ` ${faster.algorithm} gains most: its queries are at least ${significant(faster.least)} times as fast.` : ''
   return `${count(sum(scene, 'before'))} elements became ${count(sum(scene, 'after'))}.${gain}`
 }

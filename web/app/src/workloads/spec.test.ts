@@ -6,7 +6,7 @@ const known = [{ id: 'box-tree', usual: true }, { id: 'fcl', usual: true }, { id
 
 describe('the spec of a replay', () => {
   it('names no algorithms when the usual ones are meant', () => {
-    expect(toSpec(usualForm())).toEqual({ spec: { algorithms: [], tracks: ['shuffled', 'recorded'], passes: 3, budget_seconds: 10, seed: null } })
+    expect(toSpec(usualForm())).toEqual({ spec: { algorithms: [], tracks: ['shuffled', 'recorded'], passes: 3, budget_seconds: 10, seed: null, reduce: null } })
     expect(chosenNames(usualForm(), known)).toEqual(['box-tree', 'fcl'])
     expect(toSpec({ ...usualForm(), algorithms: ['brute'], orders: 'recorded' })).toMatchObject({ spec: { algorithms: ['brute'], tracks: ['recorded'] } })
   })

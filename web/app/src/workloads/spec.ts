@@ -41,7 +41,7 @@ export function toSpec({ algorithms, orders, passes, budget, reduce }: SpecForm)
   if (budget === '' || !(budget > 0 && budget <= 86_400)) return { problem: 'The budget must be above 0 and at most 86,400 seconds.' }
   const terms = toTerms(reduce)
   if (terms && 'problem' in terms) return terms
-  return { spec: { algorithms: algorithms ?? [], tracks: orders === 'both' ? ['shuffled', 'recorded'] : [orders], passes, budget_seconds: budget, seed: null, ...(terms && { reduce: terms }) } }
+  return { spec: { algorithms: algorithms ?? [], tracks: orders === 'both' ? ['shuffled', 'recorded'] : [orders], passes, budget_seconds: budget, seed: null, reduce: terms } }
 }
 
 function toTerms({ wanted, tolerance, near, outsideOnly, frontier }: ReduceForm): ReduceTerms | { problem: string } | null {
