@@ -129,6 +129,10 @@ pub trait Parameters: Algorithm {
     fn set(&mut self, name: &str, value: f64) -> Answer<()>;
 }
 
+/// `ocb.scene/1`: the author's promise that [`Algorithm::load_mesh`] may be called for any number of objects and that the queries
+/// may be about any two of them, in any order of pairs.
+pub trait Scene: Algorithm {}
+
 /// What a function answers.
 pub type Answer<T> = Result<T, Refusal>;
 

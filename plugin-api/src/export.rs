@@ -5,7 +5,7 @@ mod calls;
 use core::ffi::{CStr, c_char, c_void};
 use core::ptr;
 
-use crate::algorithm::{Algorithm, Contacts, Distance, Parameters, Query};
+use crate::algorithm::{Algorithm, Contacts, Distance, Parameters, Query, Scene};
 use crate::raw;
 
 /// Exports algorithms as a plugin. Once per crate, and the crate type is `cdylib`:
@@ -111,12 +111,13 @@ pub struct Extensions {
     distance: Option<raw::distance::Distance>,
     contacts: Option<raw::contacts::Contacts>,
     parameters: Option<raw::parameters::Parameters>,
+    scene: Option<raw::scene::Scene>,
     counts: bool,
 }
 
 impl Extensions {
     /// Nothing.
-    pub const NONE: Self = Self { distance: None, contacts: None, parameters: None, counts: false };
+    pub const NONE: Self = Self { distance: None, contacts: None, parameters: None, scene: None, counts: false };
 
     /// With `ocb.distance/1`.
     pub const fn distance<A: Distance>(mut self) -> Self {
@@ -129,6 +130,12 @@ impl Extensions {
     pub const fn contacts<A: Contacts>(mut self) -> Self {
         let struct_size = size_of::<raw::contacts::Contacts>() as u32;
         self.contacts = Some(raw::contacts::Contacts { struct_size, contacts: Some(calls::contacts::<A>) });
+        self
+    }
+
+    /// With `ocb.scene/1`.
+    pub const fn scene<A: Scene>(mut self) -> Self {
+        self.scene = Some(raw::scene::Scene { struct_size: size_of::<raw::scene::Scene>() as u32 });
         self
     }
 
@@ -170,6 +177,8 @@ impl Extensions {
             table(self.contacts.as_ref(), answers(Query::Contacts))
         } else if id == raw::parameters::ID {
             table(self.parameters.as_ref(), true)
+        } else if id == raw::scene::ID {
+            table(self.scene.as_ref(), true)
         } else {
             ptr::null()
         }

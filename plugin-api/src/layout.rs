@@ -41,11 +41,12 @@ pub struct Abi {
     host: raw::Host,
     parameters: raw::parameters::Parameters,
     parameter: raw::parameters::Parameter,
+    scene: raw::scene::Scene,
 }
 
 impl Abi {
     /// The layouts of all of them, for review.
-    pub const STRUCTS: [&'static TypeLayout; 16] = [
+    pub const STRUCTS: [&'static TypeLayout; 17] = [
         Self::LAYOUT,
         raw::Plugin::LAYOUT,
         raw::Algorithm::LAYOUT,
@@ -62,6 +63,7 @@ impl Abi {
         raw::Host::LAYOUT,
         raw::parameters::Parameters::LAYOUT,
         raw::parameters::Parameter::LAYOUT,
+        raw::scene::Scene::LAYOUT,
     ];
 }
 

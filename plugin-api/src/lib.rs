@@ -32,7 +32,7 @@ pub mod raw;
 
 pub use algorithm::{
     About, Algorithm, Answer, Capability, Collision, ContactList, Contacts, Distance, Mesh, Parameter, Parameters,
-    Placed, Pose, Query, Refusal, Separation,
+    Placed, Pose, Query, Refusal, Scene, Separation,
 };
 pub use count::{Count, Counts, Uncounted};
 

@@ -8,6 +8,7 @@ use core::ffi::{c_char, c_void};
 pub mod contacts;
 pub mod distance;
 pub mod parameters;
+pub mod scene;
 
 /// `OCB_ABI_MAJOR`: two sides fit when theirs are equal.
 pub const ABI_MAJOR: u32 = 1;

@@ -5,7 +5,7 @@ use std::ptr::null_mut;
 
 use opencollbench_plugin::{
     About, Algorithm, Answer, Capability, Collision, ContactList, Contacts, Count, Distance, Mesh, Parameter,
-    Parameters, Placed, Query, Refusal, Separation, raw,
+    Parameters, Placed, Query, Refusal, Scene, Separation, raw,
 };
 
 /// Answers by the x of the second pose: 0 yes, 1 no, 2 panic, 3 gave up, 4 unsupported, 5 error.
@@ -14,7 +14,7 @@ struct Whimsical {
     level: f64,
 }
 
-opencollbench_plugin::export!(Whimsical: distance contacts counts parameters);
+opencollbench_plugin::export!(Whimsical: distance contacts counts parameters scene);
 
 impl Algorithm for Whimsical {
     const ABOUT: About =
@@ -70,6 +70,8 @@ impl Contacts for Whimsical {
         Ok(())
     }
 }
+
+impl Scene for Whimsical {}
 
 impl Parameters for Whimsical {
     const PARAMETERS: &'static [&'static Parameter] = &[
@@ -261,6 +263,12 @@ fn parameters_are_listed_and_set() {
     }
     run.collide(2.0);
     assert_eq!(run.message(), "the plugin panicked: at level 2");
+}
+
+#[test]
+fn a_scene_is_offered_by_its_table_alone() {
+    let table: &raw::scene::Scene = Run::new().table(raw::scene::ID);
+    assert_eq!(table.struct_size as usize, size_of::<raw::scene::Scene>());
 }
 
 #[test]

@@ -7,7 +7,7 @@ use std::mem::offset_of;
 
 use abi_stable::StableAbi;
 use opencollbench_plugin::layout::{self, Abi, LayoutError, LayoutNote, check};
-use opencollbench_plugin::raw::{self, contacts, distance, parameters};
+use opencollbench_plugin::raw::{self, contacts, distance, parameters, scene};
 
 /// C assertions for the size and alignment of each struct and the offset of each of its fields.
 macro_rules! assertions {
@@ -22,7 +22,7 @@ fn c_assertions() -> String {
     let mut out = String::from(
         "#include <stddef.h>\n\
          #include <opencollbench/ext/contacts.h>\n#include <opencollbench/ext/distance.h>\n\
-         #include <opencollbench/ext/parameters.h>\n\
+         #include <opencollbench/ext/parameters.h>\n#include <opencollbench/ext/draft/scene.h>\n\
          #ifdef __cplusplus\n#define CHECK(x) static_assert(x, #x)\n#define ALIGN_OF(t) alignof(t)\n\
          #else\n#define CHECK(x) _Static_assert(x, #x)\n#define ALIGN_OF(t) _Alignof(t)\n#endif\n",
     );
@@ -49,6 +49,7 @@ fn c_assertions() -> String {
             struct_size kind name description minimum maximum default_value
         }
         "ocb_parameters" = parameters::Parameters { struct_size parameter_count parameters set }
+        "ocb_scene" = scene::Scene { struct_size }
     );
     for (c, rust) in [
         ("OCB_ABI_MAJOR", raw::ABI_MAJOR),
@@ -74,9 +75,12 @@ fn c_assertions() -> String {
     ] {
         writeln!(out, "CHECK((uint32_t){c} == {rust}u);").unwrap();
     }
-    for (c, rust) in
-        [("OCB_EXT_DISTANCE", distance::ID), ("OCB_EXT_CONTACTS", contacts::ID), ("OCB_EXT_PARAMETERS", parameters::ID)]
-    {
+    for (c, rust) in [
+        ("OCB_EXT_DISTANCE", distance::ID),
+        ("OCB_EXT_CONTACTS", contacts::ID),
+        ("OCB_EXT_PARAMETERS", parameters::ID),
+        ("OCB_EXT_SCENE", scene::ID),
+    ] {
         // An assertion cannot compare strings, only their lengths; the next test reads them.
         writeln!(out, "CHECK(sizeof({c}) == {});", rust.count_bytes() + 1).unwrap();
     }
@@ -97,6 +101,7 @@ fn extension_ids_are_equal_on_both_sides() {
         ("distance", "OCB_EXT_DISTANCE", distance::ID),
         ("contacts", "OCB_EXT_CONTACTS", contacts::ID),
         ("parameters", "OCB_EXT_PARAMETERS", parameters::ID),
+        ("draft/scene", "OCB_EXT_SCENE", scene::ID),
     ] {
         let path = support::package().join(format!("include/opencollbench/ext/{header}.h"));
         let text = std::fs::read_to_string(path).expect("the header");
@@ -156,6 +161,7 @@ fn a_note_with_one_narrower_field_does_not_fit_and_names_it() {
         host: raw::Host,
         parameters: parameters::Parameters,
         parameter: parameters::Parameter,
+        scene: scene::Scene,
     }
     assert_eq!(size_of::<Abi>(), size_of::<layout::Abi>());
     static NOTE: LayoutNote = LayoutNote::of::<Abi>();

@@ -16,12 +16,13 @@
  *
  *   [load]     dlopen; ocb_entry_v1 once; create once, if present; `set` of ocb.parameters/1 any number of times.
  *              In a fresh process with no files, no network and bounded memory.
- *   [build]    load_mesh, once or twice. Timed as the build.
+ *   [build]    load_mesh, once or twice; in a scene, once for each object (ext/draft/scene.h). Timed as the build.
  *   [query]    collide, distance, contacts: any number of times, in any order. Timed, unless the request asks for counts.
  *   [end]      free_mesh, destroy, if present. May never come: the process may simply be ended.
  *   [any]      get_extension, error_message: in any phase.
  *
- * One process runs one algorithm on one pair of meshes. Another run is another process.
+ * One process runs one algorithm on one pair of meshes, or on one scene if the algorithm offers ocb.scene/1. Another run is
+ * another process.
  *
  * RULES THAT HOLD EVERYWHERE
  *
@@ -236,7 +237,7 @@ typedef struct ocb_algorithm {
      * a point, which still are part of the surface). BOTH ARRAYS ARE GONE WHEN THE CALL RETURNS: copy them. They are
      * read-only.
      *
-     * When both objects of a scene are the same mesh, load_mesh is called once, and queries get the same object as `a`
+     * When both objects of a pair are the same mesh, load_mesh is called once, and queries get the same object as `a`
      * and as `b`.
      * [build]
      */

@@ -16,6 +16,7 @@
 //     ocb::Distance distance(Placed a, Placed b, Work &work)                            ocb.distance/1
 //     void contacts(Placed a, Placed b, ocb::Contacts &found, Work &work)               ocb.contacts/1
 //     void set(const std::string &parameter, double value)                              ocb.parameters/1
+//     static constexpr bool scene = true;             ocb.scene/1: any number of objects, queries about any two of them
 //     bool inside(Placed a, Placed b, Work &work)     solid bodies: asked when the surfaces do not meet
 //     bool answers(ocb::Query query) const            false: not with the parameters that are set
 //
@@ -26,6 +27,7 @@
 
 #include "ext/contacts.h"
 #include "ext/distance.h"
+#include "ext/draft/scene.h"
 #include "ext/parameters.h"
 #include "plugin.h"
 

@@ -21,6 +21,7 @@ OCB_HAS(collide)
 OCB_HAS(distance)
 OCB_HAS(contacts)
 OCB_HAS(set)
+OCB_HAS(scene)
 OCB_HAS(inside)
 OCB_HAS(answers)
 #undef OCB_HAS
@@ -174,6 +175,10 @@ template <class A> struct Calls {
         if constexpr (has_contacts<A>::value) {
             static const ocb_contacts table = {sizeof table, contacts};
             if (is(OCB_EXT_CONTACTS) && answers(instance, Query::contacts)) return &table;
+        }
+        if constexpr (has_scene<A>::value) {
+            static const ocb_scene table = {sizeof table};
+            if (A::scene && is(OCB_EXT_SCENE)) return &table;
         }
         return is(OCB_EXT_PARAMETERS) ? parameters() : nullptr;
     }
