@@ -39,6 +39,11 @@ impl Plugin {
         unsafe { CStr::from_ptr(self.algorithm.id) }.to_str().expect("UTF-8")
     }
 
+    fn offers(&self, extension: &CStr) -> bool {
+        // SAFETY: see `load`; without an instance it is asked what it can do at all.
+        unsafe { !self.algorithm.get_extension.expect("get_extension")(null_mut(), extension.as_ptr()).is_null() }
+    }
+
     /// First contact of two meshes of triangles given by their corners.
     fn collide(&self, a: &[[[f64; 3]; 3]], pose_a: &Pose, b: &[[[f64; 3]; 3]], pose_b: &Pose) -> Option<(u32, u32)> {
         // SAFETY: see `load`; the calls come in the order of plugin.h.
@@ -131,6 +136,27 @@ fn the_cpp_template_answers_in_fewer_than_sixty_lines() {
     let plugin = Plugin::load(&file);
     assert_eq!(plugin.id(), "my-algorithm-cpp");
     check(&plugin);
+}
+
+#[test]
+fn a_class_in_cpp_offers_scenes_when_it_says_so() {
+    let source = std::fs::read_to_string(package().join("templates/cpp/my_plugin.cpp")).expect("the template");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (says, offers) in
+        [("", false), ("static constexpr bool scene = false;", false), ("static constexpr bool scene = true;", true)]
+    {
+        let head = "struct MyAlgorithm {\n";
+        assert!(source.contains(head));
+        let (code, file) = (folder.path().join("scene.cpp"), folder.path().join(format!("{}.so", says.len())));
+        std::fs::write(&code, source.replace(head, &format!("{head}{says}\n"))).expect("written");
+        run(command("g++")
+            .args(["-std=c++17", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "-fno-gnu-unique", "-I"])
+            .arg(package().join("include"))
+            .arg(&code)
+            .arg("-o")
+            .arg(&file));
+        assert_eq!(Plugin::load(&file).offers(raw::scene::ID), offers, "{says}");
+    }
 }
 
 #[test]

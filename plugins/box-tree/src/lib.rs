@@ -8,7 +8,7 @@ mod tree;
 
 use opencollbench_plugin::{
     About, Algorithm, Answer, Collision, ContactList, Contacts, Count, Distance, Mesh, Parameter, Parameters, Placed,
-    Refusal, Separation,
+    Refusal, Scene, Separation,
 };
 use query::Traversal;
 use tree::Tree;
@@ -29,7 +29,7 @@ impl Default for BoxTree {
     }
 }
 
-opencollbench_plugin::export!(BoxTree: distance contacts counts parameters);
+opencollbench_plugin::export!(BoxTree: distance contacts counts parameters scene);
 
 impl Algorithm for BoxTree {
     const ABOUT: About = About {
@@ -78,6 +78,9 @@ impl Distance for BoxTree {
         Ok(Traversal::new(a, b, work).nearest(&mut self.open))
     }
 }
+
+/// A tree knows nothing of other objects.
+impl Scene for BoxTree {}
 
 impl Parameters for BoxTree {
     const PARAMETERS: &'static [&'static Parameter] =

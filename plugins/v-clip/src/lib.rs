@@ -13,7 +13,7 @@ use memory::Memory;
 use ocb_bodies::{Body, Surface, TOLERANCE};
 use opencollbench_plugin::{
     About, Algorithm, Answer, Capability, Collision, Count, Distance, Mesh, Parameter, Parameters, Placed, Refusal,
-    Separation,
+    Scene, Separation,
 };
 use polyhedron::Polyhedron;
 use query::{Query, Relation};
@@ -47,7 +47,7 @@ pub struct Object {
     polyhedron: Option<Polyhedron>,
 }
 
-opencollbench_plugin::export!(VClip: distance counts parameters);
+opencollbench_plugin::export!(VClip: distance counts parameters scene);
 
 impl Default for VClip {
     fn default() -> Self {
@@ -64,7 +64,7 @@ impl VClip {
     /// How the bodies lie; none where only GJK can tell.
     fn relation(&mut self, query: &Query<'_>, count: &mut impl Count) -> Option<Relation> {
         let objects = query.objects();
-        let start = self.memory.of(objects).filter(|_| self.coherent);
+        let start = if self.coherent { self.memory.of(objects) } else { None };
         let (relation, at, work) = query.ask(start, count);
         self.memory.keep(objects, at);
         self.work.steps += work.steps;
@@ -132,6 +132,9 @@ impl Distance for VClip {
         })
     }
 }
+
+/// The features of every pair are remembered.
+impl Scene for VClip {}
 
 impl Parameters for VClip {
     const PARAMETERS: &'static [&'static Parameter] = &[

@@ -6,7 +6,7 @@ use ocb_lanes::Path;
 use ocb_triangles::Frame;
 use opencollbench_plugin::{
     About, Algorithm, Answer, Collision, ContactList, Contacts, Count, Distance, Mesh, Parameter, Parameters, Placed,
-    Refusal, Separation,
+    Refusal, Scene, Separation,
 };
 
 /// A method: its own settings, and what it does with them. Its queries are not generic: many registers wide and with and
@@ -130,6 +130,9 @@ impl<M: Method> Distance for Wide<M> {
         Ok(M::nearest(self.path, &Pair::new(a, b), &mut self.open, work.listener()))
     }
 }
+
+/// A tree knows nothing of other objects.
+impl<M: Method> Scene for Wide<M> {}
 
 impl<M: Method> Parameters for Wide<M> {
     const PARAMETERS: &'static [&'static Parameter] = M::PARAMETERS;
