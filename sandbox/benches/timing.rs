@@ -18,7 +18,7 @@ use ocb_core::numbers::Numbers;
 use ocb_core::pose::Pose;
 use ocb_core::query::{Answer, Query};
 use ocb_core::statistics::quantile;
-use ocb_sandbox::{Launcher, PassFacts, PassPlan, Policy, Session, Trial, integrity};
+use ocb_sandbox::{Launcher, PassFacts, PassPlan, Policy, Question, Session, Trial, integrity};
 
 /// Processes of one measurement.
 const K: usize = 5;
@@ -80,14 +80,10 @@ impl Bench {
         let mut session = self.start(&self.box_tree, "box-tree", shown.first());
         let mut order: Vec<u32> = (0..self.configurations.len() as u32).collect();
         Numbers::new(seed).shuffle(&mut order);
-        let plan = PassPlan {
-            query: Query::CollisionFirst,
-            order: &order,
-            coherent: false,
-            seed,
-            allowance: Duration::from_secs(60),
+        let plan = PassPlan { order: &order, coherent: false, seed, allowance: Duration::from_secs(60) };
+        let present = |i: u32, instance: Instance| {
+            Question::of_pair(Query::CollisionFirst, shown.present(&self.configurations[i as usize], i, instance))
         };
-        let present = |i: u32, instance: Instance| shown.present(&self.configurations[i as usize], i, instance);
         let mut times = vec![0.0; order.len()];
         let (facts, ended) = session.pass(&plan, &present, &mut |seen| {
             if let Some(time) = seen.time {

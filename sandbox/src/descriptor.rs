@@ -36,6 +36,8 @@ pub struct Descriptor {
     pub coherent: bool,
     /// Can use several CPUs: it may enter the multi-threaded track.
     pub threads: bool,
+    /// It loads scenes of many objects.
+    pub scene: bool,
     /// Its parameters.
     pub parameters: Vec<Parameter>,
 }
@@ -161,6 +163,7 @@ mod tests {
             solid: false,
             coherent: false,
             threads: false,
+            scene: false,
             parameters: vec![knob],
         }
     }

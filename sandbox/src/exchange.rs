@@ -3,8 +3,6 @@
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use ocb_core::instance::Presented;
-
 use crate::clock::{Clock, ClockKind};
 use crate::doorbell::{futex_wait, futex_wake};
 use crate::launch::Jail;
@@ -12,7 +10,8 @@ use crate::outcome::{Outcome, Phase};
 use crate::protocol::{
     Command, MAX_BATCH, SLOT_WORDS, Status, answer, clean_text, contacts_to_copy, parse_status, parse_text_len, request,
 };
-use crate::trial::Part;
+use crate::question::Question;
+use crate::trial::{MeshPlace, Part};
 use crate::usage::{Meter, Usage};
 
 /// The jail is looked at so often while an answer is awaited.
@@ -75,17 +74,22 @@ enum Shown<'a> {
     Mesh(&'a Part),
 }
 
-/// The words of one question: 16 numbers for each pose, and whether B stands first.
+/// What of one question is written beside its kind.
 #[derive(Clone)]
-pub(crate) struct Poses([u64; 32], bool);
+pub(crate) struct Poses {
+    /// Numbers of the objects that stand first and second.
+    pub objects: [u32; 2],
+    /// 16 numbers for each pose.
+    words: [u64; 32],
+}
 
-impl From<&Presented> for Poses {
-    fn from(Presented { configuration, swapped }: &Presented) -> Self {
+impl From<&Question> for Poses {
+    fn from(Question { configuration, objects, .. }: &Question) -> Self {
         let mut words = [0; 32];
         let [a, b] = [configuration.pose_a, configuration.pose_b].map(|pose| pose.to_row_major().map(f64::to_bits));
         words[..16].copy_from_slice(&a);
         words[16..].copy_from_slice(&b);
-        Poses(words, *swapped)
+        Poses { objects: *objects, words }
     }
 }
 
@@ -194,8 +198,8 @@ impl Exchange {
     }
 
     /// Shows a mesh and has its structure built.
-    pub fn built(&mut self, command: Command, mesh: &Part, limit_seconds: f64) -> Result<Timed, Outcome> {
-        self.command(command, Phase::Build, limit_seconds, Shown::Mesh(mesh))
+    pub fn built(&mut self, mesh: &Part, limit_seconds: f64) -> Result<Timed, Outcome> {
+        self.command(Command::Build, Phase::Build, limit_seconds, Shown::Mesh(mesh))
     }
 
     fn command(
@@ -233,21 +237,25 @@ impl Exchange {
     /// The words of a command, the number last.
     #[inline]
     fn show(&self, command: Command, shown: Shown<'_>, number: u32) {
-        let (request, mut questions, mut swapped) = (&self.jail.request, 1, 0);
+        let (request, mut questions) = (&self.jail.request, 1);
         match shown {
             Shown::Nothing => {}
-            Shown::Mesh(mesh) => self.jail.trial.store_bytes(mesh.at, &mesh.bytes),
+            Shown::Mesh(mesh) => {
+                let MeshPlace { vertices, triangles, positions_at, triangles_at } = mesh.place;
+                let place = [vertices.into(), triangles.into(), positions_at as u64, triangles_at as u64];
+                request.store(request::MESH, &place);
+                self.jail.trial.store_bytes(positions_at, &mesh.bytes);
+            }
             Shown::Poses(poses) => {
                 questions = poses.len() as u64;
-                for (i, Poses(words, turned)) in poses.iter().enumerate() {
-                    swapped |= u64::from(*turned) << i;
+                for (i, Poses { objects: [first, second], words }) in poses.iter().enumerate() {
+                    request.store(request::OBJECTS + 8 * i, &[u64::from(*first) | u64::from(*second) << 32]);
                     request.store(request::POSES + request::POSES_STRIDE * i, words);
                 }
             }
         }
         request.u64(request::COMMAND).store(command as u64, Ordering::Relaxed);
         request.u64(request::QUESTIONS).store(questions, Ordering::Relaxed);
-        request.u64(request::SWAPPED).store(swapped, Ordering::Relaxed);
         request.u32(request::NUMBER).store(number, Ordering::SeqCst);
     }
 

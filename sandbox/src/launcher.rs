@@ -18,7 +18,7 @@ use crate::layers::Profile;
 use crate::null;
 use crate::outcome::{Ending, Outcome, Phase};
 use crate::policy::Policy;
-use crate::protocol::{Command, parse_descriptors, parse_inspection, parse_queries};
+use crate::protocol::{Answers, Command, parse_answers, parse_descriptors, parse_inspection};
 use crate::seccomp;
 use crate::session::{Pinned, Session, SetUp};
 use crate::trial::Sheet;
@@ -37,20 +37,51 @@ pub struct Trial<'a> {
     pub plugin: &'a Path,
     /// Id of the algorithm in it.
     pub algorithm: &'a str,
-    /// Object A.
-    pub mesh_a: &'a Mesh,
-    /// Object B; the same object as A when absent, which is then built once.
-    pub mesh_b: Option<&'a Mesh>,
+    /// What it loads.
+    pub objects: Objects<'a>,
     /// Parameters by name; those not named keep their default.
     pub parameters: &'a [(String, f64)],
     /// What counts as an object; an algorithm that does not know solid bodies answers "unsupported" for them.
     pub semantics: Semantics,
 }
 
+/// What a process loads.
+#[derive(Clone, Copy, Debug)]
+pub enum Objects<'a> {
+    /// Object A and object B; the same object as A when absent, which is then built once.
+    Pair(&'a Mesh, Option<&'a Mesh>),
+    /// A scene of many objects, each built once; for algorithms that offer `ocb.scene/1`.
+    Scene(&'a [&'a Mesh]),
+}
+
+impl<'a> Objects<'a> {
+    /// In the order of building.
+    pub(crate) fn meshes(&self) -> impl Iterator<Item = &'a Mesh> {
+        let (pair, scene) = match *self {
+            Objects::Pair(a, b) => (Some((a, b)), &[][..]),
+            Objects::Scene(meshes) => (None, meshes),
+        };
+        pair.into_iter().flat_map(|(a, b)| std::iter::once(a).chain(b)).chain(scene.iter().copied())
+    }
+
+    /// How many a question may name.
+    fn count(&self) -> u32 {
+        match self {
+            Objects::Pair(..) => 2,
+            Objects::Scene(meshes) => meshes.len() as u32,
+        }
+    }
+}
+
 impl<'a> Trial<'a> {
-    /// Surfaces, and every parameter at its default.
+    /// A pair: surfaces, and every parameter at its default.
     pub fn new(plugin: &'a Path, algorithm: &'a str, mesh_a: &'a Mesh, mesh_b: Option<&'a Mesh>) -> Self {
-        Self { plugin, algorithm, mesh_a, mesh_b, parameters: &[], semantics: Semantics::Surface }
+        Self::of(plugin, algorithm, Objects::Pair(mesh_a, mesh_b))
+    }
+
+    /// Surfaces, and every parameter at its default.
+    pub fn of(plugin: &'a Path, algorithm: &'a str, objects: Objects<'a>) -> Self {
+        Self { plugin, algorithm, objects, parameters: &[], semantics: Semantics::Surface }
     }
 }
 
@@ -107,13 +138,12 @@ impl Launcher {
 
     /// The kinds of query that an algorithm of the plugin answers with these parameters.
     pub fn queries(&self, plugin: &Path, algorithm: &str, parameters: &[(String, f64)]) -> Result<Vec<Query>, Ending> {
-        let sheet = Sheet::new(algorithm, parameters, Semantics::Surface, &[]);
+        let sheet = Sheet::empty(algorithm, parameters);
         self.aside_for(&sheet, plugin, &Killer::default(), |exchange| {
             self.load(exchange)?;
             self.tighten(exchange)?;
             exchange.obeyed(Command::Prepare, Phase::Load, self.policy.load_seconds)?;
-            parse_queries(&exchange.text(Phase::Load)?)
-                .map_err(|rule| Outcome::ProtocolViolation { phase: Phase::Load, rule })
+            Ok(answers(exchange)?.queries)
         })
     }
 
@@ -124,7 +154,7 @@ impl Launcher {
         killer: &Killer,
         work: impl FnOnce(&mut Exchange) -> Result<T, Outcome>,
     ) -> Result<T, Ending> {
-        self.aside_for(&Sheet::new("", &[], Semantics::Surface, &[]), plugin, killer, work)
+        self.aside_for(&Sheet::empty("", &[]), plugin, killer, work)
     }
 
     fn aside_for<T>(
@@ -145,7 +175,7 @@ impl Launcher {
         }
     }
 
-    /// Starts a fresh runner, loads the plugin and builds both objects.
+    /// Starts a fresh runner, loads the plugin and builds the objects.
     ///
     /// The jail lives no longer than the calling thread (Linux delivers the parent-death signal when the *thread* that
     /// started a process ends), so call this and everything on the [`Session`] from one thread that outlives it; the
@@ -156,8 +186,7 @@ impl Launcher {
 
     /// As [`Launcher::start`], with a handle that another thread may hold already while the plugin loads and builds.
     pub fn start_with(&self, trial: &Trial<'_>, killer: &Killer) -> Result<Session, Ending> {
-        let meshes: Vec<&Mesh> = std::iter::once(trial.mesh_a).chain(trial.mesh_b).collect();
-        let sheet = Sheet::new(trial.algorithm, trial.parameters, trial.semantics, &meshes);
+        let sheet = Sheet::new(trial.algorithm, trial.parameters, trial.semantics, &trial.objects);
         let places = Places::here(&self.policy)?;
         let mut exchange = self.jail(Some(trial.plugin), &sheet, killer, &places)?;
         // Not before the jail has started: it would inherit the choice.
@@ -171,12 +200,16 @@ impl Launcher {
             let (mut load_ns, _) = self.load(&mut exchange)?;
             self.tighten(&mut exchange)?;
             load_ns += exchange.obeyed(Command::Prepare, Phase::Load, policy.load_seconds)?.raw_ns;
+            if matches!(trial.objects, Objects::Scene(_)) && !answers(&exchange)?.scene {
+                let reason = "it does not offer ocb.scene/1 with these parameters".into();
+                return Err(Outcome::Failed { phase: Phase::Load, reason });
+            }
             // Between its structures and the first question it is to do nothing, and what it does all the same is building.
             exchange.rest(policy.query_seconds)?;
             let resumed = Resting { told: Instant::now(), usage: exchange.meter().read() };
             let mut wall_ns = 0.0;
-            for (build, mesh) in [Command::BuildA, Command::BuildB].into_iter().zip(&sheet.meshes) {
-                wall_ns += exchange.built(build, mesh, policy.build_seconds)?.raw_ns;
+            for mesh in &sheet.meshes {
+                wall_ns += exchange.built(mesh, policy.build_seconds)?.raw_ns;
             }
             let built = exchange.rest(policy.query_seconds)?;
             let (mut build_ns, single) = (wall_ns, policy.threads == 1);
@@ -190,7 +223,8 @@ impl Launcher {
         };
         match prepare() {
             Ok((set_up, clock, resting)) => {
-                Ok(Session::new(self.policy.clone(), exchange, set_up, clock, pinned, resting))
+                let objects = trial.objects.count();
+                Ok(Session::new(self.policy.clone(), exchange, objects, set_up, clock, pinned, resting))
             }
             Err(outcome) => Err(exchange.jail.end(outcome)),
         }
@@ -254,6 +288,11 @@ impl Launcher {
             Err(outcome) => Err(exchange.jail.end(outcome)),
         }
     }
+}
+
+/// What an algorithm that has been prepared says that it answers.
+fn answers(exchange: &Exchange) -> Result<Answers, Outcome> {
+    parse_answers(&exchange.text(Phase::Load)?).map_err(|rule| Outcome::ProtocolViolation { phase: Phase::Load, rule })
 }
 
 /// Steps that fail where a machine forbids namespaces or what is done inside them.

@@ -36,6 +36,7 @@ pub mod pass;
 pub mod policy;
 #[doc(hidden)]
 pub mod protocol;
+pub mod question;
 #[doc(hidden)]
 pub mod seccomp;
 pub mod session;
@@ -53,10 +54,11 @@ pub use clock::{ClockFacts, ClockKind};
 pub use descriptor::{Descriptor, Parameter};
 pub use gate::{Build, Facts, Inspection, Rejection};
 pub use launch::Killer;
-pub use launcher::{Launcher, Trial};
+pub use launcher::{Launcher, Objects, Trial};
 pub use layers::Profile;
 pub use outcome::{DeniedCall, Ending, Outcome, Phase};
 pub use pass::{Batched, Observation, PassFacts, PassPlan, Time};
 pub use policy::{ClockChoice, Policy};
 pub use protocol::MAX_BATCH;
+pub use question::Question;
 pub use session::{Batch, Sample, Session, SetUp};

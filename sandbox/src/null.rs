@@ -4,14 +4,15 @@
 use std::time::{Duration, Instant};
 
 use ocb_core::configuration::Configuration;
-use ocb_core::instance::Presented;
 use ocb_core::pose::Pose;
+use ocb_core::query::Query;
 
 use crate::clock::{ClockFacts, STRAYED, Trips};
 use crate::exchange::{Exchange, Poses};
 use crate::outcome::Outcome;
 use crate::policy::Policy;
 use crate::protocol::{Command, MAX_BATCH};
+use crate::question::Question;
 use crate::speed;
 
 /// Null round trips and null batches of a session; a tenth more before them does not count.
@@ -32,7 +33,7 @@ pub(crate) fn measure(
     runner_cpu: Option<usize>,
 ) -> Result<ClockFacts, Outcome> {
     let nowhere = Configuration { pose_a: Pose::identity(), pose_b: Pose::identity() };
-    let question = Presented { configuration: nowhere, swapped: false };
+    let question = Question { query: Query::CollisionFirst, objects: [0, 1], configuration: nowhere };
     let mut ask = |questions, times: usize| {
         let questions: Vec<Poses> = (0..questions).map(|_| Poses::from(&question)).collect();
         let mut trip = || exchange.asked(Command::Null, &questions, policy.query_seconds);

@@ -12,7 +12,7 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use ocb_core::instance::{Instance, Presented};
+use ocb_core::instance::Instance;
 use ocb_core::numbers::Numbers;
 use ocb_core::query::{Answer, Query};
 use ocb_core::statistics::quantile;
@@ -21,6 +21,7 @@ use crate::clock::ClockKind;
 use crate::exchange::{Poses, Resting};
 use crate::outcome::Outcome;
 use crate::protocol::MAX_BATCH;
+use crate::question::Question;
 use crate::session::{Sample, Session};
 use crate::usage::Steal;
 
@@ -46,8 +47,6 @@ const TOLD_ASLEEP_NS: f64 = 1e6;
 /// What a pass asks.
 #[derive(Clone, Copy, Debug)]
 pub struct PassPlan<'a> {
-    /// The question.
-    pub query: Query,
     /// Numbers of the configurations.
     pub order: &'a [u32],
     /// The order is part of the question: what comes again does so in the order's own sequence.
@@ -118,12 +117,12 @@ pub struct PassFacts {
 }
 
 impl Session {
-    /// Asks all questions of the plan; `present` gives an instance of a configuration, `each` gets every answer and may
-    /// stop the pass. An error has ended the session, what was answered before stands.
+    /// Asks all questions of the plan; `present` gives the question in an instance of a configuration. `each` gets every answer
+    /// and may stop the pass. An error has ended the session, what was answered before stands.
     pub fn pass(
         &mut self,
         plan: &PassPlan<'_>,
-        present: &dyn Fn(u32, Instance) -> Presented,
+        present: &dyn Fn(u32, Instance) -> Question,
         each: &mut dyn FnMut(Observation) -> ControlFlow<()>,
     ) -> (PassFacts, Result<(), Outcome>) {
         let steal = Steal::begin(self.policy.runner_cpu);
@@ -151,15 +150,25 @@ impl Session {
 struct Pass<'a, 's> {
     session: &'s mut Session,
     plan: &'a PassPlan<'a>,
-    present: &'a dyn Fn(u32, Instance) -> Presented,
+    present: &'a dyn Fn(u32, Instance) -> Question,
     each: &'a mut dyn FnMut(Observation) -> ControlFlow<()>,
     numbers: Numbers,
     /// Calibrations so far.
     speeds: Vec<f64>,
-    /// Place in the order and official time of what was asked.
-    singles: Vec<(usize, f64)>,
+    singles: Vec<Single>,
     instances: u32,
     facts: PassFacts,
+}
+
+/// What was asked for the time that counts.
+#[derive(Clone, Copy)]
+struct Single {
+    /// Place in the order.
+    place: usize,
+    /// Official time.
+    ns: f64,
+    /// Questions that may come again together are of one kind, about the same objects.
+    kind: (Query, [u32; 2]),
 }
 
 type Flow = Result<ControlFlow<()>, Outcome>;
@@ -176,9 +185,6 @@ impl Pass<'_, '_> {
         }
         self.speeds.push(self.session.speed_ns()?);
         self.resume();
-        if self.plan.query == Query::CollisionAll {
-            return Ok(ControlFlow::Continue(()));
-        }
         let asked = begun.elapsed();
         for _ in 0..(self.facts.reached / BATCH_EVERY).clamp(1, BATCHES) {
             // What ranks nothing may take a tenth as long again.
@@ -194,14 +200,17 @@ impl Pass<'_, '_> {
         let first = self.facts.reached;
         let places = first..self.plan.order.len().min(first + STRETCH);
         let instance = Instance::default();
-        let words: Vec<Poses> =
-            places.clone().map(|place| Poses::from(&(self.present)(self.plan.order[place], instance))).collect();
+        let ask = |place: usize| {
+            let question = (self.present)(self.plan.order[place], instance);
+            (question.query, Poses::from(&question))
+        };
+        let words: Vec<(Query, Poses)> = places.clone().map(ask).collect();
         let resumed = self.resume();
         let mut samples: Vec<Sample> = Vec::with_capacity(words.len());
         let (begun, waited_before) = (Instant::now(), self.session.waited_ns());
         let mut ended = Ok(());
-        for question in &words {
-            match self.session.put_words(self.plan.query, question) {
+        for (query, question) in &words {
+            match self.session.put_words(*query, question) {
                 Ok(sample) => samples.push(sample),
                 Err(outcome) => ended = Err(outcome),
             }
@@ -217,9 +226,9 @@ impl Pass<'_, '_> {
         }
         self.look(&samples, self.session.waited_ns() - waited_before);
         let mut flow = ControlFlow::Continue(());
-        for (place, sample) in places.zip(samples) {
+        for ((place, sample), (query, Poses { objects, .. })) in places.zip(samples).zip(words) {
             self.facts.reached += 1;
-            self.singles.push((place, sample.time_ns));
+            self.singles.push(Single { place, ns: sample.time_ns, kind: (query, objects) });
             let Sample { time_ns: ns, below_resolution, disturbed, answer, .. } = sample;
             let time = Some(Time { ns, below_resolution, disturbed });
             flow = (self.each)(Observation { configuration: self.plan.order[place], instance, answer, time });
@@ -259,25 +268,32 @@ impl Pass<'_, '_> {
         self.session.beside_ns(resumed, now, asked_ns, samples.len())
     }
 
-    /// Some of the questions asked so far, together, as another instance.
+    /// Some of the questions of one kind asked so far, together, as another instance.
     fn batch(&mut self) -> Flow {
-        let size = (BATCH[0] + self.numbers.below(BATCH[1] - BATCH[0] + 1)).min(self.singles.len());
-        let first = self.numbers.below(self.singles.len().saturating_sub(size) + 1);
-        let mut members: Vec<(usize, f64)> = match self.plan.coherent {
-            true => self.singles[first..first + size].to_vec(),
-            false => (0..size).map(|_| self.singles[self.numbers.below(self.singles.len())]).collect(),
+        let Some(Single { kind, .. }) = self.singles.get(self.numbers.below(self.singles.len().max(1))).copied() else {
+            return Ok(ControlFlow::Break(()));
+        };
+        if kind.0 == Query::CollisionAll {
+            return Ok(ControlFlow::Continue(()));
+        }
+        let pool: Vec<Single> = self.singles.iter().copied().filter(|single| single.kind == kind).collect();
+        let size = (BATCH[0] + self.numbers.below(BATCH[1] - BATCH[0] + 1)).min(pool.len());
+        let first = self.numbers.below(pool.len() - size + 1);
+        let mut members: Vec<Single> = match self.plan.coherent {
+            true => pool[first..first + size].to_vec(),
+            false => (0..size).map(|_| pool[self.numbers.below(pool.len())]).collect(),
         };
         let mut sum = 0.0;
-        members.retain(|(_, ns)| {
+        members.retain(|Single { ns, .. }| {
             let fits = sum + ns <= BATCH_NS;
             sum += if fits { *ns } else { 0.0 };
             fits
         });
         if members.len() < SMALLEST_BATCH {
-            return Ok(ControlFlow::Break(()));
+            return Ok(ControlFlow::Continue(()));
         }
         // One that met a time slice of something else took a thousand times its own time.
-        let mut alone: Vec<f64> = members.iter().map(|(_, ns)| *ns).collect();
+        let mut alone: Vec<f64> = members.iter().map(|single| single.ns).collect();
         alone.sort_by(f64::total_cmp);
         let usual_ns = quantile(&alone, 0.5);
         let clock = self.session.clock();
@@ -287,10 +303,10 @@ impl Pass<'_, '_> {
         };
         self.instances += 1;
         let instance = Instance { number: self.instances, aside: true };
-        let configurations: Vec<u32> = members.iter().map(|(place, _)| self.plan.order[*place]).collect();
-        let asked: Vec<_> = configurations.iter().map(|&c| (self.present)(c, instance)).collect();
+        let configurations: Vec<u32> = members.iter().map(|single| self.plan.order[single.place]).collect();
+        let asked: Vec<Poses> = configurations.iter().map(|&c| Poses::from(&(self.present)(c, instance))).collect();
         let before = self.session.usage();
-        let batch = self.session.batch(self.plan.query, &asked)?;
+        let batch = self.session.batch_words(kind.0, &asked)?;
         let waited_ns = self.session.usage().zip(before).map_or(0.0, |(now, before)| now.since(before).delay_ns);
         if waited_ns <= WAITED * batch.time_ns && !batch.disturbed {
             self.facts.batches.push(Batched {

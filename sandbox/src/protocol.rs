@@ -9,6 +9,7 @@
 
 use nalgebra::Point3;
 use ocb_core::query::{Answer, Counters, Query};
+use serde::{Deserialize, Serialize};
 
 use crate::descriptor::Descriptor;
 use crate::gate::Inspection;
@@ -23,12 +24,15 @@ pub mod request {
     pub const COMMAND: usize = 8;
     /// u64: how many questions it asks, 1 to [`super::MAX_BATCH`].
     pub const QUESTIONS: usize = 16;
-    /// u64: bit i is set when question i puts object B first, and then its poses as well.
-    pub const SWAPPED: usize = 24;
+    /// u64 per question: the number of the object that stands first in the low half, of the one that stands second in the high
+    /// half. The first question's shares the line of the number.
+    pub const OBJECTS: usize = 24;
     /// u32: the supervisor sleeps on the answer's number.
-    pub const SUPERVISOR_SLEEPS: usize = 128;
-    /// 16 + 16 u64 per question: bits of the row-major poses of A and B.
-    pub const POSES: usize = 512;
+    pub const SUPERVISOR_SLEEPS: usize = 576;
+    /// 4 u64, of the object that is to be built: vertices, triangles, and where both begin in the trial file.
+    pub const MESH: usize = 704;
+    /// 16 + 16 u64 per question: bits of the row-major poses of the first and of the second object.
+    pub const POSES: usize = 768;
     /// From one question's poses to the next one's.
     pub const POSES_STRIDE: usize = 256;
     /// Size of the file.
@@ -76,7 +80,7 @@ pub mod answer {
 /// Byte offsets for a program that does one piece of work (`inside/task.rs`), in what is free of the same two files.
 pub mod work {
     /// u32 of the request: times may be taken.
-    pub const GRANTED: usize = 256;
+    pub const GRANTED: usize = 640;
     /// u64 of the answer: see [`progress`].
     pub const PROGRESS: usize = 320;
     /// u32 of the answer: it waits until times may be taken.
@@ -117,10 +121,8 @@ pub enum Command {
     Tighten = 11,
     /// Choose the trial's algorithm, make an instance, set the parameters.
     Prepare = 3,
-    /// Build object A.
-    BuildA = 4,
-    /// Build object B.
-    BuildB = 5,
+    /// Build the next object, whose mesh is shown.
+    Build = 4,
     /// Queries.
     CollisionFirst = 8,
     /// All contacts.
@@ -137,7 +139,7 @@ pub enum Command {
 
 impl Command {
     /// All of them.
-    pub const ALL: [Command; 15] = [
+    pub const ALL: [Command; 14] = [
         Command::Null,
         Command::Rest,
         Command::CloseListener,
@@ -145,8 +147,7 @@ impl Command {
         Command::Open,
         Command::Tighten,
         Command::Prepare,
-        Command::BuildA,
-        Command::BuildB,
+        Command::Build,
         Command::CollisionFirst,
         Command::CollisionAll,
         Command::Proximity,
@@ -322,11 +323,20 @@ pub fn parse_descriptors(text: &[u8]) -> Result<Vec<Descriptor>, String> {
     descriptors.into_iter().map(Descriptor::bounded).collect()
 }
 
-/// Reads what an algorithm answers with its parameters set.
-pub fn parse_queries(text: &[u8]) -> Result<Vec<Query>, String> {
-    let queries: Vec<Query> =
-        serde_json::from_slice(text).map_err(|e| format!("its queries are not readable ({e})"))?;
-    if queries.len() > 3 { Err(format!("{} kinds of query; there are 3", queries.len())) } else { Ok(queries) }
+/// What an algorithm answers with its parameters set.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Answers {
+    /// The kinds of query.
+    pub queries: Vec<Query>,
+    /// It loads scenes of many objects.
+    pub scene: bool,
+}
+
+/// Reads them.
+pub fn parse_answers(text: &[u8]) -> Result<Answers, String> {
+    let answers: Answers = serde_json::from_slice(text).map_err(|e| format!("its queries are not readable ({e})"))?;
+    let n = answers.queries.len();
+    if n > 3 { Err(format!("{n} kinds of query; there are 3")) } else { Ok(answers) }
 }
 
 /// Text for people from bytes of the plugin, in lines.
@@ -377,7 +387,7 @@ mod tests {
     #[test]
     fn any_bytes_are_descriptors_or_a_reason() {
         let good = br#"[{"id":"a","name":"A","version":"1","authors":"","license":"","url":"","paper":"","queries":[],
-            "counters":false,"witness_points":false,"single_precision":false,"solid":false,"coherent":false,"threads":false,"parameters":[]}]"#;
+            "counters":false,"witness_points":false,"single_precision":false,"solid":false,"coherent":false,"threads":false,"scene":false,"parameters":[]}]"#;
         assert_eq!(parse_descriptors(good).unwrap()[0].id, "a");
         let mut next = numbers(1);
         for _ in 0..20_000 {

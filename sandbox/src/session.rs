@@ -14,6 +14,7 @@ use crate::launch::Killer;
 use crate::outcome::{Ending, Outcome, Phase};
 use crate::policy::Policy;
 use crate::protocol::{Command, counts_per_triangle, parse_answer, parse_counters};
+use crate::question::Question;
 use crate::speed;
 use crate::usage::Usage;
 
@@ -27,6 +28,8 @@ const USUAL_WAIT_NS: f64 = 5_000.0;
 pub struct Session {
     pub(crate) policy: Policy,
     exchange: Exchange,
+    /// How many objects a question may name.
+    objects: u32,
     set_up: SetUp,
     clock: ClockFacts,
     waits: Waits,
@@ -46,7 +49,7 @@ pub struct SetUp {
     /// Loading the file, which runs its constructors, its description, its instance and its parameters, nanoseconds. The
     /// meshes cannot be seen yet.
     pub load_ns: f64,
-    /// Building both structures, from the moment on at which the meshes can be seen, nanoseconds.
+    /// Building the structures of all objects, from the moment on at which the meshes can be seen, nanoseconds.
     pub build_ns: f64,
 }
 
@@ -97,6 +100,7 @@ impl Session {
     pub(crate) fn new(
         policy: Policy,
         exchange: Exchange,
+        objects: u32,
         set_up: SetUp,
         clock: ClockFacts,
         pinned: Pinned,
@@ -106,6 +110,7 @@ impl Session {
         Self {
             policy,
             exchange,
+            objects,
             set_up,
             clock,
             waits,
@@ -144,7 +149,12 @@ impl Session {
 
     /// As [`Session::query`], with the objects in either order.
     pub fn put(&mut self, query: Query, question: Presented) -> Result<Sample, Outcome> {
-        self.put_words(query, &Poses::from(&question))
+        self.put_words(query, &Poses::from(&Question::of_pair(query, question)))
+    }
+
+    /// As [`Session::query`], about any two of the objects.
+    pub fn question(&mut self, question: &Question) -> Result<Sample, Outcome> {
+        self.put_words(question.query, &Poses::from(question))
     }
 
     /// As [`Session::put`]; what can be done before the clock runs has been done.
@@ -162,9 +172,14 @@ impl Session {
     /// Releases up to [`MAX_BATCH`](crate::MAX_BATCH) questions together and times them as one. Lists of all contacts
     /// share one buffer, so they cannot be asked for in batches.
     pub fn batch(&mut self, query: Query, questions: &[Presented]) -> Result<Batch, Outcome> {
-        let words: Vec<Poses> = questions.iter().map(Poses::from).collect();
-        let (timed, answers) = self.ask(query, &words, false)?;
-        let (time_ns, _) = self.clock.subtract(timed.raw_ns, questions.len());
+        let words: Vec<Poses> = questions.iter().map(|it| Poses::from(&Question::of_pair(query, *it))).collect();
+        self.batch_words(query, &words)
+    }
+
+    /// As [`Session::batch`]; what can be done before the clock runs has been done.
+    pub(crate) fn batch_words(&mut self, query: Query, words: &[Poses]) -> Result<Batch, Outcome> {
+        let (timed, answers) = self.ask(query, words, false)?;
+        let (time_ns, _) = self.clock.subtract(timed.raw_ns, words.len());
         let answers = answers.into_iter().map(|(answer, _)| answer).collect();
         Ok(Batch { time_ns, disturbed: self.exchange.disturbed(&timed), answers })
     }
@@ -175,7 +190,7 @@ impl Session {
         query: Query,
         configuration: &Configuration,
     ) -> Result<(Answer, Option<Counters>), Outcome> {
-        let question = Presented { configuration: *configuration, swapped: false };
+        let question = Question::of_pair(query, Presented { configuration: *configuration, swapped: false });
         let (answer, counters) = self.ask(query, &[Poses::from(&question)], true)?.1.remove(0);
         let tests = counters.and_then(|counters| counters.primitive_tests);
         let tests = tests.filter(|_| counts_per_triangle(&self.exchange.slots()[0]));
@@ -251,6 +266,8 @@ impl Session {
     }
 
     fn ask(&mut self, query: Query, questions: &[Poses], counted: bool) -> Result<(Timed, Vec<Counted>), Outcome> {
+        let loaded = |poses: &Poses| poses.objects.iter().all(|number| *number < self.objects);
+        assert!(questions.iter().all(loaded), "a question names an object that was not loaded");
         self.guarded(|session| {
             let limit = session.policy.query_seconds;
             session.resting = None;

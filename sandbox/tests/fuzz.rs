@@ -126,7 +126,7 @@ fn the_gate_reads_anything() {
 }
 
 const DESCRIPTORS: &[u8] = br#"[{"id":"a","name":"A","version":"1","authors":"","license":"","url":"","paper":"",
-    "queries":[],"counters":false,"witness_points":false,"single_precision":false,"solid":false,"coherent":false,"threads":false,
+    "queries":[],"counters":false,"witness_points":false,"single_precision":false,"solid":false,"coherent":false,"threads":false,"scene":false,
     "parameters":[{"name":"k","description":"","minimum":0,"maximum":1,"default":0.5,"integer":false}]}]"#;
 const FINDINGS: &[u8] = br#"{"rejections":[{"rule":"r","what":"w","why":"y","mend":"m"}],"facts":null}"#;
 

@@ -7,8 +7,8 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Duration;
 
-use common::{fixture, honest, judged, launcher, launcher_with, policy, start, upright};
-use ocb_core::instance::{Instance, Presented};
+use common::{first_contact, fixture, honest, judged, launcher, launcher_with, policy, start, upright};
+use ocb_core::instance::Instance;
 use ocb_core::query::Query;
 use ocb_core::record::Verdict;
 use ocb_sandbox::{Ending, Launcher, Outcome, PassFacts, PassPlan, Phase, Policy, integrity};
@@ -36,13 +36,13 @@ fn run(launcher: &Launcher, plugin: &Path, questions: u32) -> (Ending, PassFacts
     }
     let order: Vec<u32> = (0..questions).map(|i| i * 379 % questions).collect();
     let allowance = Duration::from_secs(50);
-    let plan = PassPlan { query: Query::CollisionFirst, order: &order, coherent: false, seed: 7, allowance };
+    let plan = PassPlan { order: &order, coherent: false, seed: 7, allowance };
     // Up to 0.5 they meet, from 1.5 on they do not.
     let asked = |i: u32| {
         let share = f64::from(i) / f64::from(questions);
         upright(if share < 0.5 { 0.2 + 0.6 * share } else { 3.0 * share })
     };
-    let present = |i: u32, _: Instance| Presented { configuration: asked(i), swapped: false };
+    let present = |i: u32, _: Instance| first_contact(asked(i));
     let mut wrong = 0;
     let (facts, ended) = session.pass(&plan, &present, &mut |seen| {
         wrong +=

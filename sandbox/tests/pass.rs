@@ -9,7 +9,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use common::{Others, apart, fixture, launcher, launcher_with, start};
-use ocb_core::instance::{Instance, Presented};
+use ocb_core::instance::Instance;
 use ocb_core::query::{Answer, Query};
 use ocb_sandbox::integrity::{self, Check};
 use ocb_sandbox::{Observation, Outcome, PassFacts, PassPlan, Policy, Sample};
@@ -25,17 +25,14 @@ fn alone() -> MutexGuard<'static, ()> {
 }
 
 fn plan(order: &[u32]) -> PassPlan<'_> {
-    PassPlan { query: Query::CollisionFirst, order, coherent: false, seed: 7, allowance: Duration::from_secs(50) }
+    PassPlan { order, coherent: false, seed: 7, allowance: Duration::from_secs(50) }
 }
 
 /// One pass of the fixture over so many distances: what was seen, and the facts.
 fn pass(defines: &[&str], plan: &PassPlan<'_>, stop_after: usize) -> (Vec<Observation>, PassFacts, Outcome) {
     let mut session = start(&launcher(), &fixture(defines)).unwrap();
     let mut seen = Vec::new();
-    let present = |configuration: u32, _: Instance| Presented {
-        configuration: apart(0.004 * f64::from(configuration)),
-        swapped: false,
-    };
+    let present = |configuration: u32, _: Instance| common::first_contact(apart(0.004 * f64::from(configuration)));
     let (facts, ended) = session.pass(plan, &present, &mut |observation| {
         seen.push(observation);
         if seen.len() < stop_after { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
@@ -190,10 +187,7 @@ fn times_that_the_clock_cannot_tell_accuse_nobody() {
     let policy = Policy { runner_cpu: Some(0), supervisor_cpu: Some(0), ..common::policy() };
     let launcher = launcher_with(policy);
     let order: Vec<u32> = (0..2 * QUESTIONS).collect();
-    let present = |configuration: u32, _: Instance| Presented {
-        configuration: apart(0.004 * f64::from(configuration)),
-        swapped: false,
-    };
+    let present = |configuration: u32, _: Instance| common::first_contact(apart(0.004 * f64::from(configuration)));
     let others = Others::look();
     // A batch that meets something is left out, and a process has but three.
     let passes = (0..20).map(|_| {

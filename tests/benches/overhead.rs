@@ -14,7 +14,7 @@ use ocb_core::mesh::{Mesh, obj};
 use ocb_core::oracle::Shape;
 use ocb_core::query::{Query, Semantics};
 use ocb_core::sampling::Plan;
-use ocb_sandbox::{ClockChoice, Launcher, Policy, Profile, Session, Trial};
+use ocb_sandbox::{ClockChoice, Launcher, Objects, Policy, Profile, Session, Trial};
 use ocb_tests::place::built;
 use ocb_tests::process::command;
 
@@ -54,7 +54,7 @@ fn main() {
         ..Policy::default()
     };
     let (algorithm, parameters, semantics) = ("fcl", &[][..], Semantics::Surface);
-    let trial = Trial { plugin: &plugin, algorithm, mesh_a: &mesh, mesh_b: None, parameters, semantics };
+    let trial = Trial { plugin: &plugin, algorithm, objects: Objects::Pair(&mesh, None), parameters, semantics };
     let mut session = Launcher::new(built("ocb-runner"), policy).start(&trial).expect("a session");
     for (question, query) in [Query::CollisionFirst, Query::Proximity].into_iter().enumerate() {
         compare(question as u64, query, &configurations, &mut session, &mut direct);

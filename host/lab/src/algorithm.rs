@@ -8,9 +8,8 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use ocb_core::mesh::Mesh;
 use ocb_core::query::{Query, Semantics};
-use ocb_sandbox::{Ending, Launcher, Policy, Profile, Trial, given};
+use ocb_sandbox::{Ending, Launcher, Objects, Policy, Profile, Trial, given};
 
 use crate::model::AlgorithmInfo;
 use crate::{LabError, Result, sha256_hex};
@@ -49,10 +48,9 @@ impl Algorithm {
         choice::with_settings(self, settings)
     }
 
-    /// What a process is started for: this algorithm with its settings, on these objects; one object against itself when there
-    /// is no second.
-    pub fn trial<'a>(&'a self, a: &'a Mesh, b: Option<&'a Mesh>, semantics: Semantics) -> Trial<'a> {
-        Trial { parameters: &self.settings, semantics, ..Trial::new(&self.file, &self.id_in_plugin, a, b) }
+    /// What a process is started for: this algorithm with its settings, on these objects.
+    pub fn trial<'a>(&'a self, objects: Objects<'a>, semantics: Semantics) -> Trial<'a> {
+        Trial { parameters: &self.settings, semantics, ..Trial::of(&self.file, &self.id_in_plugin, objects) }
     }
 }
 

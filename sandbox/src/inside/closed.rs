@@ -181,10 +181,18 @@ impl Shared {
         words.map(f64::from_bits)
     }
 
-    /// Does this question put object B first?
+    /// The numbers of the object that stands first in a question and of the one that stands second.
     #[inline]
-    pub fn swapped(&self, question: usize) -> bool {
-        self.request.u64(request::SWAPPED).load(Ordering::Relaxed) >> question & 1 == 1
+    pub fn objects(&self, question: usize) -> [usize; 2] {
+        let word = self.request.u64(request::OBJECTS + 8 * question).load(Ordering::Relaxed);
+        [word as u32 as usize, (word >> 32) as usize]
+    }
+
+    /// Of the object that is to be built: vertices, triangles, and where both begin in the trial file.
+    pub fn mesh(&self) -> [u64; 4] {
+        let mut words = [0; 4];
+        self.request.load(request::MESH, &mut words);
+        words
     }
 
     /// Address of a byte of the trial file.

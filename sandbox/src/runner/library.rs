@@ -7,7 +7,7 @@ use ocb_core::query::Query;
 use ocb_sandbox::descriptor::{Descriptor, Parameter};
 use ocb_sandbox::protocol::slot::NOT_LOADED;
 use opencollbench_plugin::layout;
-use opencollbench_plugin::raw::{self, contacts, distance, parameters};
+use opencollbench_plugin::raw::{self, contacts, distance, parameters, scene};
 
 /// Longest string that is read from a plugin.
 const STRING_BYTES: usize = 4096;
@@ -87,6 +87,8 @@ pub struct Algorithm {
     pub contacts: Option<&'static contacts::Contacts>,
     /// `ocb.parameters/1`.
     pub parameters: Option<&'static parameters::Parameters>,
+    /// `ocb.scene/1`.
+    pub scene: Option<&'static scene::Scene>,
 }
 
 impl Plugin {
@@ -218,6 +220,7 @@ impl Algorithm {
             distance: table!(distance, Distance),
             contacts: table!(contacts, Contacts),
             parameters: table!(parameters, Parameters),
+            scene: table!(scene, Scene),
         })
     }
 
@@ -253,6 +256,7 @@ impl Algorithm {
             solid: self.knows_solids(),
             coherent: raw.capabilities & raw::CAPABILITY_COHERENT != 0,
             threads: raw.capabilities & raw::CAPABILITY_THREADS != 0,
+            scene: self.scene.is_some(),
             parameters: self.knobs()?.into_iter().map(knob).collect(),
         })
     }

@@ -7,7 +7,7 @@
 use ocb_core::query::Semantics;
 use ocb_sandbox::gate::{self, Inspection};
 use ocb_sandbox::inside::{Shared, Slot};
-use ocb_sandbox::protocol::{Command, answer, slot};
+use ocb_sandbox::protocol::{Answers, Command, answer, slot};
 use ocb_sandbox::seccomp;
 use opencollbench_plugin::raw::contacts::{Contact, ContactsRequest, ContactsResult};
 use opencollbench_plugin::raw::distance::{DistanceRequest, DistanceResult};
@@ -25,7 +25,9 @@ pub struct Measured {
     plugin: Option<Plugin>,
     algorithm: Option<Algorithm>,
     instance: *mut Instance,
-    objects: [*mut Object; 2],
+    /// By their numbers; a pair has two from the start, which the null plugin gets, too.
+    objects: Vec<*mut Object>,
+    built: usize,
     /// Flags of every request of this trial.
     flags: u32,
     /// The algorithm does not know what this trial asks, so that it is never called for an answer.
@@ -47,7 +49,8 @@ impl Measured {
             plugin: None,
             algorithm: None,
             instance: nothing,
-            objects: [std::ptr::null_mut(); 2],
+            objects: vec![std::ptr::null_mut(); 2],
+            built: 0,
             flags: 0,
             unasked: false,
             tests: None,
@@ -73,8 +76,7 @@ impl Measured {
             }
             Command::Open => self.open(shared, slot),
             Command::Prepare => self.prepare(shared, slot),
-            Command::BuildA => self.build(shared, 0),
-            Command::BuildB => self.build(shared, 1),
+            Command::Build => self.build(shared),
             _ if self.unasked => {
                 slot[slot::STATUS] = raw::UNSUPPORTED as u64;
                 Ok(())
@@ -128,9 +130,9 @@ impl Measured {
             self.unasked = !algorithm.knows_solids();
         }
         if algorithm.raw.capabilities & raw::CAPABILITY_COUNTS != 0
-            && let [Some(a), Some(b)] = [head.meshes.first(), head.meshes.last()]
+            && let Some(triangles) = head.triangles
         {
-            let at = [answer::TESTS, answer::tests_b([a.triangles, b.triangles])];
+            let at = [answer::TESTS, answer::tests_b(triangles)];
             self.tests = Some(at.map(|at| shared.answer.address(at).cast()));
         }
         if let Some(create) = algorithm.raw.create {
@@ -146,31 +148,33 @@ impl Measured {
             self.guarded(|| algorithm.set(self.instance, name, *value))?;
         }
         let algorithm = self.guarded(|| Algorithm::with(algorithm.raw, self.instance))?;
-        let queries = serde_json::to_vec(&algorithm.queries()).map_err(|e| Failure::error(e.to_string()))?;
-        shared.say(slot, &queries);
+        let answers = Answers { queries: algorithm.queries(), scene: algorithm.scene.is_some() };
+        shared.say(slot, &serde_json::to_vec(&answers).map_err(|e| Failure::error(e.to_string()))?);
         self.algorithm = Some(algorithm);
         Ok(())
     }
 
-    fn build(&mut self, shared: &Shared, which: usize) -> Result<(), Failure> {
+    fn build(&mut self, shared: &Shared) -> Result<(), Failure> {
         let algorithm = self.algorithm()?;
-        let head = head(shared)?;
-        let place = head.meshes.get(which).ok_or_else(|| Failure::error("the trial does not have this mesh"))?;
-        let positions = shared.trial_address(place.positions_at).cast();
-        let triangles = shared.trial_address(place.triangles_at).cast();
+        let [vertex_count, triangle_count, positions_at, triangles_at] = shared.mesh();
+        let (vertex_count, triangle_count) = (vertex_count as u32, triangle_count as u32);
+        let positions = shared.trial_address(positions_at as usize).cast();
+        let triangles = shared.trial_address(triangles_at as usize).cast();
         let load = algorithm.raw.load_mesh.ok_or_else(|| Failure::error("load_mesh is missing"))?;
         let mut object = std::ptr::null_mut();
         // SAFETY: by plugin.h; both arrays lie in the sealed trial mapping, aligned to 64 bytes, as long as said.
         let status = self.guarded(|| unsafe {
-            load(self.instance, positions, place.vertices, triangles, place.triangles, &raw mut object)
+            load(self.instance, positions, vertex_count, triangles, triangle_count, &raw mut object)
         });
         match status {
             raw::OK if object.is_null() => Err(Failure::error("load_mesh returned OCB_OK and no object")),
             raw::OK => {
-                self.objects[which] = object;
-                if which == 0 {
+                self.objects.truncate(self.built);
+                self.objects.push(object);
+                self.built += 1;
+                if self.built == 1 {
                     // The same mesh twice is loaded once; a second one replaces this.
-                    self.objects[1] = object;
+                    self.objects.push(object);
                 }
                 Ok(())
             }
@@ -257,8 +261,7 @@ impl Measured {
     /// The object that stands first in a question, and the one that stands second.
     #[inline]
     fn ordered(&self, shared: &Shared, question: usize) -> [*mut Object; 2] {
-        let [a, b] = self.objects;
-        if shared.swapped(question) { [b, a] } else { [a, b] }
+        shared.objects(question).map(|number| self.objects[number])
     }
 
     fn said_error(&self, status: raw::Status, what: &str) -> Result<(), Failure> {

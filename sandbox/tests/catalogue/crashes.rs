@@ -2,10 +2,11 @@
 
 use crate::Attack;
 use crate::Expected::{Denied, Harmless, Left, Signal};
-use crate::Form::{Loading, Query, QueryAndConstructor};
+use crate::Form::{Loading, Query, QueryAndConstructor, ThirdObject};
 
 pub const ALL: &[Attack] = &[
     attack!("C1", "store to address 8", "store_to_null", QueryAndConstructor, Signal(libc::SIGSEGV)),
+    attack!("C1", "store to address 8", "store_to_null", ThirdObject, Signal(libc::SIGSEGV)),
     attack!("C1", "divide by zero", "divide_by_zero", Query, Signal(libc::SIGFPE)),
     attack!("C1", "undefined instruction", "undefined_instruction", Query, Signal(libc::SIGILL)),
     attack!("C1", "abort", "abort_self", QueryAndConstructor, Signal(libc::SIGABRT)),
@@ -16,6 +17,7 @@ pub const ALL: &[Attack] = &[
     attack!("C3", "longjmp into a frame that is gone", "jump_back", Query, Signal(libc::SIGSEGV)),
     attack!("C3", "smash the stack of the runner", "smash_stack", Query, Signal(libc::SIGSEGV)),
     attack!("C4", "_exit(0)", "leave", QueryAndConstructor, Left(0)),
+    attack!("C4", "_exit(0)", "leave", ThirdObject, Left(0)),
     attack!("C4", "exit(3)", "leave_politely", Query, Left(3)),
     attack!(
         "C6",

@@ -87,7 +87,8 @@ impl Expected {
         match (self, &ran.ending.outcome) {
             (Expected::Denied(name), Outcome::SyscallDenied { phase: p, call }) => *p == phase && call.name == name,
             (Expected::Says(words), Outcome::Failed { reason, .. }) => {
-                reason.starts_with(&format!("collide returned OCB_ERROR: {words}"))
+                let call = if phase == Phase::Build { "load_mesh" } else { "collide" };
+                reason.starts_with(&format!("{call} returned OCB_ERROR: {words}"))
             }
             (Expected::Signal(signal), Outcome::Signaled { phase: p, signal: s }) => (*p, *s) == (phase, signal),
             (Expected::Left(status), Outcome::Failed { phase: p, reason }) => {

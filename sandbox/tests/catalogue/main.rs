@@ -69,6 +69,8 @@ pub enum Form {
     Twice,
     /// In a thousand questions of a pass, in several processes.
     Pass,
+    /// While the third object of a scene of four is built.
+    ThirdObject,
 }
 
 impl Form {
@@ -83,6 +85,7 @@ impl Form {
             Form::Distances => "distances",
             Form::Twice => "query, two trials",
             Form::Pass => "passes",
+            Form::ThirdObject => "build, third object of a scene",
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::Attack;
 use crate::Expected::{Bounded, Denied, Harmless, Left, Says, Signal, TimedOut, Violation, WorkSeen};
-use crate::Form::{Contacts, Query, QueryAndConstructor};
+use crate::Form::{Contacts, Query, QueryAndConstructor, ThirdObject};
 
 /// A word of the reference answers, as the test puts it into the host's memory.
 pub const CANARY: u64 = 0x7a31_9c55_e2d8_06b4;
@@ -12,6 +12,7 @@ pub const ALL: &[Attack] = &[
     attack!("M1", "make data executable", "data_to_code", Query, Denied("mprotect")),
     attack!("M1", "code from a memory file", "code_from_memory_file", Query, Denied("memfd_create")),
     attack!("M1", "map more code after it was loaded", "more_code"["KEEPS_ITS_FILE"], Query, Says("EPERM")),
+    attack!("M1", "map more code after it was loaded", "more_code"["KEEPS_ITS_FILE"], ThirdObject, Says("EPERM")),
     attack!("M1", "map more of a file after it was loaded", "more_of_a_file"["KEEPS_ITS_FILE"], Query, Says("EPERM")),
     attack!("M2", "put a page over libc's code", "overlay_libc", Query, Says("EPERM")),
     attack!("M2", "make libc's code writable", "code_to_data", Query, Says("EPERM")),

@@ -4,12 +4,12 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use ocb_core::configuration::Configuration;
-use ocb_core::instance::{Instance, Presented};
+use ocb_core::instance::Instance;
 use ocb_core::query::{Answer, Query};
 use ocb_sandbox::integrity::{self, Check, Finding};
 use ocb_sandbox::{Ending, Launcher, Outcome, PassFacts, PassPlan};
 
-use crate::common::{apart, fixture, start};
+use crate::common::{apart, first_contact, fixture, start};
 use crate::run::Ran;
 use crate::{Attack, Expected};
 
@@ -55,15 +55,8 @@ fn one(launcher: &Launcher, defines: &[&str], seed: u64, passes: &mut Vec<PassFa
     // Who lists contacts learns where the answers lie.
     if session.query(Query::CollisionAll, &apart(0.5)).is_ok() {
         let order: Vec<u32> = (0..QUESTIONS).map(|i| i * 379 % QUESTIONS).collect();
-        let plan = PassPlan {
-            query: Query::CollisionFirst,
-            order: &order,
-            coherent: false,
-            seed,
-            allowance: Duration::from_secs(50),
-        };
-        let present =
-            |configuration, instance| Presented { configuration: moved(configuration, instance), swapped: false };
+        let plan = PassPlan { order: &order, coherent: false, seed, allowance: Duration::from_secs(50) };
+        let present = |configuration, instance| first_contact(moved(configuration, instance));
         let mut each = |seen: ocb_sandbox::Observation| {
             let truth = 0.004 * f64::from(seen.configuration) < 1.0;
             *wrong += usize::from(!matches!(seen.answer, Answer::Collision { hit, .. } if hit == truth));

@@ -5,7 +5,7 @@ use ocb_core::record::Verdict;
 use ocb_sandbox::integrity::Finding;
 use ocb_sandbox::{Ending, Launcher, Outcome, Phase, Policy};
 
-use crate::common::{apart, fixture, judged, launcher_with, policy, start};
+use crate::common::{apart, fixture, judged, launcher_with, policy, start, start_scene};
 use crate::{Attack, Expected, Form, pass};
 
 /// What came of it.
@@ -44,7 +44,11 @@ pub fn check(attack: &Attack, constructor: bool) -> Result<(), String> {
             return Err(format!("{}: it sees a difference: {said}, and before: {before:?}", attack.id));
         }
         before = Some(said);
-        let phase = if constructor { Phase::Load } else { Phase::Query };
+        let phase = match attack.form {
+            _ if constructor => Phase::Load,
+            Form::ThirdObject => Phase::Build,
+            _ => Phase::Query,
+        };
         if !attack.expected.met_by(&ran, phase) {
             let form = if constructor { " (constructor)" } else { "" };
             let (ending, expected) = (&ran.ending, attack.expected.text());
@@ -59,6 +63,7 @@ fn run(attack: &Attack, constructor: bool) -> Ran {
     let form = attack.form;
     let mut defines = attack.defines.to_vec();
     defines.extend((constructor && form != Form::Loading).then_some("IN_CONSTRUCTOR"));
+    defines.extend((form == Form::ThirdObject).then_some(["IN_BUILD", "AT_OBJECT=2"]).into_iter().flatten());
     defines.extend(matches!(form, Form::Contacts | Form::ThreadsContacts).then_some("IN_CONTACTS"));
     let threads = if matches!(form, Form::Threads | Form::ThreadsContacts) { 2 } else { 1 };
     let launcher = launcher_with(Policy { threads, ..policy() });
@@ -68,6 +73,7 @@ fn run(attack: &Attack, constructor: bool) -> Ran {
 /// Asks what the form wants, and two collision queries, so that a harmless attack has to go on being honest.
 fn ask(launcher: &Launcher, attack: &Attack, defines: &[&str]) -> Ran {
     let mut ran = Ran { shortest_ns: f64::MAX, ..Ran::new() };
+    let start = if attack.form == Form::ThirdObject { start_scene } else { start };
     let mut session = match start(launcher, &fixture(defines)) {
         Ok(session) => session,
         Err(ending) => return Ran { ending, ..ran },

@@ -12,7 +12,7 @@ use ocb_core::pose::Pose;
 use ocb_core::query::{Answer, Query, Semantics};
 use ocb_core::record::Verdict;
 use ocb_core::validation::{Precision, Terms, judge};
-use ocb_sandbox::{Ending, Launcher, Outcome, Policy, Profile, Session, Trial};
+use ocb_sandbox::{Ending, Launcher, Objects, Outcome, Policy, Profile, Question, Session, Trial};
 
 mod build;
 mod others;
@@ -66,9 +66,20 @@ pub fn upright(x: f64) -> Configuration {
     Configuration { pose_b: Pose { linear, translation: Vector3::new(x, 0.25, -0.25) }, ..apart(x) }
 }
 
+/// Do the objects of a pair collide?
+pub fn first_contact(configuration: Configuration) -> Question {
+    Question { query: Query::CollisionFirst, objects: [0, 1], configuration }
+}
+
 pub fn start(launcher: &Launcher, plugin: &Path) -> Result<Session, Ending> {
     let mesh = mesh();
     launcher.start(&Trial::new(plugin, "fixture", &mesh, None))
+}
+
+/// A scene of four objects.
+pub fn start_scene(launcher: &Launcher, plugin: &Path) -> Result<Session, Ending> {
+    let mesh = mesh();
+    launcher.start(&Trial::of(plugin, "fixture", Objects::Scene(&[&mesh; 4])))
 }
 
 /// Starts the fixture, asks one question and ends it.

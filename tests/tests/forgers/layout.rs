@@ -9,7 +9,7 @@ pub fn defines() -> Vec<String> {
         ("REQUEST_SLEEPS", request::SUPERVISOR_SLEEPS),
         ("REQUEST_COMMAND", request::COMMAND),
         ("REQUEST_QUESTIONS", request::QUESTIONS),
-        ("REQUEST_SWAPPED", request::SWAPPED),
+        ("REQUEST_OBJECTS", request::OBJECTS),
         ("REQUEST_BYTES", request::BYTES),
         ("POSES_AT", request::POSES),
         ("POSES_STRIDE", request::POSES_STRIDE),

@@ -8,7 +8,7 @@ use ocb_core::configuration::Configuration;
 use ocb_core::mesh::Mesh;
 use ocb_core::pose::Pose;
 use ocb_core::query::{Answer, Query, Semantics};
-use ocb_sandbox::{Launcher, Policy, Profile, Session, Trial};
+use ocb_sandbox::{Launcher, Objects, Policy, Profile, Session, Trial};
 use ocb_tests::place::{built, root};
 use ocb_tests::process::{command, output};
 
@@ -70,7 +70,7 @@ fn turned(x: f64, y: f64, z: f64) -> Pose {
 fn start(plugin: &Path, algorithm: &str, [mesh_a, mesh_b]: &[Mesh; 2]) -> Session {
     let launcher = Launcher::new(built("ocb-runner"), Policy { profile: Profile::Dev, ..Policy::default() });
     let (parameters, semantics) = (&[][..], Semantics::Surface);
-    let trial = Trial { plugin, algorithm, mesh_a, mesh_b: Some(mesh_b), parameters, semantics };
+    let trial = Trial { plugin, algorithm, objects: Objects::Pair(mesh_a, Some(mesh_b)), parameters, semantics };
     launcher.start(&trial).unwrap_or_else(|end| panic!("{algorithm}: {end} {}", end.stderr))
 }
 

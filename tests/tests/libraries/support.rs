@@ -7,7 +7,7 @@ use ocb_core::configuration::Configuration;
 use ocb_core::mesh::{Mesh, obj};
 use ocb_core::pose::Pose;
 use ocb_core::query::{Answer, Query, Semantics};
-use ocb_sandbox::{Launcher, Policy, Profile, Session, Trial};
+use ocb_sandbox::{Launcher, Objects, Policy, Profile, Session, Trial};
 use ocb_tests::place::{built, shared};
 
 /// The libraries whose wrappers are built here.
@@ -49,7 +49,7 @@ impl Algorithm {
             Launcher::new(built("ocb-runner"), Policy { trusted: true, profile: Profile::Dev, ..Policy::default() });
         let (algorithm, parameters) = (self.id, self.settings.as_slice());
         let semantics = Semantics::Surface;
-        let trial = Trial { plugin: &plugin, algorithm, mesh_a, mesh_b, parameters, semantics };
+        let trial = Trial { plugin: &plugin, algorithm, objects: Objects::Pair(mesh_a, mesh_b), parameters, semantics };
         launcher.start(&trial).unwrap_or_else(|end| panic!("{}: {end} {}", self.name(), end.stderr))
     }
 }

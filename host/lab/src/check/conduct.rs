@@ -4,9 +4,8 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use ocb_core::instance::Presented;
 use ocb_core::query::{Answer, Counters, Query};
-use ocb_sandbox::{Ending, Killer, Launcher, Outcome, PassPlan, Session, Trial, integrity};
+use ocb_sandbox::{Ending, Killer, Launcher, Outcome, PassPlan, Question, Session, Trial, integrity};
 
 use super::Checking;
 use super::suite::{Scene, suite};
@@ -148,9 +147,11 @@ impl Checking<'_> {
         };
         let n = scene.placed.len() as u32;
         let order: Vec<u32> = (0..n * ROUNDS).map(|i| i % n).collect();
-        let plan = PassPlan { query, order: &order, coherent: false, seed: 1, allowance: PASS };
-        let present =
-            |number: u32, _| Presented { configuration: scene.placed[number as usize].configuration, swapped: false };
+        let plan = PassPlan { order: &order, coherent: false, seed: 1, allowance: PASS };
+        let present = |number: u32, _| {
+            let configuration = scene.placed[number as usize].configuration;
+            Question { query, objects: [0, 1], configuration }
+        };
         let (facts, _) = session.pass(&plan, &present, &mut |_| ControlFlow::Continue(()));
         let ending = session.finish();
         if ending.outcome == Outcome::Cancelled {

@@ -5,7 +5,7 @@ use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
 
 use ocb_core::instance::{Instance, Presentation};
-use ocb_sandbox::{Killer, Observation, Outcome, PassPlan, Policy, Session};
+use ocb_sandbox::{Killer, Objects, Observation, Outcome, PassPlan, Policy, Question, Session};
 
 use super::pace::Pace;
 use super::weave::{self, Piece, Reach};
@@ -56,6 +56,23 @@ pub struct ProcessPass<'a> {
     pub piece: Piece,
     /// How the process sees the objects.
     pub shown: &'a Presentation,
+}
+
+/// What a process may use whose passes have this budget together.
+pub fn limits(budget: Duration) -> Policy {
+    Policy {
+        // A single question may take a whole pass (brute force on large objects), and no more.
+        query_seconds: budget.as_secs_f64().max(Policy::default().query_seconds),
+        // The pass ends by its allowance; this only catches a runner that never comes back.
+        trial_seconds: 4.0 * budget.as_secs_f64() + Policy::default().trial_seconds,
+        ..Policy::default()
+    }
+}
+
+/// The same on the CPUs of this machine that measure.
+pub fn allowed(machine: &Machine, threads: usize, limits: Policy) -> Policy {
+    let (runner_cpu, supervisor_cpu) = (Some(machine.measuring_cpu()), Some(machine.supervisor_cpu()));
+    Policy { runner_cpu, supervisor_cpu, threads, ..limits }
 }
 
 /// A pass that has begun.
@@ -159,14 +176,14 @@ impl ProcessPass<'_> {
         way: &mut UnderWay,
     ) -> (usize, f64) {
         let plan = PassPlan {
-            query: self.task.query,
             order,
             coherent: self.task.coherent(),
             seed: self.task.process_seed(self.process).rotate_left(1),
             allowance: way.allowance,
         };
         let present = |configuration: u32, instance: Instance| {
-            self.shown.present(&self.task.placed(configuration).configuration, configuration, instance)
+            let asked = &self.task.placed(configuration).configuration;
+            Question::of_pair(self.task.query, self.shown.present(asked, configuration, instance))
         };
         let mut each = |seen: Observation| {
             let answer = self.shown.translate(seen.answer, seen.configuration, seen.instance);
@@ -211,23 +228,10 @@ impl ProcessPass<'_> {
 
     fn start(&self, state: &MeasuringState, killer: &Killer) -> Result<Session, OutcomeInfo> {
         let algorithm = &state.algorithm;
-        let limits = match self.purpose {
-            Purpose::Look => look::limits(),
-            _ => Policy {
-                // A single question may take a whole pass (brute force on large objects), and no more.
-                query_seconds: self.task.budget.as_secs_f64().max(Policy::default().query_seconds),
-                // The pass ends by its allowance; this only catches a runner that never comes back.
-                trial_seconds: 4.0 * self.task.budget.as_secs_f64() + Policy::default().trial_seconds,
-                ..Policy::default()
-            },
-        };
-        let policy = Policy {
-            runner_cpu: Some(self.machine.measuring_cpu()),
-            supervisor_cpu: Some(self.machine.supervisor_cpu()),
-            threads: algorithm.threads,
-            ..limits
-        };
-        let trial = algorithm.trial(self.shown.first(), self.shown.second(), self.task.semantics);
+        let limits = if self.purpose == Purpose::Look { look::limits() } else { limits(self.task.budget) };
+        let policy = allowed(self.machine, algorithm.threads, limits);
+        let objects = Objects::Pair(self.shown.first(), self.shown.second());
+        let trial = algorithm.trial(objects, self.task.semantics);
         let launcher = self.runner.launcher(algorithm, policy);
         launcher.start_with(&trial, killer).map_err(|ending| outcome_info(&ending.outcome))
     }

@@ -6,7 +6,7 @@ use ocb_core::configuration::Configuration;
 use ocb_core::instance::Presentation;
 use ocb_core::query::Query;
 use ocb_core::validation::Precision;
-use ocb_sandbox::{Ending, MAX_BATCH, Outcome, Policy, Session};
+use ocb_sandbox::{Ending, MAX_BATCH, Objects, Outcome, Policy, Session};
 
 use crate::algorithm::{Algorithm, Runner};
 use crate::columns::{AnswerRow, Flat};
@@ -64,7 +64,7 @@ impl Questions<'_> {
                 measure::shown(mesh_a, mesh_b, self.poses.iter(), coherent, *seed, process)
             }
         };
-        let trial = algorithm.trial(shown.first(), shown.second(), spec.semantics);
+        let trial = algorithm.trial(Objects::Pair(shown.first(), shown.second()), spec.semantics);
         let policy = Policy { threads: algorithm.threads, rough_clock: true, ..Policy::default() };
         let mut session = self.runner.launcher(algorithm, policy).start(&trial)?;
         let whole = self.compare(&mut session, &shown, rows, replayed);

@@ -6,7 +6,7 @@ use ocb_core::configuration::Configuration;
 use ocb_core::mesh::Mesh;
 use ocb_core::query::{Answer, Query, Semantics};
 use ocb_core::validation::Precision;
-use ocb_sandbox::{Ending, Launcher, Outcome};
+use ocb_sandbox::{Ending, Launcher, Objects, Outcome};
 
 use crate::algorithm::Algorithm;
 use crate::measure::Stop;
@@ -95,7 +95,7 @@ impl<'a> Asker<'a> {
         questions: &[(Query, Configuration)],
         all: &mut Vec<Got>,
     ) -> std::result::Result<(), Ending> {
-        let trial = self.algorithm.trial(a, Some(b), semantics);
+        let trial = self.algorithm.trial(Objects::Pair(a, Some(b)), semantics);
         let mut session = self.launcher.start(&trial)?;
         for (query, configuration) in questions {
             if self.stop.asked() {
@@ -117,7 +117,7 @@ impl<'a> Asker<'a> {
         b: &Mesh,
         talk: impl FnOnce(&mut dyn FnMut(Query, &Configuration) -> Got),
     ) -> Result<()> {
-        let trial = self.algorithm.trial(a, Some(b), Semantics::Surface);
+        let trial = self.algorithm.trial(Objects::Pair(a, Some(b)), Semantics::Surface);
         let mut session = match self.launcher.start(&trial) {
             Ok(session) => session,
             Err(ending) if ending.outcome.ours() => return Err(LabError::Fault(ending.to_string())),
