@@ -122,12 +122,14 @@ choice! {
     } without PurpleOrange
 }
 choice! {
-    /// The order of the queries of a pair.
+    /// The order of the queries of a recording.
     OrderArg => ocb_service::model::Track {
-        /// Another one in each process.
+        /// Pair by pair of objects, in another order in each process.
         Shuffled,
-        /// As recorded: algorithms may use that a query is like the one before.
+        /// Pair by pair, as recorded: algorithms may use that a query is like the one before.
         Recorded,
+        /// All as recorded, to one process that has loaded every object once; for algorithms that offer `ocb.scene/1`.
+        Scene,
     }
 }
 choice! {

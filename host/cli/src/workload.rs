@@ -42,9 +42,9 @@ pub async fn bench(store: &Store, args: &BenchArgs, file: &Path, json: bool) -> 
 }
 
 fn spec(args: &BenchArgs) -> Result<WorkloadSpec> {
-    let tracks = match args.order {
-        Some(order) => vec![order.into()],
-        None => vec![Track::Shuffled, Track::Recorded],
+    let tracks = match &args.order[..] {
+        [] => WorkloadSpec::default().tracks,
+        named => named.iter().map(|order| (*order).into()).collect(),
     };
     let spec = WorkloadSpec {
         algorithms: args.algorithm.clone(),

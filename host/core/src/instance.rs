@@ -28,13 +28,11 @@ pub const OTHER_UNITS: [i32; 4] = [-3, 3, -3, 3];
 /// Coordinates between these magnitudes can be scaled that far, in single precision as well.
 const SCALABLE: std::ops::RangeInclusive<f64> = 1e-30..=1e17;
 
-/// How one process sees the two objects.
+/// How one process sees its objects: a pair, of which both may be one mesh, or a scene of many.
 #[derive(Clone, Debug)]
 pub struct Presentation {
-    first: Mesh,
-    /// Absent when both objects are one.
-    second: Option<Mesh>,
-    numbering: [Numbering; 2],
+    meshes: Vec<Mesh>,
+    numbering: Vec<Numbering>,
     scale: f64,
     rotations: Rotations,
 }
@@ -89,14 +87,10 @@ enum Rotations {
 impl Presentation {
     /// The objects as they are; `b` is absent when both are one.
     pub fn original(a: &Mesh, b: Option<&Mesh>) -> Self {
+        let meshes: Vec<Mesh> = std::iter::once(a).chain(b).cloned().collect();
         let same = |mesh: &Mesh| Numbering((0..mesh.triangles().len() as u32).collect());
-        Presentation {
-            first: a.clone(),
-            second: b.cloned(),
-            numbering: [same(a), same(b.unwrap_or(a))],
-            scale: 1.0,
-            rotations: Rotations::Identity,
-        }
+        let numbering = meshes.iter().map(same).collect();
+        Presentation { meshes, numbering, scale: 1.0, rotations: Rotations::Identity }
     }
 
     /// Drawn by a seed, for the process of this number. `coherent`: all questions are turned alike, so that near
@@ -109,21 +103,36 @@ impl Presentation {
         seed: u64,
         process: u32,
     ) -> Self {
-        let mut numbers = Numbers::new(seed);
         let fits = |x: f64| x == 0.0 || SCALABLE.contains(&x.abs());
         let poses = |c: &Configuration| [c.pose_a, c.pose_b].iter().all(|p| p.translation.iter().copied().all(fits));
         let scalable =
             [Some(a), b].into_iter().flatten().all(|mesh| mesh.positions().iter().all(|p| p.iter().copied().all(fits)))
                 && configurations.all(poses);
         let scale = if scalable { 2f64.powi(exponent(Some(process))) } else { 1.0 };
-        let (mesh_a, numbering_a) = renumbered(a, scale, &mut numbers);
-        let (mesh_b, numbering_b) = match b.map(|b| renumbered(b, scale, &mut numbers)) {
-            Some((mesh, numbering)) => (Some(mesh), numbering),
-            None => (None, numbering_a.clone()),
-        };
-        let rotation = numbers.bits();
-        let rotations = if coherent { Rotations::Constant(rotation) } else { Rotations::Varying(rotation) };
-        Presentation { first: mesh_a, second: mesh_b, numbering: [numbering_a, numbering_b], scale, rotations }
+        let rotations = if coherent { Rotations::Constant } else { Rotations::Varying };
+        Self::renumbered([Some(a), b].into_iter().flatten(), scale, rotations, seed)
+    }
+
+    /// A scene of many objects, drawn by a seed, in the unit of the files: all of it is turned alike in every question, so that
+    /// near configurations stay near.
+    pub fn of_scene<'m>(meshes: impl Iterator<Item = &'m Mesh>, seed: u64) -> Self {
+        Self::renumbered(meshes, 1.0, Rotations::Constant, seed)
+    }
+
+    fn renumbered<'m>(
+        meshes: impl Iterator<Item = &'m Mesh>,
+        scale: f64,
+        rotations: fn(u64) -> Rotations,
+        seed: u64,
+    ) -> Self {
+        let mut numbers = Numbers::new(seed);
+        let (meshes, numbering) = meshes.map(|mesh| renumbered(mesh, scale, &mut numbers)).unzip();
+        Presentation { meshes, numbering, scale, rotations: rotations(numbers.bits()) }
+    }
+
+    /// All objects.
+    pub fn meshes(&self) -> &[Mesh] {
+        &self.meshes
     }
 
     /// What all lengths are multiplied by.
@@ -133,12 +142,12 @@ impl Presentation {
 
     /// Object A.
     pub fn first(&self) -> &Mesh {
-        &self.first
+        &self.meshes[0]
     }
 
     /// Object B; absent when both are one.
     pub fn second(&self) -> Option<&Mesh> {
-        self.second.as_ref()
+        self.meshes.get(1)
     }
 
     /// The question in this process's numbers.
@@ -154,11 +163,16 @@ impl Presentation {
 
     /// The answer in the original's numbers.
     pub fn translate(&self, answer: Answer, configuration: u32, instance: Instance) -> Answer {
+        self.translate_of([0, self.meshes.len() - 1], answer, configuration, instance)
+    }
+
+    /// The same, about these objects of a scene, A and B of the original.
+    pub fn translate_of(&self, objects: [usize; 2], answer: Answer, configuration: u32, instance: Instance) -> Answer {
         let back = self.rotation(configuration, instance).transpose();
         let swapped = self.swapped(configuration, instance);
         let order = |pair: [u32; 2]| {
             let [a, b] = if swapped { [pair[1], pair[0]] } else { pair };
-            [self.numbering[0].original(a), self.numbering[1].original(b)]
+            [self.numbering[objects[0]].original(a), self.numbering[objects[1]].original(b)]
         };
         match answer {
             Answer::Collision { hit, pair } => Answer::Collision { hit, pair: pair.map(order) },
@@ -329,6 +343,32 @@ mod tests {
             assert_eq!(2f64.powi(exponent(Some(process))), expected);
         }
         assert_eq!(exponent(None), 0);
+    }
+
+    #[test]
+    fn a_scene_is_turned_as_a_whole_and_each_object_keeps_its_numbers() {
+        let meshes = [mesh(0.0, 5), mesh(0.5, 4), mesh(1.5, 3)];
+        for seed in 0..10 {
+            let shown = Presentation::of_scene(meshes.iter(), seed);
+            let near = Presented { swapped: false, ..shown.present(&configuration(0.0), 0, Instance::default()) };
+            let turn = near.configuration.pose_b.linear * configuration(0.0).pose_b.linear.transpose();
+            for i in 1..20 {
+                let original = configuration(f64::from(i) * 0.1);
+                let Presented { configuration, swapped } = shown.present(&original, i, Instance::default());
+                let turned = (configuration.pose_a.linear - turn * original.pose_a.linear).abs().max();
+                assert!(!swapped && turned < 1e-12, "{seed} {i}");
+            }
+            for objects in [[2, 0], [1, 1], [0, 2]] {
+                let answer = Answer::Collision { hit: true, pair: Some([2, 1]) };
+                let translated = shown.translate_of(objects, answer, 7, Instance::default());
+                let Answer::Collision { pair: Some(pair), .. } = translated else { panic!("{translated:?}") };
+                for ((object, now), then) in objects.into_iter().zip([2, 1]).zip(pair) {
+                    let corners =
+                        |mesh: &Mesh, t: u32| mesh.triangles()[t as usize].map(|v| mesh.positions()[v as usize]);
+                    assert_eq!(corners(&shown.meshes()[object], now), corners(&meshes[object], then));
+                }
+            }
+        }
     }
 
     #[test]

@@ -31,7 +31,7 @@ mod process_pass;
 mod state;
 mod stop;
 mod summary;
-mod surplus;
+pub(crate) mod surplus;
 mod waiting;
 mod weave;
 
@@ -62,6 +62,7 @@ use look::Showing;
 pub use look::{Preliminary, QUESTIONS, first_look, worth_a_look};
 pub use pace::{Cost, cost};
 use process_pass::{ProcessPass, Purpose};
+pub(crate) use process_pass::{allowed, limits};
 pub use state::{Measured, MeasuringState, precision};
 pub use stop::Stop;
 pub use summary::{Asked, environment, rank, summarise};
@@ -159,7 +160,7 @@ pub enum News {
 /// A pass that lost more than this share of its time to the machine below is measured again, once; when the second loses
 /// as much, that is how this machine is, and no pass of the run is measured again. Nor is a first pass that the budget cut: it
 /// says how far the algorithm comes, and another try may come nowhere.
-const STEAL: f64 = 0.001;
+pub(crate) const STEAL: f64 = 0.001;
 
 impl<'a> Task<'a> {
     /// What a request asks for; seed and control questions come on top.
@@ -458,7 +459,8 @@ pub fn shown<'c>(
     Presentation::drawn(a, b, configurations, coherent, process_seed(seed, process), process)
 }
 
-fn process_seed(seed: u64, process: u32) -> u64 {
+/// The seed of all that is drawn for the process of this number.
+pub(crate) fn process_seed(seed: u64, process: u32) -> u64 {
     Numbers::new(seed ^ (u64::from(process) << 40)).bits()
 }
 

@@ -74,7 +74,7 @@ impl Pairing {
     }
 }
 
-/// Nothing where no triangle with area is left.
-fn rounding(mesh: &Mesh) -> Option<Arc<Mesh>> {
+/// The mesh in single precision; nothing where no triangle with area is left.
+pub(crate) fn rounding(mesh: &Mesh) -> Option<Arc<Mesh>> {
     mesh.clone().to_f32_representable().ok().map(Arc::new)
 }

@@ -1,13 +1,15 @@
 //! Replaying a recording: every query that a program asked is put to every algorithm that answers its kind, in the jail, and
 //! judged by the oracle; so are the answers that the program got.
 //!
-//! Queries are replayed by pair of objects, because a process of a plugin holds one pair. Algorithms know triangles only; a
-//! primitive is given to them as a polyhedron around it.
+//! Queries are replayed by pair of objects, because a process of a plugin holds one pair; those that can hold a whole scene are
+//! asked so as well, as an order of its own (`scene.rs`): caches are warm otherwise there, so times of both are not comparable.
+//! Algorithms know triangles only; a primitive is given to them as a polyhedron around it.
 
 mod heatmap;
 mod parts;
 mod posed;
 mod recorded;
+mod scene;
 mod shapes;
 mod stretch;
 mod table;
@@ -35,10 +37,11 @@ pub use heatmap::{HeatmapFile, HeatmapFormat, object_heatmap};
 pub(crate) use parts::{Part as PairPart, parts};
 pub use posed::{mesh_of, posed_group, posed_scene};
 use recorded::Truths;
+use scene::Scene;
 use shapes::{Solid, solids};
 pub use stretch::stretch;
 pub use table::{WorkloadRow, workload_parquet};
-use tally::Tally;
+use tally::{Answered, Tally};
 use timeline::Parts;
 
 /// A part gets this time at least, however few queries it has.
@@ -90,14 +93,18 @@ pub fn replay(
     let (parts, bent) = parts(&recording.queries);
     let solids = solids(&recording.scene)?;
     let mut judged = Truths::new(recording);
-    let mut tallies: Vec<Vec<Tally>> = wanted
-        .tracks
-        .iter()
-        .map(|_| wanted.algorithms.iter().map(|a| Tally::new(a, wanted.passes)).collect())
-        .collect();
     let of: u64 = parts.iter().map(|part| part.rows.len() as u64).sum();
+    tell(Progress { done: 0, of });
+    let scene = wanted.tracks.contains(&Track::Scene);
+    let scene = scene.then(|| Scene::measure(&parts, &solids, wanted, runner, machine, stop)).transpose()?;
+    let tally = |i: usize| Tally::new(&wanted.algorithms[i], wanted.passes);
+    let each = |track: &Track| match (track, &scene) {
+        (Track::Scene, Some(scene)) => scene.algorithms().map(tally).collect(),
+        _ => (0..wanted.algorithms.len()).map(tally).collect(),
+    };
+    let mut tallies: Vec<Vec<Tally>> = wanted.tracks.iter().map(each).collect();
     let (mut done, mut queries, mut far) = (0, 0, 0);
-    for part in &parts {
+    for (number, part) in parts.iter().enumerate() {
         tell(Progress { done, of });
         done += part.rows.len() as u64;
         let Some(certified) = Certified::of(part, &solids, stop)? else { continue };
@@ -105,12 +112,20 @@ pub fn replay(
         queries += certified.rows.len() as u64;
         judged.judge(&certified, part.objects, &solids);
         for (&track, tallies) in wanted.tracks.iter().zip(&mut tallies) {
+            if let (Track::Scene, Some(scene)) = (track, &scene) {
+                scene.judge(number, &certified, recording, tallies);
+                continue;
+            }
             let share = certified.rows.len() as f64 / of as f64;
             let measuring = Measuring { part, certified: &certified, wanted, track, share, runner, machine, stop };
             measuring.measure(recording, tallies)?;
         }
     }
     tell(Progress { done, of });
+    let whole = wanted.tracks.iter().zip(&mut tallies).find(|(track, _)| **track == Track::Scene);
+    if let (Some(scene), Some((_, tallies))) = (scene, whole) {
+        scene.conclude(tallies);
+    }
     if queries == 0 {
         return Err(LabError::Invalid("None of the recorded queries can be replayed.".into()));
     }
@@ -128,10 +143,15 @@ pub fn replay(
     let timeline = Parts::of(&recording.queries).timeline(&judged.hits, &measured);
     let mut rows = Vec::new();
     let mut tracks = Vec::new();
-    for (&track, tallies) in wanted.tracks.iter().zip(tallies) {
+    // None may offer scenes.
+    for (&track, tallies) in wanted.tracks.iter().zip(tallies).filter(|(_, tallies)| !tallies.is_empty()) {
         rows.extend(tallies.iter().flat_map(|tally| tally.rows(track, &judged)));
         let algorithms = tallies.into_iter().map(|tally| tally.result(&recording.queries)).collect();
         tracks.push(TrackResult { track, algorithms });
+    }
+    if tracks.is_empty() {
+        let told = "None of these algorithms can load a whole scene; choose another order as well.";
+        return Err(LabError::Invalid(told.into()));
     }
     let result = WorkloadResult {
         program: recording.about.program.clone(),
@@ -255,7 +275,18 @@ impl Measuring<'_> {
         };
         let measured = measure::to_end(&task, self.runner, self.machine, self.stop)?.ok_or(LabError::Stopped)?;
         for (index, measured) in measured {
-            tallies[asked[index]].add(part.objects, certified, &measured);
+            let tally = &mut tallies[asked[index]];
+            let answered = measured.records.iter().map(|record| {
+                let i = record.configuration as usize;
+                let hit = certified.set.placed[i].truth.hit;
+                let (time_ns, times) = (record.time_ns, measured.times[i].clone());
+                Answered { row: certified.rows[i], time_ns, times, verdict: record.verdict, hit }
+            });
+            tally.add(part.objects, &answered.collect::<Vec<_>>());
+            tally.built(measured.set_ups.iter().map(|set_up| set_up.build_ns).collect());
+            if let Some(outcome) = measured.outcome {
+                tally.ended(Some(part.objects), outcome);
+            }
         }
         Ok(())
     }

@@ -36,6 +36,9 @@ pub struct AlgorithmInfo {
     pub coherent: bool,
     /// It can use several CPUs: `threads=2` behind its id enters the multi-threaded track.
     pub threads: bool,
+    /// A process of it can hold a scene of many objects: the extension `ocb.scene/1`. No when an older version looked.
+    #[serde(default)]
+    pub scene: bool,
     /// It is measured when no algorithm is named.
     pub usual: bool,
     /// Its parameters; a value is chosen behind the id, as in `box-tree:leaf_size=4`.

@@ -16,14 +16,16 @@ pub use heatmap::{ObjectHeatmap, ObjectHeatmapRequest, ObjectMeasure};
 pub use order::{OrderGain, order_gains};
 pub use scene::{PosedScene, ScenePair};
 
-/// In which order the queries of a pair are put.
+/// In which order the queries are put, and to how many processes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Track {
-    /// In another order in each process.
+    /// Pair by pair of objects, in another order in each process.
     Shuffled,
-    /// As recorded: algorithms may use that a query is like the one before.
+    /// Pair by pair, as recorded: algorithms may use that a query is like the one before.
     Recorded,
+    /// All as recorded, to one process that has loaded every object once. Only for algorithms that offer `ocb.scene/1`.
+    Scene,
 }
 
 /// A replayed recording.
@@ -58,7 +60,7 @@ pub struct WorkloadResult {
     /// The simplest scene that keeps the answers, where it was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reduced: Option<ReducedScene>,
-    /// Processes per algorithm, order and pair of objects.
+    /// Processes per algorithm, order and pair of objects; for a whole scene, per algorithm.
     pub passes: u32,
     /// Seed of the orders and of the equivalent instances.
     pub seed: u64,
@@ -144,7 +146,7 @@ pub struct AlgorithmOnWorkload {
     pub n: u64,
     /// Time of these queries together.
     pub total: Option<TotalTime>,
-    /// Time to build the structures of all objects, once per pair, nanoseconds: median over the processes.
+    /// Time to build the structures of all objects, nanoseconds: median over the processes. Once per pair; of a whole scene, once.
     pub build_ns: f64,
     /// Wrong answers.
     pub wrong: u64,
@@ -158,7 +160,7 @@ pub struct AlgorithmOnWorkload {
     pub groups: Option<GroupTimes>,
     /// Each pair of objects, the most expensive first.
     pub pairs: Vec<PairTime>,
-    /// Pairs on which its process ended before all was asked.
+    /// Pairs, or the whole scene, on which its process ended before all was asked.
     pub ended: Vec<EndedPair>,
 }
 
@@ -203,11 +205,11 @@ pub struct PairTime {
     pub ns: f64,
 }
 
-/// A pair on which a process ended early.
+/// Where a process ended early.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct EndedPair {
-    /// The objects, by their place in the scene.
-    pub objects: [u32; 2],
+    /// The objects, by their place in the scene; absent when it held the whole scene.
+    pub objects: Option<[u32; 2]>,
     /// How it ended.
     pub outcome: OutcomeInfo,
 }

@@ -13,7 +13,7 @@ use crate::workload::{PairTime, Track, WorkloadResult};
 pub struct WorkloadSpec {
     /// Names of algorithms, with settings; empty: the usual ones. `all` stands for every algorithm.
     pub algorithms: Vec<String>,
-    /// The orders in which the queries of a pair are put.
+    /// The orders in which the queries are put.
     pub tracks: Vec<Track>,
     /// Processes per algorithm, order and pair of objects.
     pub passes: u32,
@@ -29,7 +29,7 @@ pub struct WorkloadSpec {
 
 impl Default for WorkloadSpec {
     fn default() -> Self {
-        let tracks = vec![Track::Shuffled, Track::Recorded];
+        let tracks = vec![Track::Shuffled, Track::Recorded, Track::Scene];
         Self { algorithms: Vec::new(), tracks, passes: 3, budget_seconds: 10.0, seed: None, reduce: None }
     }
 }
@@ -52,11 +52,11 @@ impl WorkloadSpec {
             return Err(format!("The budget must be above 0 and at most 86400 s, not {budget_seconds}."));
         }
         self.reduce.map_or(Ok(()), |terms| terms.check())?;
-        match tracks[..] {
-            [_] => Ok(()),
-            [first, second] if first != second => Ok(()),
-            _ => Err("The orders must be \"shuffled\", \"recorded\" or both, each once.".to_owned()),
+        let twice = (1..tracks.len()).any(|i| tracks[..i].contains(&tracks[i]));
+        if tracks.is_empty() || twice {
+            return Err("The orders must be some of \"shuffled\", \"recorded\" and \"scene\", each once.".to_owned());
         }
+        Ok(())
     }
 }
 
@@ -234,5 +234,6 @@ mod tests {
         assert_eq!(reduce(terms(0.1, 0.04)), "");
         assert!(reduce(terms(f64::NAN, 0.0)).contains("a positive length"));
         assert!(reduce(terms(0.1, 0.05)).contains("less than half"));
+        assert_eq!(told(|spec| spec.tracks = vec![Track::Scene]), "");
     }
 }

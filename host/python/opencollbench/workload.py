@@ -80,7 +80,7 @@ def replay(
     Args:
         file: a recording (`.ocbrec`).
         algorithms: ids, with optional settings; by default the usual ones.
-        order: `recorded` or `shuffled`; by default both.
+        order: `recorded`, `shuffled` or `scene` (all objects in one process); by default all.
         passes: number of processes per algorithm, order and pair of objects.
         budget: measuring time per algorithm and order in seconds.
         run_seed: seed of the orders, to repeat a replay.

@@ -3,13 +3,18 @@
 mod common;
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use nalgebra::Vector3;
+use ocb_core::configuration::Configuration;
 use ocb_core::mesh::Mesh;
+use ocb_core::pose::Pose;
+use ocb_core::query::Query;
 use ocb_core::stock;
 use ocb_core::workload::Claim;
-use ocb_service::model::{Track, WorkloadSpec};
+use ocb_sandbox::{Launcher, Objects, Outcome, Policy, Profile, Question, Trial};
+use ocb_service::model::{AlgorithmOnWorkload, OutcomeName, Track, WorkloadSpec};
 use ocb_service::recording::pack;
 use ocb_service::workload::workload_parquet;
 use ocb_service::{Engine, EngineError, Recording, Stop, sha256_hex};
@@ -173,6 +178,110 @@ async fn a_recording_is_replayed_and_its_own_answers_are_judged() {
     assert_eq!(replayed.rows.len(), 2 * 2 * 93);
     assert!(!workload_parquet(&replayed.rows, &recording.queries).unwrap().is_empty());
     engine.shutdown().await;
+}
+
+/// With a gear: every pair of four objects, in an order that jumps between them.
+fn scene(folder: &Path) -> Spool {
+    let mut spool = spool(folder);
+    spool.mesh(folder, &stock::generate("gear", 500).unwrap());
+    for i in 0..60 {
+        let [a, b] = [[0, 1], [3, 2], [1, 3], [2, 0], [0, 3], [1, 2]][i as usize % 6];
+        let (kind, x) = (if i % 4 == 3 { 2 } else { 0 }, 0.04 * f64::from(i * 7 % 60));
+        spool.query([a, b], kind, x, UNKNOWN, 1.0);
+    }
+    spool.write(folder);
+    spool
+}
+
+/// The C template that offers scenes, with this fault.
+#[expect(clippy::disallowed_methods, reason = "the test compiles a plugin")]
+fn lying(folder: &Path, fault: &str) -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let file = folder.join(format!("{}.so", fault.to_lowercase()));
+    let mut cc = std::process::Command::new("cc");
+    cc.args(["-std=gnu11", "-O1", "-fPIC", "-shared", "-fvisibility=hidden", &format!("-D{fault}")]);
+    cc.arg("-I").arg(here.join("../../plugin-api/include")).arg("-I").arg(here.join("../../plugin-api/templates/c"));
+    assert!(cc.arg(here.join("tests/fixtures/scene.c")).arg("-o").arg(&file).status().unwrap().success());
+    file
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_whole_scene_is_answered_by_one_process_as_pair_by_pair() {
+    let data = tempfile::tempdir().unwrap();
+    let (folder, file) = (data.path().join("spool"), data.path().join("r.ocbrec"));
+    scene(&folder);
+    pack(&folder, &file).unwrap();
+    let recording = Arc::new(Recording::read(&file).unwrap());
+    let faults = ["CRASHES", "REFUSES", "OTHER_OBJECT", "NO_SUCH_TRIANGLE"];
+    let mut config = common::config(data.path());
+    config.plugins.extend(faults.map(|fault| lying(data.path(), fault)));
+    config.profile = Profile::Dev;
+    let engine = Engine::open(config).await.unwrap();
+    let names =
+        ["brute-force", "box-tree", "box-tree:leaf_size=4", "crashes", "refuses", "other-object", "no-such-triangle"];
+    let wanted = WorkloadSpec { tracks: vec![Track::Recorded, Track::Scene], ..spec(&names) };
+    let replayed = engine.replay_workload(recording.clone(), wanted, Stop::default(), |_| {}, || {}).await.unwrap();
+    let [pairs, whole] = &replayed.result.tracks[..] else { panic!("{:?}", replayed.result.tracks) };
+    assert_eq!((pairs.track, whole.track), (Track::Recorded, Track::Scene));
+    // Who does not offer scenes is asked pair by pair alone.
+    let asked: Vec<&str> = whole.algorithms.iter().map(|it| it.algorithm.as_str()).collect();
+    assert_eq!((pairs.algorithms.len(), &asked[..]), (7, &names[1..]));
+
+    for (it, pair_by_pair) in whole.algorithms.iter().zip(&pairs.algorithms[1..]).take(2) {
+        assert!(it.is_fair() && it.n == replayed.result.queries, "{it:?}");
+        let told = |it: &AlgorithmOnWorkload| {
+            let mut pairs: Vec<_> = it.pairs.iter().map(|pair| (pair.objects, pair.n, pair.hits)).collect();
+            pairs.sort_unstable();
+            pairs
+        };
+        assert_eq!((told(it).len(), told(it)), (6, told(pair_by_pair)));
+        assert!(
+            it.build_ns > 0.0 && it.total.unwrap().ns > 0.0 && it.groups.unwrap().n == pair_by_pair.groups.unwrap().n
+        );
+        let verdicts = |track: Track| -> Vec<_> {
+            let rows = replayed.rows.iter().filter(|row| row.track == track && *row.algorithm == *it.algorithm);
+            rows.map(|row| (row.row, row.verdict, row.hit)).collect()
+        };
+        assert_eq!((verdicts(Track::Scene).len() as u64, verdicts(Track::Scene)), (it.n, verdicts(Track::Recorded)));
+    }
+    // A fault at the third object ends the scene before the first query; in a process of two objects there is no third.
+    for (i, name) in [(2, OutcomeName::Signaled), (3, OutcomeName::Failed)] {
+        let [ended] = &whole.algorithms[i].ended[..] else { panic!("{:?}", whole.algorithms[i]) };
+        assert_eq!((ended.outcome.name, ended.objects, whole.algorithms[i].n), (name, None, 0), "{ended:?}");
+        assert!(!ended.outcome.ours && pairs.algorithms[i + 1].ended.is_empty());
+    }
+    // Answers about an object that was not asked about, or about none, are wrong answers.
+    for it in &whole.algorithms[4..] {
+        assert!(it.wrong > 0 && it.ended.is_empty() && !it.is_fair(), "{it:?}");
+    }
+    assert_eq!(pairs.algorithms[5].wrong, 0);
+    engine.shutdown().await;
+}
+
+/// Answer by answer, with their triangles: each mesh as it is, in one process of four objects and in processes of two.
+#[test]
+fn a_tree_that_all_pairs_share_answers_as_trees_of_one_pair_do() {
+    let data = tempfile::tempdir().unwrap();
+    let config = common::config(data.path());
+    let meshes = [("torus-knot", 600), ("box", 500), ("gear", 500), ("sphere", 500)];
+    let meshes = meshes.map(|(name, triangles)| stock::generate(name, triangles).unwrap());
+    let all: Vec<&Mesh> = meshes.iter().collect();
+    let launcher = Launcher::new(config.runner, Policy { trusted: true, ..Policy::default() });
+    let start = |objects| launcher.start(&Trial::of(&config.plugins[1], "box-tree", objects)).expect("it starts");
+    let mut scene = start(Objects::Scene(&all));
+    for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
+        let mut pair = start(Objects::Pair(all[i], (i != j).then_some(all[j])));
+        for (query, x) in [(Query::CollisionFirst, 0.4), (Query::Proximity, 6.0), (Query::CollisionAll, 0.7)] {
+            let pose_b = Pose { translation: Vector3::new(x, 0.1, 0.2), ..Pose::identity() };
+            let configuration = Configuration { pose_a: Pose::identity(), pose_b };
+            let question = Question { query, objects: [i as u32, j as u32], configuration };
+            let [one, other] =
+                [scene.question(&question), pair.query(query, &configuration)].map(|it| it.unwrap().answer);
+            assert_eq!(one, other, "{i} {j} {query:?}");
+        }
+        assert_eq!(pair.finish().outcome, Outcome::Completed);
+    }
+    assert_eq!(scene.finish().outcome, Outcome::Completed);
 }
 
 #[test]

@@ -24,9 +24,9 @@ pub struct BenchArgs {
                               "precision", "quick"]
     )]
     pub workload: Option<PathBuf>,
-    /// For a recording: put the queries of each pair in the order of the recording, or shuffled in each process [default: both].
-    #[arg(long, value_enum, requires = "workload")]
-    pub order: Option<OrderArg>,
+    /// For a recording: orders in which the queries are put, repeated or separated by commas [default: all].
+    #[arg(long, value_enum, value_delimiter = ',', requires = "workload")]
+    pub order: Vec<OrderArg>,
     /// Algorithm ids, with optional settings (box-tree:leaf_size=4, x:threads=2), repeated or separated by commas; or `all`
     /// [default: the usual ones that answer the query].
     #[arg(long, value_delimiter = ',', value_name = "ID")]

@@ -1,7 +1,9 @@
 //! A replayed recording as text: the false answers first, then what it costs with each algorithm.
 
 use ocb_core::workload::Claim;
-use ocb_service::model::{AlgorithmOnWorkload, OrderGain, RecordedAnswers, Track, TrackResult, WorkloadResult};
+use ocb_service::model::{
+    AlgorithmOnWorkload, EndedPair, OrderGain, RecordedAnswers, Track, TrackResult, WorkloadResult,
+};
 
 use crate::{output, units};
 
@@ -50,7 +52,7 @@ pub fn text(result: &WorkloadResult) -> String {
     text.extend(sentence(result));
     text.push(format!(
         "Times are of the queries alone, medians over the processes; the range is over the rounds of processes. Build is the time \
-         to build the structures, once per pair of objects. Repeat it with --run-seed {}.",
+         to build the structures, once per pair of objects; of a whole scene, once. Repeat it with --run-seed {}.",
         result.seed
     ));
     text.join("\n")
@@ -97,11 +99,14 @@ fn recorded(result: &WorkloadResult) -> Vec<String> {
 }
 
 fn order(track: &TrackResult, passes: u32) -> String {
-    let order = match track.track {
-        Track::Shuffled => "Shuffled in each process",
-        Track::Recorded => "In the order of the recording",
-    };
-    format!("{order}, {passes} processes per pair of objects:")
+    match track.track {
+        Track::Shuffled => format!("Shuffled in each process, {passes} processes per pair of objects:"),
+        Track::Recorded => format!("In the order of the recording, {passes} processes per pair of objects:"),
+        Track::Scene => format!(
+            "Whole scene, {passes} processes per algorithm: in the order of the recording, each process with all objects, loaded \
+             once (ocb.scene/1):"
+        ),
+    }
 }
 
 /// Of those whose times may be compared.
@@ -130,6 +135,7 @@ fn row(it: &AlgorithmOnWorkload, fastest: Option<&AlgorithmOnWorkload>) -> Vec<S
     let outcome = match &it.ended[..] {
         [] if it.n < it.of => format!("budget: {} of {}", it.n, it.of),
         [] => "completed".to_owned(),
+        [EndedPair { objects: None, outcome }, ..] => format!("{:?} on the scene", outcome.name),
         [first, ..] => format!("{:?} on {} pairs", first.outcome.name, it.ended.len()),
     };
     vec![

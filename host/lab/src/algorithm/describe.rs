@@ -76,6 +76,7 @@ pub fn info(d: Descriptor, plugin_sha256: &str, builds: Vec<BuildInfo>) -> Algor
         solid: d.solid,
         coherent: d.coherent,
         threads: d.threads,
+        scene: d.scene,
         usual: false,
         parameters: d.parameters.into_iter().map(parameter).collect(),
         plugin_sha256: plugin_sha256.to_owned(),

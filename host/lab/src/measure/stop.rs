@@ -78,7 +78,7 @@ impl Stop {
     }
 
     /// From now on a stop kills this runner.
-    pub(super) fn watch(&self, killer: Option<Killer>) {
+    pub(crate) fn watch(&self, killer: Option<Killer>) {
         let mut inner = self.lock();
         if let (true, Some(killer)) = (inner.asked, &killer) {
             killer.kill();

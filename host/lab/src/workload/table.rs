@@ -35,12 +35,13 @@ pub fn name(track: Track) -> &'static str {
     match track {
         Track::Shuffled => "shuffled",
         Track::Recorded => "recorded",
+        Track::Scene => "scene",
     }
 }
 
 /// The order of this name.
 fn track(named: &str) -> std::result::Result<Track, String> {
-    let known = [Track::Shuffled, Track::Recorded].into_iter().find(|track| name(*track) == named);
+    let known = [Track::Shuffled, Track::Recorded, Track::Scene].into_iter().find(|track| name(*track) == named);
     known.ok_or_else(|| format!("{named:?} is no order"))
 }
 

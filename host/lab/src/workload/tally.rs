@@ -7,12 +7,24 @@ use ocb_core::record::Verdict;
 use ocb_core::statistics::{Statistic, quantile};
 use ocb_core::workload::Recorded;
 
-use super::Certified;
 use super::recorded::Truths;
 use super::table::WorkloadRow;
 use crate::algorithm::Algorithm;
-use crate::measure::Measured;
-use crate::model::{AlgorithmOnWorkload, EndedPair, GroupTimes, PairTime, TotalTime, Track};
+use crate::model::{AlgorithmOnWorkload, EndedPair, GroupTimes, OutcomeInfo, PairTime, TotalTime, Track};
+
+/// One query that was answered.
+pub struct Answered {
+    /// Place in the recording.
+    pub row: u32,
+    /// Median of the times.
+    pub time_ns: f64,
+    /// Round and time.
+    pub times: Vec<(u32, f64)>,
+    /// The gravest of all rounds.
+    pub verdict: Verdict,
+    /// The objects certainly collide, as surfaces.
+    pub hit: bool,
+}
 
 /// One algorithm in one order.
 pub struct Tally {
@@ -53,26 +65,29 @@ impl Tally {
     }
 
     /// What was measured of a part.
-    pub fn add(&mut self, objects: [u32; 2], certified: &Certified, measured: &Measured) {
+    pub fn add(&mut self, objects: [u32; 2], answered: &[Answered]) {
         let pair = self.pairs.entry(objects).or_insert(PairTime { objects, n: 0, hits: 0, wrong: 0, ns: 0.0 });
-        for record in &measured.records {
-            let i = record.configuration as usize;
+        for Answered { row, time_ns, times, verdict, hit } in answered {
             pair.n += 1;
-            pair.hits += u64::from(certified.set.placed[i].truth.hit);
-            pair.wrong += u64::from(record.verdict.is_wrong());
-            pair.ns += record.time_ns;
-            self.answered.push((certified.rows[i], record.time_ns, record.verdict));
+            pair.hits += u64::from(*hit);
+            pair.wrong += u64::from(verdict.is_wrong());
+            pair.ns += time_ns;
+            self.answered.push((*row, *time_ns, *verdict));
             // A round without this query counts it as the others do.
             for (round, sum) in (0..).zip(&mut self.rounds) {
-                let times = &measured.times[i];
-                *sum += times.iter().find(|(of, _)| *of == round).map_or(record.time_ns, |(_, ns)| *ns);
+                *sum += times.iter().find(|(of, _)| *of == round).map_or(*time_ns, |(_, ns)| *ns);
             }
         }
-        let mut builds: Vec<f64> = measured.set_ups.iter().map(|set_up| set_up.build_ns).collect();
-        self.build_ns += Statistic::Median.of(&mut builds).unwrap_or(0.0);
-        if let Some(outcome) = &measured.outcome {
-            self.ended.push(EndedPair { objects, outcome: outcome.clone() });
-        }
+    }
+
+    /// It has built something that was not built before, in each of its processes.
+    pub fn built(&mut self, mut builds_ns: Vec<f64>) {
+        self.build_ns += Statistic::Median.of(&mut builds_ns).unwrap_or(0.0);
+    }
+
+    /// A process of it has ended before all was asked: one of this pair of objects, or of the whole scene.
+    pub fn ended(&mut self, objects: Option<[u32; 2]>, outcome: OutcomeInfo) {
+        self.ended.push(EndedPair { objects, outcome });
     }
 
     /// Id of the algorithm.

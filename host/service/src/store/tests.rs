@@ -239,6 +239,7 @@ mod contract {
             solid: false,
             coherent: false,
             threads: false,
+            scene: false,
             usual: false,
             parameters: Vec::new(),
             plugin_sha256: "h".into(),

@@ -95,6 +95,20 @@ describe('the page of a replay', () => {
     expect(at('workload-command')?.textContent).toContain('--run-seed 7')
   })
 
+  it('says of a whole scene how it was asked, and what ended its process', async () => {
+    const outcome = { name: 'Signaled' as const, signal: 11, message: 'It crashed.', ours: false }
+    const scene = { track: 'scene' as const, algorithms: [algorithm('fast', 700), algorithm('slow', 0, { n: 0, total: null, groups: null, pairs: [], ended: [{ objects: null, outcome }] })] }
+    await page({ result: replay({ tracks: [...replay().tracks, scene] }) })
+    expect(at('asked')?.textContent).toContain('Pair by pair')
+    expect(host.querySelectorAll('[data-gain]').length).toBeGreaterThan(0)
+    at('order-scene')?.click()
+    await settle()
+    expect(at('asked')?.textContent).toContain('one process that has loaded every object once')
+    expect(text()).toContain('Build: the structures of all objects, once.')
+    expect(text()).toContain('on the whole scene')
+    expect(host.querySelectorAll('[data-gain]')).toHaveLength(0)
+  })
+
   it('asks for the stretch that is brushed, writes it into the link, and shows its pairs', async () => {
     vi.mocked(getStretch).mockResolvedValue({ algorithms: [{ algorithm: 'fast', track: 'shuffled', n: 25, ns: 80, wrong: 1, missed: 1, pairs: [pair([0, 2], 80)] }] })
     await page({ result: replay() })
@@ -195,6 +209,6 @@ it('sends the recording with its spec, and shows why it was refused', async () =
   expect([button.disabled, text().includes('arm.ocbrec')]).toEqual([false, true])
   host.querySelector('form')?.dispatchEvent(new Event('submit', { cancelable: true }))
   await settle()
-  expect(startWorkload).toHaveBeenCalledWith({ algorithms: [], tracks: ['shuffled', 'recorded'], passes: 3, budget_seconds: 10, seed: null, reduce: null }, file)
+  expect(startWorkload).toHaveBeenCalledWith({ algorithms: [], tracks: ['shuffled', 'recorded', 'scene'], passes: 3, budget_seconds: 10, seed: null, reduce: null }, file)
   expect(at('workload-problem')?.textContent).toContain('arm.ocbrec: It is a scene without queries.')
 })

@@ -6,7 +6,7 @@ const known = [{ id: 'box-tree', usual: true }, { id: 'fcl', usual: true }, { id
 
 describe('the spec of a replay', () => {
   it('names no algorithms when the usual ones are meant', () => {
-    expect(toSpec(usualForm())).toEqual({ spec: { algorithms: [], tracks: ['shuffled', 'recorded'], passes: 3, budget_seconds: 10, seed: null, reduce: null } })
+    expect(toSpec(usualForm())).toEqual({ spec: { algorithms: [], tracks: ['shuffled', 'recorded', 'scene'], passes: 3, budget_seconds: 10, seed: null, reduce: null } })
     expect(chosenNames(usualForm(), known)).toEqual(['box-tree', 'fcl'])
     expect(toSpec({ ...usualForm(), algorithms: ['brute'], orders: 'recorded' })).toMatchObject({ spec: { algorithms: ['brute'], tracks: ['recorded'] } })
   })
@@ -38,5 +38,6 @@ it('is repeated on the command line with the seed that was used', () => {
   expect(commandLine('my arm.ocbrec', spec, { seed: 7 }).split(' \\\n  ')).toEqual([
     "ocb bench --workload 'my arm.ocbrec'", '--algorithm fcl,box-tree:leaf_size=4', '--order recorded', '--passes 5', '--budget 9', '--run-seed 7',
   ])
-  expect(commandLine('a.ocbrec', { algorithms: [], tracks: ['shuffled', 'recorded'] }, null)).toBe('ocb bench --workload a.ocbrec')
+  expect(commandLine('a.ocbrec', { algorithms: [], tracks: ['shuffled', 'recorded', 'scene'] }, null)).toBe('ocb bench --workload a.ocbrec')
+  expect(commandLine('a.ocbrec', { tracks: ['shuffled', 'recorded'] }, null)).toContain('--order shuffled,recorded')
 })

@@ -3,7 +3,9 @@ import type { ObjectHeatmapRequest, ReduceTerms, Track, WorkloadResult, Workload
 import { quote } from '../builder/command-line'
 import { plainId } from '../builder/form'
 
-export type Orders = 'both' | Track
+export type Orders = 'all' | Track
+
+const TRACKS: Track[] = ['shuffled', 'recorded', 'scene']
 
 /** What the reader has chosen; number fields may be empty while they type. */
 export interface SpecForm {
@@ -27,7 +29,7 @@ export interface ReduceForm {
 }
 
 export const usualForm = (): SpecForm => ({
-  algorithms: null, orders: 'both', passes: 3, budget: 10, reduce: { wanted: false, tolerance: 0.001, near: 0, outsideOnly: false, frontier: false },
+  algorithms: null, orders: 'all', passes: 3, budget: 10, reduce: { wanted: false, tolerance: 0.001, near: 0, outsideOnly: false, frontier: false },
 })
 
 /** The names that are chosen, or the usual ones. */
@@ -41,7 +43,7 @@ export function toSpec({ algorithms, orders, passes, budget, reduce }: SpecForm)
   if (budget === '' || !(budget > 0 && budget <= 86_400)) return { problem: 'The budget must be above 0 and at most 86,400 seconds.' }
   const terms = toTerms(reduce)
   if (terms && 'problem' in terms) return terms
-  return { spec: { algorithms: algorithms ?? [], tracks: orders === 'both' ? ['shuffled', 'recorded'] : [orders], passes, budget_seconds: budget, seed: null, reduce: terms } }
+  return { spec: { algorithms: algorithms ?? [], tracks: orders === 'all' ? TRACKS : [orders], passes, budget_seconds: budget, seed: null, reduce: terms } }
 }
 
 function toTerms({ wanted, tolerance, near, outsideOnly, frontier }: ReduceForm): ReduceTerms | { problem: string } | null {
@@ -59,7 +61,7 @@ export function fromSpec(spec: Partial<WorkloadSpec>, known: readonly AlgorithmI
   const [only, other] = spec.tracks ?? []
   return {
     algorithms: there.length > 0 ? there : null,
-    orders: only && !other ? only : 'both',
+    orders: only && !other ? only : 'all',
     passes: spec.passes ?? form.passes,
     budget: spec.budget_seconds ?? form.budget,
     reduce: spec.reduce ? { wanted: true, tolerance: spec.reduce.tolerance, near: spec.reduce.near ?? 0, outsideOnly: spec.reduce.outside_only ?? false, frontier: spec.reduce.frontier ?? false } : form.reduce,
@@ -84,7 +86,7 @@ export function commandLine(file: string, spec: Partial<WorkloadSpec>, result: P
   return [
     `ocb bench --workload ${quote(file)}`,
     ...(algorithms.length > 0 ? [`--algorithm ${algorithms.map(quote).join(',')}`] : []),
-    ...(tracks.length === 1 ? [`--order ${tracks[0]}`] : []),
+    ...(tracks.length === 0 || tracks.length === TRACKS.length ? [] : [`--order ${tracks.join(',')}`]),
     ...(passes === undefined ? [] : [`--passes ${passes}`]),
     ...(budget === undefined ? [] : [`--budget ${budget}`]),
     ...(seed == null ? [] : [`--run-seed ${seed}`]),

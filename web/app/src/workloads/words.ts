@@ -15,7 +15,14 @@ const CLAIMS = Object.keys(CLAIM) as Claim[]
 
 export const isFalse = (claim: Claim): boolean => claim !== 'right' && claim !== 'undecided'
 
-export const ORDER: Record<Track, string> = { shuffled: 'Shuffled', recorded: 'As recorded' }
+export const ORDER: Record<Track, string> = { shuffled: 'Shuffled', recorded: 'As recorded', scene: 'Whole scene' }
+
+/** How the queries of an order are put. */
+export const ASKED: Record<Track, string> = {
+  shuffled: 'Pair by pair, in another order in each process.',
+  recorded: 'Pair by pair, as recorded.',
+  scene: 'All queries as recorded, to one process that has loaded every object once. Only algorithms that offer ocb.scene/1 are asked so. Not comparable with the other orders, where a process holds two objects.',
+}
 
 export const isOpen = ({ state }: Pick<WorkloadInfo, 'state'>): boolean => state === 'queued' || state === 'running'
 
@@ -81,15 +88,16 @@ export function whyApart(one: AlgorithmOnWorkload, most: number): string | null 
 /** How it ended. */
 export function outcomeWords({ n, of, ended }: AlgorithmOnWorkload): string {
   const [first] = ended
+  if (first && !first.objects) return `${first.outcome.name} on the whole scene`
   if (first) return `${first.outcome.name} on ${count(ended.length)} ${ended.length === 1 ? 'pair' : 'pairs'}`
   return n < of ? 'Budget used up' : 'Completed'
 }
 
 /** What was replayed, in a sentence or two. */
-export function scopeWords({ queries, seen, groups, objects, hits, passes }: WorkloadResult): string {
+export function scopeWords({ queries, seen, groups, objects, hits, passes, tracks }: WorkloadResult): string {
   const solids = objects.filter(({ bound }) => bound != null).length
   const primitives = solids === 0 ? '' : `, ${count(solids)} of them primitives`
-  return `${count(queries)} of ${count(seen)} queries in ${count(groups)} groups about ${count(objects.length)} objects${primitives}; ${percent(queries > 0 ? hits / queries : 0)} collide. ${count(passes)} ${passes === 1 ? 'process' : 'processes'} per algorithm, order and pair.`
+  return `${count(queries)} of ${count(seen)} queries in ${count(groups)} groups about ${count(objects.length)} objects${primitives}; ${percent(queries > 0 ? hits / queries : 0)} collide. ${count(passes)} ${passes === 1 ? 'process' : 'processes'} per algorithm, order and pair${tracks.some(({ track }) => track === 'scene') ? '; for the whole scene, per algorithm' : ''}.`
 }
 
 /** How long the program's own library took, where that was recorded. */
