@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use ocb_service::model::{Track, WorkloadResult, WorkloadSpec};
+use ocb_service::model::{WorkloadResult, WorkloadSpec};
 use ocb_service::workload::{Progress, Replayed, workload_parquet};
 use ocb_service::{Engine, Recording, Stop};
 
