@@ -11,7 +11,7 @@ use crate::attempts::{beat, lost};
 use crate::blobs::Blobs;
 use crate::boxed;
 use crate::cache::Cache;
-use crate::classes::Classes;
+use crate::classes::known::Classes;
 use crate::engine::{Engine, Inner};
 use crate::house::House;
 use crate::machine::{Machine, lock_data_folder};

@@ -314,18 +314,37 @@ fn a_run_outlives_the_database_and_the_files_of_its_service() {
 }
 
 #[test]
-fn a_machine_that_is_not_wanted_is_told_why() {
+fn a_machine_of_another_class_measures_for_it_and_one_that_is_not_wanted_is_told_why() {
     let mut site = Site::open();
-    // The class is that of the machine that was there first.
-    let run = site.submit(0.5);
-    let alpha = site.machine("alpha");
-    site.ended(&run);
-    drop(alpha);
     let token = site.token("gamma");
     let log = site.data.join("gamma.log");
-    let mut differing = Machine::start(&site.internal, &token, &log, &["--machine-note", "another"]);
-    assert_eq!(differing.ended(Duration::from_secs(5)).code(), Some(2));
-    assert!(differing.said().contains("The machines of a service have one hardware class"), "{}", differing.said());
+    let differing = Machine::start(&site.internal, &token, &log, &["--machine-note", "another"]);
+    // The usual class is that of the machine that was allowed first; nobody of it is there now.
+    let classes = || {
+        let status = site.guest.get(site.service(), "/status");
+        let all = status["classes"].as_array().expect("a list");
+        all.iter().map(|class| class["hardware_class"].as_str().expect("a class").to_owned()).collect::<Vec<_>>()
+    };
+    let begun = Instant::now();
+    while classes().len() < 2 {
+        assert!(begun.elapsed() < Duration::from_secs(60), "it tells its class: {}", differing.said());
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    let other = classes().swap_remove(1);
+    let plain = site.submit(0.5);
+    let mut named = spec(0.5);
+    named["hardware_class"] = json!(other);
+    let named = site.guest.submit(site.service(), &named);
+    assert_eq!(site.ended(&named)["environment"]["hardware_class"], json!(other));
+    assert_eq!(
+        site.wait(&plain, "it is there", |_| true)["state"],
+        "queued",
+        "it waits for a machine of the usual class"
+    );
+    drop(differing);
+    let alpha = site.machine("alpha");
+    assert_ne!(site.ended(&plain)["environment"]["hardware_class"], json!(other));
+    drop(alpha);
     let mut lacking = command(built("ocb"));
     lacking.args(["work", "--once", "--server", &format!("http://{}", site.internal), "--token"]);
     lacking.arg(format!("@{}", token.display())).arg("--plugins").arg(built("libocb_parry.so"));

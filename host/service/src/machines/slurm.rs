@@ -8,10 +8,10 @@ use ocb_slurm::Slurm;
 use url::Url;
 
 use crate::blocking::blocking;
-use crate::classes::OfClass;
 use crate::config::SlurmJobs;
 use crate::engine::Engine;
 use crate::model::{MachineFacts, MachineInfo};
+use crate::runs::share::OfClass;
 use crate::{EngineError, Result, sha256_hex};
 
 /// How often jobs and runs are compared.

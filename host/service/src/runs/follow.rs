@@ -8,10 +8,10 @@ use tokio::sync::broadcast::Receiver;
 
 use crate::Result;
 use crate::boxed;
-use crate::classes::OfClass;
 use crate::engine::Engine;
 use crate::model::{RunEvent, State};
 use crate::runs::log::{QUEUE, plain_event};
+use crate::runs::share::OfClass;
 use crate::store::now_us;
 
 /// The database is looked at this often even if no change was announced: a missed one must not end in silence.

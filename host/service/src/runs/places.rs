@@ -4,8 +4,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::Result;
-use crate::classes::OfClass;
 use crate::model::State;
+use crate::runs::share::OfClass;
 use crate::runs::share::{QueueShare, Since};
 use crate::runs::sql::named_state;
 use crate::store::Store;

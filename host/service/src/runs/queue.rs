@@ -8,11 +8,11 @@ use crate::Result;
 use crate::attempts::sql::{at_rest, begin, end, withdraw};
 use crate::attempts::worker::Worker;
 use crate::attempts::{Attempt, Kind, Outcome};
-use crate::classes::OfClass;
 use crate::model::State;
 use crate::runs::events_sql::append_event;
 use crate::runs::log::plain_event;
 use crate::runs::priority::{BACKGROUND, IDLE};
+use crate::runs::share::OfClass;
 use crate::runs::sql::state_name;
 use crate::store::{Store, now_us};
 

@@ -5,8 +5,6 @@ use std::time::Instant;
 
 use tokio::sync::Mutex;
 
-use crate::classes::OfClass;
-
 /// The shares at one priority of one hardware class as they were a moment ago, if they were many.
 pub type Known = Arc<Mutex<Option<(Instant, (i64, OfClass), Arc<Vec<QueueShare>>)>>>;
 
@@ -22,3 +20,10 @@ pub struct QueueShare {
 
 /// The share with the smallest is next: when it was served last, then what it waits with.
 pub type Since = (i64, i64, String);
+
+/// The class for which runs wait in the queue, and the usual one, which is that of runs that name none.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OfClass {
+    pub class: String,
+    pub usual: String,
+}

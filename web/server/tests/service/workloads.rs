@@ -305,7 +305,7 @@ async fn a_replay_is_cancelled_by_its_owner_or_a_curator_and_ends_at_once() {
     let service = Service::start_with(&["libocb_brute_force.so"]).await;
     let (owner, curator) = (service.guest(), member(&service, "curator", Role::Curator).await);
     // Some three minutes of work.
-    let slow = json!({ "algorithms": ["brute-force"], "passes": 64, "budget_seconds": 300.0 });
+    let slow = json!({ "algorithms": ["brute-force"], "passes": 64, "budget_seconds": 200.0 });
     let file = recording(20_000);
     let mut places = Vec::new();
     for _ in 0..3 {

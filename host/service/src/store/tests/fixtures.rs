@@ -8,13 +8,13 @@ use super::super::*;
 use super::rows::*;
 use crate::attempts::Attempt;
 use crate::attempts::worker::Worker;
-use crate::classes::OfClass;
 use crate::model::{
     AdviceInfo, Agreement, AlgorithmResult, ClassCount, Estimated, ObjectInfo, OutcomeInfo, OutcomeName, RecordingInfo,
     Rounding, RoundingEffect, RunSpec, SetInfo, State, Timeline, Visibility, WorkloadResult, WorkloadSpec,
 };
 use crate::runs::accept::{Handed, RunEnd};
 use crate::runs::log::fresh_stages;
+use crate::runs::share::OfClass;
 use crate::workloads::sql::WorkloadRow;
 
 pub(crate) fn object(id: &str) -> ObjectInfo {

@@ -3,9 +3,9 @@
 use super::super::*;
 use super::{add, end, fresh_stages, run, usual, worker};
 use crate::attempts::Attempt;
-use crate::classes::OfClass;
 use crate::machines::sql::worker as of;
 use crate::model::{MachineFacts, RunSpec, State};
+use crate::runs::share::OfClass;
 use crate::runs::sql::RunRow;
 
 fn facts(class: &str, kernel: &str) -> MachineFacts {
