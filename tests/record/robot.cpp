@@ -11,20 +11,14 @@
 #include <cstring>
 #include <fcl/fcl.h>
 #include <memory>
-#include <random>
 #include <stdexcept>
-#include <sys/wait.h>
-#include <thread>
-#include <unistd.h>
 #include <vector>
+
+#include "robot.hpp"
 
 namespace {
 
 using Object = fcl::CollisionObjectd;
-
-std::mt19937 random_numbers(7);
-
-double draw(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_numbers); }
 
 fcl::Transform3d pose() {
   fcl::Transform3d pose = fcl::Transform3d::Identity();
@@ -33,23 +27,9 @@ fcl::Transform3d pose() {
   return pose;
 }
 
-// A closed ring of n pieces with a square cross-section.
 std::shared_ptr<fcl::CollisionGeometryd> ring(std::size_t n) {
   auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-  std::vector<fcl::Vector3d> vertices;
-  std::vector<fcl::Triangle> triangles;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < 4; ++k) {
-      const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(n);
-      const double r = k == 0 || k == 3 ? 0.75 : 1.25, z = k < 2 ? -0.25 : 0.25;
-      vertices.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
-      const auto at = [&](std::size_t piece, std::size_t corner) { return (i + piece) % n * 4 + (k + corner) % 4; };
-      triangles.emplace_back(at(0, 0), at(0, 1), at(1, 0));
-      triangles.emplace_back(at(0, 1), at(1, 1), at(1, 0));
-    }
-  model->beginModel();
-  model->addSubModel(vertices, triangles);
-  model->endModel();
+  make_ring<fcl::Vector3d, fcl::Triangle>(*model, n);
   return model;
 }
 
@@ -114,23 +94,5 @@ int main(int argc, char **argv) {
   }
   std::printf("unsupported %d\n", collide(mesh, cone, 1));
 
-  bool met[2] = {};
-  std::thread threads[2];
-  for (int t = 0; t < 2; ++t)
-    threads[t] = std::thread([&, t] {
-      for (int i = 0; i < rounds; ++i)
-        met[t] = collide(mesh, *all[static_cast<std::size_t>(1 + t)], 1);
-    });
-  for (auto &thread : threads)
-    thread.join();
-  std::printf("threads %d %d\n", met[0], met[1]);
-  std::fflush(stdout);
-
-  if (const pid_t child = ::fork(); child == 0) {
-    std::printf("child %d\n", collide(mesh, ball, 1));
-    return 0;
-  } else {
-    ::waitpid(child, nullptr, 0);
-  }
-  return 3;
+  return end_with_threads_and_a_child(rounds, [&](int who) { return collide(mesh, who < 2 ? *all[static_cast<std::size_t>(1 + who)] : ball, 1); });
 }

@@ -19,31 +19,20 @@ using namespace ocb::record;
 using Geometry = coal::CollisionGeometry;
 using Object = coal::CollisionObject;
 using Pose = coal::Transform3s;
+using Pair = PairOf<Geometry, Pose>;
 using CollisionPair = coal::ComputeCollision;
 using DistancePair = coal::ComputeDistance;
 
 // What Coal has as distance where nothing was asked yet.
 constexpr double NO_ANSWER = std::numeric_limits<double>::max();
 
-struct Pair {
-  const Geometry *geometries[2];
-  const Pose *poses[2];
-};
-
 Pair pair(const Object *a, const Object *b) {
   return {{a->collisionGeometryPtr(), b->collisionGeometryPtr()}, {&a->getTransform(), &b->getTransform()}};
 }
 
-// The query without its answer; a convex body hides the answers where it collides.
 Query query(Spool &spool, const Pair &pair, bool &convex) {
-  Query query;
-  query.library = spool.library("coal", COAL_VERSION);
-  for (int i = 0; i < 2; ++i) {
-    const auto [object, is_convex] = describe(spool, *pair.geometries[i], query.library);
-    query.objects[i] = object, query.poses[i] = matrix(pair.poses[i]->getRotation(), pair.poses[i]->getTranslation());
-    convex = convex || is_convex;
-  }
-  return query;
+  const auto at = [](const Pose &pose) { return matrix(pose.getRotation(), pose.getTranslation()); };
+  return about(spool, spool.library("coal", COAL_VERSION), pair, convex, at);
 }
 
 // `pair` is called behind the library, which may change what a pair was made for.

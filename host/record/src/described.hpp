@@ -68,6 +68,24 @@ Matrix matrix(const auto &rotation, const auto &translation) {
   return rows;
 }
 
+// Two geometries and where they are.
+template <typename Geometry, typename Pose> struct PairOf {
+  const Geometry *geometries[2];
+  const Pose *poses[2];
+};
+
+// The query about a pair without its answer; a convex body hides the answers where it collides. `at` gives the matrix of a pose.
+Query about(Spool &spool, std::uint32_t library, const auto &pair, bool &convex, const auto &at) {
+  Query query;
+  query.library = library;
+  for (int i = 0; i < 2; ++i) {
+    const auto [object, is_convex] = describe(spool, *pair.geometries[i], library);
+    query.objects[i] = object, query.poses[i] = at(*pair.poses[i]);
+    convex = convex || is_convex;
+  }
+  return query;
+}
+
 // What a call tells that was to find at most so many contacts: a result that already had contacts, or may have none, does not tell
 // whether these two collide, and a convex body hides that they do.
 inline std::uint32_t hit_told(std::size_t before, std::size_t after, std::size_t most, bool convex) {

@@ -24,31 +24,20 @@ using namespace ocb::record;
 using Geometry = fcl::CollisionGeometryd;
 using Object = fcl::CollisionObjectd;
 using Pose = fcl::Transform3d;
+using Pair = PairOf<Geometry, Pose>;
 using Request = fcl::CollisionRequestd;
 using Result = fcl::CollisionResultd;
 
 // What FCL gives as distance where it has no algorithm for a pair, and where nothing was asked yet.
 constexpr double NO_ANSWER = std::numeric_limits<double>::max();
 
-struct Pair {
-  const Geometry *geometries[2];
-  const Pose *poses[2];
-};
-
 Pair pair(const Object *a, const Object *b) {
   return {{&geometry(*a), &geometry(*b)}, {&pose(*a), &pose(*b)}};
 }
 
-// The query without its answer; a convex body hides the answers where it collides.
 Query query(Spool &spool, const Pair &pair, bool &convex) {
-  Query query;
-  query.library = spool.library("fcl", FCL_VERSION);
-  for (int i = 0; i < 2; ++i) {
-    const auto [object, is_convex] = describe(spool, *pair.geometries[i], query.library);
-    query.objects[i] = object, query.poses[i] = matrix(pair.poses[i]->linear(), pair.poses[i]->translation());
-    convex = convex || is_convex;
-  }
-  return query;
+  const auto at = [](const Pose &pose) { return matrix(pose.linear(), pose.translation()); };
+  return about(spool, spool.library("fcl", FCL_VERSION), pair, convex, at);
 }
 
 std::size_t collide(const Pair &pair, const Request &request, const Result &result, const auto &ask) {

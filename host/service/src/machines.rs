@@ -18,8 +18,6 @@ use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::model::{MachineFacts, MachineInfo};
 use crate::runs::draw;
-use crate::runs::priority::IDLE;
-use crate::runs::sql::RunRow;
 use crate::store::now_us;
 use crate::{EngineError, Result, sha256_hex};
 
@@ -124,11 +122,6 @@ impl Engine {
 }
 
 impl Inner {
-    /// Idle work on a machine gives way to a run of the same class that waits for one.
-    async fn gives_way_on_a_machine(&self, row: &RunRow) -> Result<bool> {
-        Ok(row.priority == IDLE && self.store.prepared_runs(&self.waiting_for(&row.spec)).await? > 0)
-    }
-
     /// The runs that a machine has wait again; it hears of that with its next beat.
     pub(crate) async fn put_back_runs_of(&self, machine: &str) -> Result<()> {
         for attempt in self.store.attempts_of(machine).await? {

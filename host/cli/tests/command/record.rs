@@ -69,9 +69,14 @@ fn assert_as_printed(queries: &[Recorded], printed: &str) -> usize {
     let mut lines = 0;
     for (line, query) in printed.lines().zip(queries) {
         match line.split_once(' ').expect("two words") {
-            ("collide", hit) => {
+            (asked @ ("collide" | "tolerance"), hit) => {
                 assert_eq!(query.answered.hit, Some(hit == "1"), "{line}: {query:?}");
-                assert_eq!(query.kind, if query.limit > 1.0 { Kind::Contacts } else { Kind::Collide });
+                match (asked, query.kind, query.limit) {
+                    ("collide", Kind::Collide, 1.0)
+                    | ("collide", Kind::Contacts, 5.0)
+                    | ("tolerance", Kind::Tolerance, 0.25) => {}
+                    other => panic!("{other:?}: {line}"),
+                }
             }
             ("distance", distance) => {
                 assert_eq!(query.answered.distance, Some(distance.parse().expect("a number")), "{line}");

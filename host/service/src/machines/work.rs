@@ -142,14 +142,14 @@ impl Engine {
         if !self.inner.store.beat(&attempt.id).await? {
             return Ok(false);
         }
-        let row = self.inner.run_row(&attempt.job).await?;
-        if self.inner.gives_way_on_a_machine(&row).await? {
+        if self.inner.store.gives_way(&attempt.job, &self.inner.hardware_class()).await? {
             self.inner.put_back_runs_of(machine).await?;
             return Ok(false);
         }
         if steps.is_empty() && self.inner.orders.heard(&attempt.id) {
             return Ok(true);
         }
+        let row = self.inner.run_row(&attempt.job).await?;
         let inner = self.inner.clone();
         let telling = blocking(move || {
             let working = inner.working(&attempt, &row)?;

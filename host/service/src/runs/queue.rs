@@ -102,6 +102,15 @@ impl Store {
         Ok(query.fetch_one(&self.pool).await? as u64)
     }
 
+    /// Is this run idle work while another one of its class is prepared for a machine?
+    pub async fn gives_way(&self, run: &str, usual: &str) -> Result<bool> {
+        let text = "SELECT COUNT(*) FROM runs idle WHERE idle.id = $1 AND idle.priority = $2 AND EXISTS (SELECT 1 FROM runs r \
+                    WHERE r.state = 'queued' AND r.prepared = 1 AND r.priority <= $3 \
+                    AND COALESCE(r.hardware_class, $4) = COALESCE(idle.hardware_class, $4))";
+        let query = sqlx::query_scalar::<_, i64>(text).bind(run).bind(IDLE).bind(BACKGROUND).bind(usual);
+        Ok(query.fetch_one(&self.pool).await? > 0)
+    }
+
     /// Runs of idle work that wait or are under way.
     pub async fn idle_runs(&self) -> Result<u64> {
         let text = "SELECT COUNT(*) FROM runs WHERE priority = $1 AND state IN ('queued', 'running')";

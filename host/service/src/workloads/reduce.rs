@@ -13,7 +13,7 @@ use crate::advice::jailed::{Advisor, SHELF};
 use crate::blocking::blocking;
 use crate::engine::Inner;
 use crate::measure::Stop;
-use crate::model::{ReduceTerms, ReducedScene, ReducedSpeed, WorkloadResult, WorkloadSpec, frontier};
+use crate::model::{ReduceTerms, ReducedScene, ReducedSpeed, Track, WorkloadResult, WorkloadSpec, frontier};
 use crate::{EngineError, Result};
 
 /// What a replay does after all queries were replayed, in a sentence.
@@ -54,6 +54,8 @@ pub(super) struct Reducing<'a> {
     pub algorithms: &'a [Arc<Algorithm>],
     pub stop: &'a Stop,
     pub doing: &'a Arc<Doing>,
+    /// The first order in which the objects were asked: no algorithm may know the first one that was wanted.
+    pub track: Track,
 }
 
 impl Reducing<'_> {
@@ -101,7 +103,7 @@ impl Reducing<'_> {
 
     async fn again(&self, recording: &Arc<Recording>, what: &str) -> Result<WorkloadResult> {
         self.doing.say(what.to_owned());
-        let spec = WorkloadSpec { tracks: self.spec.tracks[..1].to_vec(), reduce: None, ..self.spec.clone() };
+        let spec = WorkloadSpec { tracks: vec![self.track], reduce: None, ..self.spec.clone() };
         let (algorithms, stop) = (self.algorithms.to_vec(), self.stop.clone());
         Ok(replay(self.inner, recording.clone(), spec, algorithms, stop, |_| {}, || {}).await?.result)
     }

@@ -77,7 +77,7 @@ impl Store {
             let Some(next) = next else { return Ok(None) };
             let mut transaction = self.pool.begin().await?;
             let Some(attempt) = begin(&mut transaction, Kind::Replay, &next, worker).await? else { continue };
-            let text = "UPDATE workloads SET state = 'running', attempts = attempts + 1, done = 0 \
+            let text = "UPDATE workloads SET state = 'running', attempts = attempts + 1, done = 0, message = NULL \
                         WHERE id = $1 AND state IN ('queued', 'running') RETURNING turn";
             let turn: Option<String> = sqlx::query_scalar(text).bind(&next).fetch_optional(&mut *transaction).await?;
             let Some(turn) = turn else { continue };

@@ -74,8 +74,9 @@ async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, row: &WorkloadRow, sto
         let of = (recording.clone(), row.spec.clone(), algorithms.clone());
         let mut replayed = replay(inner, of.0, of.1, of.2, stop.clone(), tell, || {}).await?;
         let Some(terms) = row.spec.reduce else { return Ok::<_, EngineError>((replayed, None)) };
-        let reducing =
-            Reducing { inner, recording: &recording, spec: &row.spec, algorithms: &algorithms, stop, doing: &doing };
+        let track = replayed.result.tracks[0].track;
+        let (spec, doing) = (&row.spec, &doing);
+        let reducing = Reducing { inner, recording: &recording, spec, algorithms: &algorithms, stop, doing, track };
         let (reduced, file) = reducing.reduced(terms, &replayed.result).await?;
         replayed.result.reduced = Some(reduced);
         Ok((replayed, Some(file)))

@@ -5,6 +5,8 @@ use axum::extract::State;
 use axum::response::Response;
 use ocb_service::model::{ObjectHeatmap, ObjectHeatmapRequest};
 use ocb_service::workload::HeatmapFormat;
+use serde::Deserialize;
+use utoipa::{IntoParams, IntoResponses};
 
 use crate::App;
 use crate::download::download;
@@ -14,24 +16,37 @@ use crate::problem::Result;
 use super::heatmaps::Colouring;
 
 /// Which object of which replay.
-type Place = (String, u32);
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+pub(crate) struct Place {
+    /// Id of the workload
+    id: String,
+    /// Its place in the scene, from 0
+    object: u32,
+}
+
+/// Why there is no heatmap.
+#[derive(IntoResponses)]
+#[expect(dead_code, reason = "only described")]
+enum NoHeatmap {
+    /// Unknown measure, order or colormap
+    #[response(status = 400)]
+    Unknown,
+    /// The visitor has no such workload, or it has not been replayed to its end
+    #[response(status = 404)]
+    NotThere,
+    /// No such object or algorithm, or the replay is of a version that did not keep where objects are closest
+    #[response(status = 422)]
+    Impossible,
+}
 
 /// Values on the vertices of an object, from all queries that it takes part in.
 #[utoipa::path(get, path = "/workloads/{id}/objects/{object}/heatmap", tag = "runs",
-    params(
-        ("id" = String, Path, description = "Id of the workload"),
-        ("object" = u32, Path, description = "Its place in the scene, from 0"),
-        ObjectHeatmapRequest,
-    ),
-    responses(
-        (status = 200, body = ObjectHeatmap),
-        (status = 400, description = "Unknown measure or order"),
-        (status = 404, description = "The visitor has no such workload, or it has not been replayed to its end"),
-        (status = 422, description = "No such object or algorithm, or the replay is of a version that did not keep where objects are closest"),
-    ))]
+    params(Place, ObjectHeatmapRequest),
+    responses((status = 200, body = ObjectHeatmap), NoHeatmap))]
 pub(crate) async fn workload_heatmap(
     State(app): State<App>,
-    Path((id, object)): Path<Place>,
+    Path(Place { id, object }): Path<Place>,
     Query(request): Query<ObjectHeatmapRequest>,
 ) -> Result<Answer<ObjectHeatmap>> {
     let _slot = app.drawing.acquire().await;
@@ -40,18 +55,8 @@ pub(crate) async fn workload_heatmap(
 
 /// The heatmap as glTF binary: `COLOR_0` (linear) for viewers, `_VALUE` (f32) for programs, `extras.ocb` says what it is.
 #[utoipa::path(get, path = "/workloads/{id}/objects/{object}/heatmap.glb", tag = "runs",
-    params(
-        ("id" = String, Path, description = "Id of the workload"),
-        ("object" = u32, Path, description = "Its place in the scene, from 0"),
-        ObjectHeatmapRequest,
-        Colouring,
-    ),
-    responses(
-        (status = 200, description = "The coloured mesh", body = [u8], content_type = "model/gltf-binary"),
-        (status = 400, description = "Unknown measure, order or colormap"),
-        (status = 404, description = "The visitor has no such workload, or it has not been replayed to its end"),
-        (status = 422, description = "No such object or algorithm, or the replay is of a version that did not keep where objects are closest"),
-    ))]
+    params(Place, ObjectHeatmapRequest, Colouring),
+    responses((status = 200, description = "The coloured mesh", body = [u8], content_type = "model/gltf-binary"), NoHeatmap))]
 pub(crate) async fn workload_heatmap_glb(
     State(app): State<App>,
     Path(place): Path<Place>,
@@ -63,18 +68,8 @@ pub(crate) async fn workload_heatmap_glb(
 
 /// The heatmap as PLY: `red green blue` (sRGB) and `quality` (the value).
 #[utoipa::path(get, path = "/workloads/{id}/objects/{object}/heatmap.ply", tag = "runs",
-    params(
-        ("id" = String, Path, description = "Id of the workload"),
-        ("object" = u32, Path, description = "Its place in the scene, from 0"),
-        ObjectHeatmapRequest,
-        Colouring,
-    ),
-    responses(
-        (status = 200, description = "The coloured mesh", body = [u8], content_type = "application/octet-stream"),
-        (status = 400, description = "Unknown measure, order or colormap"),
-        (status = 404, description = "The visitor has no such workload, or it has not been replayed to its end"),
-        (status = 422, description = "No such object or algorithm, or the replay is of a version that did not keep where objects are closest"),
-    ))]
+    params(Place, ObjectHeatmapRequest, Colouring),
+    responses((status = 200, description = "The coloured mesh", body = [u8], content_type = "application/octet-stream"), NoHeatmap))]
 pub(crate) async fn workload_heatmap_ply(
     State(app): State<App>,
     Path(place): Path<Place>,
@@ -86,17 +81,8 @@ pub(crate) async fn workload_heatmap_ply(
 
 /// The heatmap as a table: vertex, value, and the queries that went in.
 #[utoipa::path(get, path = "/workloads/{id}/objects/{object}/heatmap.csv", tag = "runs",
-    params(
-        ("id" = String, Path, description = "Id of the workload"),
-        ("object" = u32, Path, description = "Its place in the scene, from 0"),
-        ObjectHeatmapRequest,
-    ),
-    responses(
-        (status = 200, description = "One line per vertex", body = [u8], content_type = "text/csv"),
-        (status = 400, description = "Unknown measure or order"),
-        (status = 404, description = "The visitor has no such workload, or it has not been replayed to its end"),
-        (status = 422, description = "No such object or algorithm, or the replay is of a version that did not keep where objects are closest"),
-    ))]
+    params(Place, ObjectHeatmapRequest),
+    responses((status = 200, description = "One line per vertex", body = [u8], content_type = "text/csv"), NoHeatmap))]
 pub(crate) async fn workload_heatmap_csv(
     State(app): State<App>,
     Path(place): Path<Place>,
@@ -107,7 +93,7 @@ pub(crate) async fn workload_heatmap_csv(
 
 async fn file(
     app: &App,
-    (id, object): Place,
+    Place { id, object }: Place,
     request: ObjectHeatmapRequest,
     colouring: Colouring,
     format: HeatmapFormat,

@@ -3,9 +3,7 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use ocb_core::workload::{Kind, Recorded};
-
-use super::{CODE, Desk, KILLED, ROOT, command, compiled, dropped, python, read, record, said};
+use super::{CODE, Desk, KILLED, ROOT, assert_as_printed, command, compiled, dropped, python, read, record, said};
 
 /// The program, linked with Coal as its wheel ships it.
 fn robot(desk: &Desk) -> PathBuf {
@@ -15,32 +13,6 @@ fn robot(desk: &Desk) -> PathBuf {
     assert!(recorder.exists(), "{} is missing; run `make recorders` first", recorder.display());
     let (include, lib) = (format!("-isystem{coal}/include"), format!("-L{coal}/lib"));
     compiled(desk, "coal_robot", &[&include, &lib, "-lcoal", &format!("-Wl,-rpath,{coal}/lib")])
-}
-
-/// How many of the first queries have the answers that the program printed.
-fn assert_as_printed(queries: &[Recorded], printed: &str) -> usize {
-    let mut lines = 0;
-    for (line, query) in printed.lines().zip(queries) {
-        match line.split_once(' ').expect("two words") {
-            ("distance", distance) => {
-                assert_eq!(query.answered.distance, Some(distance.parse().expect("a number")), "{line}");
-                assert_eq!(query.kind, Kind::Distance);
-            }
-            (asked @ ("collide" | "tolerance"), hit) => {
-                assert_eq!(query.answered.hit, Some(hit == "1"), "{line}: {query:?}");
-                match (asked, query.kind, query.limit) {
-                    ("collide", Kind::Collide, 1.0)
-                    | ("collide", Kind::Contacts, 5.0)
-                    | ("tolerance", Kind::Tolerance, 0.25) => {}
-                    other => panic!("{other:?}: {line}"),
-                }
-            }
-            _ => break,
-        }
-        assert!(query.seconds.is_some_and(|seconds| seconds > 0.0 && seconds < 10.0), "{query:?}");
-        lines += 1;
-    }
-    lines
 }
 
 #[test]
