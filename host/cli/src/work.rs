@@ -107,7 +107,8 @@ async fn sentinel(
 ) -> Result<()> {
     let stop = Stop::default();
     let watching = tokio::spawn(watch_over(stop.clone(), stopped.clone()));
-    let measured = tokio::task::spawn_blocking(move || worker.sentinel(&algorithm, &stop)).await;
+    let waits = || eprintln!("ocb: waiting for another process that measures on this machine");
+    let measured = tokio::task::spawn_blocking(move || worker.sentinel(&algorithm, &stop, waits)).await;
     watching.abort();
     let sentinel = match measured.map_err(|e| Failure::Fault(format!("the measuring thread ended: {e}.")))? {
         Ok(Some(median_ns)) => Sentinel::Measured { median_ns },

@@ -295,13 +295,15 @@ async fn the_sentinel_is_measured_where_its_algorithm_is_installed() {
     };
     assert_eq!(algorithm.info.id, "box-tree");
     let measured = tokio::task::spawn_blocking(move || {
-        let measure = || worker.sentinel(&algorithm, &Stop::default()).unwrap().unwrap();
+        let measure = || worker.sentinel(&algorithm, &Stop::default(), || {}).unwrap().unwrap();
         let stopped = Stop::default();
         stopped.stop();
-        assert_eq!(worker.sentinel(&algorithm, &stopped).unwrap(), None);
+        assert_eq!(worker.sentinel(&algorithm, &stopped, || {}).unwrap(), None);
         let mut absent = (*algorithm).clone();
         absent.info.plugin_sha256 = "0".repeat(64);
-        assert!(worker.sentinel(&absent, &Stop::default()).is_err_and(|e| e.to_string().contains("not installed")));
+        assert!(
+            worker.sentinel(&absent, &Stop::default(), || {}).is_err_and(|e| e.to_string().contains("not installed"))
+        );
         [measure(), measure()]
     });
     let measured = measured.await.unwrap();

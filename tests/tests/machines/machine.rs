@@ -28,11 +28,11 @@ impl Machine {
         Self::of(mounted("mount -t tmpfs none /run/lock"), internal, token, log, &[])
     }
 
-    /// With no room on its disk for what an order brings.
+    /// On hardware of its own, with no room on its disk for what an order brings.
     pub fn full(internal: &str, token: &Path, log: &Path) -> Self {
         let disk = log.with_extension("disk");
         fs::create_dir_all(&disk).expect("a folder");
-        let mut ocb = mounted("mount -t tmpfs -o nr_inodes=1 none \"$TMPDIR\"");
+        let mut ocb = mounted("mount -t tmpfs none /run/lock && mount -t tmpfs -o nr_inodes=1 none \"$TMPDIR\"");
         ocb.env("TMPDIR", disk);
         Self::of(ocb, internal, token, log, &[])
     }

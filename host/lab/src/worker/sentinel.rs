@@ -31,11 +31,11 @@ fn spec() -> Result<RunSpec> {
 
 impl Worker {
     /// Nanoseconds that this algorithm, which is installed here, takes for the median query of the sentinel; `None` when stopped. Waits
-    /// for the right to measure.
+    /// for the right to measure; `waits` is called once if another process has it.
     ///
     /// # Errors
     /// `Fault` when the algorithm is not installed or does not answer.
-    pub fn sentinel(&self, algorithm: &OrderedAlgorithm, stop: &Stop) -> Result<Option<f64>> {
+    pub fn sentinel(&self, algorithm: &OrderedAlgorithm, stop: &Stop, waits: impl FnOnce()) -> Result<Option<f64>> {
         let missing = || LabError::Fault(format!("{} is not installed on this machine.", algorithm.info.id));
         let file = self.plugins.get(&algorithm.info.plugin_sha256).ok_or_else(missing)?;
         let algorithm = self.with_file(algorithm, file.clone());
@@ -46,7 +46,7 @@ impl Worker {
         let Some(set) = make(&pairing, &spec, None, &Gauge::default(), None)? else { return Ok(None) };
         let task = Task::of(&spec, (&pairing, &set, Part::of(&spec, &set)), algorithms, None);
         let task = Task { seed: spec.seed.unwrap_or_default(), rounds_only: true, ..task };
-        let Some(_right) = stop.right_to_measure(|| {})? else { return Ok(None) };
+        let Some(_right) = stop.right_to_measure(waits)? else { return Ok(None) };
         let measured = to_end(&task, &self.runner, &self.machine, stop)?;
         let Some((_, measured)) = measured.and_then(|mut all| all.pop()) else { return Ok(None) };
         if let Some(outcome) = &measured.outcome {
