@@ -118,6 +118,16 @@ export async function runId(page) {
   return /\/r\/([0-9a-f-]{36})/.exec(page.url())[1]
 }
 
+/** A small run of all algorithms that answer distances, when it is done. */
+export async function measured(v) {
+  const spec = { object_a: 'stock:castle@4000', query: 'proximity', passes: 1, budget_seconds: 1, method: { kind: 'sphere', sampling: { kind: 'count', count: 400 } } }
+  const { id } = await v.api('/runs', { method: 'POST', data: spec })
+  return until('the run', async () => {
+    const run = await v.api(`/runs/${id}`)
+    return run.state === 'done' && run
+  })
+}
+
 /** Waits until `probe` answers something true; long enough for a turn to measure behind those of others. */
 export async function until(what, probe, seconds = 180) {
   const end = Date.now() + seconds * 1000

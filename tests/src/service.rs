@@ -20,7 +20,7 @@ pub struct Service {
 
 impl Service {
     /// Starts on a free port of the loopback interface, with every plugin that is built, and waits until it answers. It measures
-    /// nothing unasked but the run of the start page.
+    /// nothing unasked.
     pub fn start(data: &Path) -> Self {
         Self::start_with(data, &[])
     }
@@ -194,19 +194,6 @@ impl Guest {
         let (status, run) = self.post(service, "/runs", spec);
         assert_eq!(status, 201, "{spec} was refused: {run}");
         run["id"].as_str().expect("an id").to_owned()
-    }
-
-    /// Waits until the run of the start page, which a new service measures first, has ended.
-    pub fn wait_for_quiet(&self, service: &Service) {
-        let end = Instant::now() + Duration::from_secs(180);
-        loop {
-            let answer = self.look(service, "/featured");
-            if answer.status().is_success() && answer.json::<Value>().is_ok_and(|run| run["state"] == "done") {
-                return;
-            }
-            assert!(Instant::now() < end, "the run of the start page does not end");
-            std::thread::sleep(Duration::from_millis(50));
-        }
     }
 
     /// Looks at the run until `enough` of it, and gives it as it was then.

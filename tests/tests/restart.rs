@@ -9,13 +9,12 @@ use nix::unistd::Pid;
 use ocb_tests::service::{Guest, Service, descendants, runner_below};
 use serde_json::{Value, json};
 
-/// One data folder for all of these tests, one after the other: a new one would measure its start page first.
+/// One data folder for all of these tests, one after the other.
 static DATA: LazyLock<Mutex<PathBuf>> = LazyLock::new(|| {
     let data = Path::new(env!("CARGO_TARGET_TMPDIR")).join("restart");
     if data.exists() {
         std::fs::remove_dir_all(&data).expect("the folder of the last time goes");
     }
-    Guest::default().wait_for_quiet(&Service::start_with(&data, &PLUGINS));
     Mutex::new(data)
 });
 

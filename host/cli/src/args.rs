@@ -259,8 +259,8 @@ pub struct ServeArgs {
     /// Days until the data of a guest is deleted, counted from the last item that the guest created or asked to keep.
     #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=36_500), env = "OCB_GUEST_DAYS", value_name = "DAYS", hide_env_values = true)]
     pub guest_days: u32,
-    /// While the service is idle: measure the examples of the start page and the missing results of the suite, then test the
-    /// installed algorithms for stability. Any request interrupts this.
+    /// Measure what nobody asked for: a first heatmap for the start page and, while the service is idle, its examples, the missing
+    /// results of the suite, and the stability of the installed algorithms. Any request interrupts this.
     #[arg(long, value_enum, default_value_t = Switch::On, env = "OCB_IDLE", hide_env_values = true)]
     pub idle: Switch,
     #[command(flatten)]

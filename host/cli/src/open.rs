@@ -41,6 +41,7 @@ pub async fn open_to_serve(store: &Store, args: &ServeArgs, url: &str) -> Result
     Ok(Engine::open(EngineConfig {
         guest_days: args.guest_days,
         idle: args.idle == Switch::On,
+        featured: args.idle == Switch::On,
         elsewhere: args.internal.is_some(),
         most_drift: args.most_drift / 100.0,
         slurm: slurm(args),
@@ -131,7 +132,7 @@ fn config(store: &Store, data: PathBuf, purpose: Purpose) -> EngineConfig {
     config.suite.clone_from(&store.suite_file);
     config.machine_note.clone_from(&store.machine_note);
     config.dispatch = purpose != Purpose::Look;
-    config.featured = purpose == Purpose::Serve;
+    config.catch_up = purpose == Purpose::Serve;
     config
 }
 

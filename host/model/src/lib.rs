@@ -409,6 +409,8 @@ pub struct Status {
     pub oldest_seconds: f64,
     /// Seconds that the waiting runs are expected to take, one after the other.
     pub expected_seconds: f64,
+    /// The service also measures what nobody asked for, first of all a heatmap for the start page.
+    pub idle_work: bool,
     /// Other machines measure the runs of this service.
     pub elsewhere: bool,
     /// These machines, by name.

@@ -80,6 +80,8 @@ pub struct EngineConfig {
     pub idle: bool,
     /// Queue a quick run for the start page when there is none yet.
     pub featured: bool,
+    /// At the start, queue what the suite misses of submitted plugins that are public.
+    pub catch_up: bool,
     /// Days that what guests make stays after they last made something or asked to have it kept.
     pub guest_days: u32,
     /// How much measuring time visitors may have at once.
@@ -89,7 +91,7 @@ pub struct EngineConfig {
 }
 
 impl EngineConfig {
-    /// With runner and plugins beside the running executable, SQLite and a local folder; dispatching, nothing featured.
+    /// With runner and plugins beside the running executable, SQLite and a local folder; dispatching, nothing measured unasked.
     pub fn beside_executable(data: impl Into<PathBuf>) -> Self {
         let folder = std::env::current_exe()
             .ok()
@@ -115,6 +117,7 @@ impl EngineConfig {
             slurm: None,
             idle: false,
             featured: false,
+            catch_up: false,
             guest_days: 30,
             ceilings: Ceilings::default(),
             mail: None,

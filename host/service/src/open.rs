@@ -137,6 +137,7 @@ impl Engine {
             queued,
             oldest_seconds: store.oldest_seconds().await?,
             expected_seconds,
+            idle_work: self.inner.config.idle,
             elsewhere: self.inner.config.elsewhere,
             machines: machines.iter().filter_map(|machine| machine.status(now)).collect(),
             algorithms: self.inner.registry.algorithms(None).len() as u32,

@@ -18,7 +18,7 @@ use ocb_lab::machine::{Machine, MeasuringRight};
 use ocb_lab::measure::{Measured, News, Part, Task, first_look, measure};
 use ocb_lab::pairing::Pairing;
 use ocb_service::model::{Heatmap, HeatmapRequest, Measure, RunEvent, RunSpec, StageKind, State};
-use ocb_service::{Engine, EngineConfig, EngineError, Profile, Stop, chart_csv};
+use ocb_service::{Engine, EngineError, Profile, Stop, chart_csv};
 use tokio::sync::{Mutex, MutexGuard};
 
 /// One run at a time on a machine.
@@ -128,7 +128,7 @@ async fn a_fast_algorithm_is_seen_while_a_slow_one_builds_and_nothing_of_it_coun
 async fn the_beginning_of_a_large_set_is_seen_and_goes_when_the_run_is_cancelled() {
     let _alone = alone().await;
     let data = tempfile::tempdir().unwrap();
-    let engine = Engine::open(EngineConfig { featured: false, ..common::config(data.path()) }).await.unwrap();
+    let engine = Engine::open(common::config(data.path())).await.unwrap();
     // Another process may measure at the very moment: then the beginning is not looked at.
     for attempt in 1.. {
         machine_is_free();

@@ -265,7 +265,7 @@ async fn a_run_ends_as_soon_as_the_database_can_record_it() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_run_that_the_service_cannot_carry_out_waits_again_and_fails_after_three_attempts() {
     let data = tempfile::tempdir().unwrap();
-    let engine = Engine::open(EngineConfig { featured: false, ..common::config(data.path()) }).await.unwrap();
+    let engine = Engine::open(common::config(data.path())).await.unwrap();
     let database = common::database(data.path()).await;
     // The configurations are found, and cannot be stored.
     let refuse = "CREATE TRIGGER refuse BEFORE INSERT ON blobs BEGIN SELECT RAISE(ABORT, 'disk I/O error'); END";

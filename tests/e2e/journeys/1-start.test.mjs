@@ -1,10 +1,27 @@
 // The first look: a measured heatmap before anything is asked.
 import assert from 'node:assert/strict'
-import { test } from 'node:test'
+import { after, before, test } from 'node:test'
+import { startService } from '../service.mjs'
 import { until, visitor } from '../visitor.mjs'
 
-test('the start page shows a measured heatmap of a stock object', async (t) => {
+let service
+before(async () => {
+  service = await startService({ idle: true })
+})
+after(() => service?.stop())
+
+test('a service that measures nothing unasked says so', async (t) => {
   const v = await visitor(t)
+  // A service that was given to the journeys may measure unasked.
+  const { idle_work: unasked } = await v.api('/status')
+  await v.go('/')
+  await v.at(unasked ? 'featured-viewer' : 'nothing-unasked').waitFor()
+  await v.accessible('the start page without a heatmap')
+  await v.picture('start-nothing')
+})
+
+test('the start page shows a measured heatmap of a stock object', async (t) => {
+  const v = await visitor(t, { base: service.url })
   await v.go('/')
   // On the first start the service is still measuring it: the page says so, and shows what there is.
   await v.at('featured-viewer').locator('canvas').waitFor({ timeout: 120_000 })
@@ -28,7 +45,7 @@ test('the start page shows a measured heatmap of a stock object', async (t) => {
 for (const scheme of ['light', 'dark']) {
   for (const width of [390, 1440]) {
     test(`start page and builder are accessible, ${scheme}, ${width} pixels wide`, async (t) => {
-      const v = await visitor(t, { scheme, width })
+      const v = await visitor(t, { scheme, width, base: service.url })
       await v.go('/')
       await v.at('featured-viewer').locator('canvas').waitFor()
       await v.accessible('the start page')
@@ -61,8 +78,7 @@ for (const [scheme, width] of [['light', 1280], ['dark', 390]]) {
     await v.page.waitForURL(/#schema-RunSpec$/)
     await until('the schema in view', () => v.page.locator('#schema-RunSpec h3').evaluate((e) => Math.abs(e.getBoundingClientRect().top) < 400))
     await v.picture(`api-${scheme}-${width}`)
-    // A minute's work for the whole page: in the other colours and at the other width, a part of each kind.
-    const parts = scheme === 'light' ? [] : ['h1', '[data-testid="route-start_run"]', '#schema-RunSpec']
-    await v.accessible('the API page', parts)
+    // The whole page takes axe a minute, so a part of each kind.
+    await v.accessible('the API page', ['header', 'h1', '[data-testid="route-start_run"]', '#schema-RunSpec'])
   })
 }

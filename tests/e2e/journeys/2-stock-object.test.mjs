@@ -1,7 +1,7 @@
 // From a stock object to a picked value: builder, live page, explorer.
 import assert from 'node:assert/strict'
 import { test } from 'node:test'
-import { runId, until, visitor } from '../visitor.mjs'
+import { measured, runId, until, visitor } from '../visitor.mjs'
 
 /** Chooses the torus knot and a set of `count` configurations, measured quickly. */
 async function build(v, count) {
@@ -136,11 +136,8 @@ test('a stock object becomes a heatmap whose picked value is the API\'s', async 
 
 test('the explorer changes measure, statistic, outliers, map and scale, and downloads everything', async (t) => {
   const v = await visitor(t)
-  const featured = await until('the end of the run of the start page', async () => {
-    const run = await v.api('/featured')
-    return run?.state === 'done' && run
-  }, 120)
-  await v.go(`/r/${featured.id}`)
+  const { id } = await measured(v)
+  await v.go(`/r/${id}`)
   await v.at('viewer-0').waitFor()
   await v.at('ecdf').waitFor()
   const choices = {

@@ -1,17 +1,11 @@
 // All algorithms of a run side by side, under one camera.
 import assert from 'node:assert/strict'
 import { test } from 'node:test'
-import { until, visitor } from '../visitor.mjs'
-
-/** The run of the start page when it has ended. */
-const firstRun = (v) => until('the first run', async () => {
-  const featured = await v.api('/featured').catch(() => null)
-  return featured?.state === 'done' && featured
-}, 120)
+import { measured, until, visitor } from '../visitor.mjs'
 
 test('the wall shows every algorithm, turns by keys, opens one alone and fills the screen', async (t) => {
   const v = await visitor(t, { width: 1440 })
-  const run = await firstRun(v)
+  const run = await measured(v)
   const shown = run.results.filter(({ n }) => n > 0).map(({ algorithm }) => algorithm)
   const tiles = v.page.locator('[data-pane]')
   await v.go(`/r/${run.id}?w=1`)
@@ -71,7 +65,7 @@ test('the wall shows every algorithm, turns by keys, opens one alone and fills t
 
 test('on a telephone a swipe scrolls the page, one finger turns the object, two zoom and move it', async (t) => {
   const v = await visitor(t, { width: 390, height: 844 })
-  const run = await firstRun(v)
+  const run = await measured(v)
   const session = await v.context.newCDPSession(v.page)
   await session.send('Emulation.setTouchEmulationEnabled', { enabled: true, maxTouchPoints: 2 })
   await v.go(`/r/${run.id}?a=${run.results.find(({ n }) => n > 0).algorithm}`)

@@ -62,7 +62,6 @@ fn nodes_measure_while_runs_wait_and_a_killed_job_costs_no_run() {
     let service = Service::start_among(&data, &PLUGINS, &more, &environment);
     let guest = Guest::default();
     let log = || fs::read_to_string(folder.path().join("jobs.log")).unwrap_or_default();
-    guest.wait_for_quiet(&service);
     let spec = json!({
         "object_a": "stock:torus-knot@2000", "query": "proximity", "passes": 2, "budget_seconds": 2.0,
         "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 300 } },

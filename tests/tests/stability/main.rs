@@ -18,7 +18,6 @@ async fn engine(plugins: Vec<PathBuf>) -> (Engine, tempfile::TempDir) {
     config.plugins = plugins;
     config.profile = Profile::Dev;
     config.dispatch = false;
-    config.featured = false;
     (Engine::open(config).await.expect("an engine"), folder)
 }
 

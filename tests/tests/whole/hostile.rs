@@ -44,7 +44,6 @@ fn one_honest_visitor_goes_on_beside_hostile_ones() {
     let data = empty("hostile");
     let service = Service::start_with(&data, &PLUGINS);
     let honest = Guest::from_address("198.51.100.7");
-    honest.wait_for_quiet(&service);
     // Something is measured then, too.
     let long = honest.submit(&service, &run(20_000, 60.0));
     honest.wait(&service, &long, "it is measured", |run| run["state"] == "running");

@@ -114,7 +114,6 @@ fn two_hundred_visitors_see_no_error_while_a_run_is_measured() {
     let data = empty("load");
     let service = Service::start_with(&data, &["libocb_box_tree.so", "libocb_brute_force.so"]);
     let guest = Guest::default();
-    guest.wait_for_quiet(&service);
     let run = guest.submit(&service, &spec((seconds as f64 / 6.0).min(3.0)));
     let runtime = tokio::runtime::Runtime::new().expect("a runtime");
     let seen = runtime.block_on(visit(&service, &run, Duration::from_secs(seconds)));

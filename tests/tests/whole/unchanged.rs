@@ -39,7 +39,6 @@ fn visitors_change_nothing_in_what_is_measured() {
     // thread starts from now on.
     stay_on_the_first_cpu();
     let guest = Guest::default();
-    guest.wait_for_quiet(&service);
     let visitors =
         Builder::new_multi_thread().worker_threads(2).on_thread_start(stay_on_the_first_cpu).enable_all().build();
     let visitors = visitors.expect("a runtime");

@@ -19,10 +19,10 @@ impl Engine {
     /// Queues the quick run when it is wanted and there is none.
     pub(crate) async fn feature_a_run(&self) -> Result<()> {
         let _alone = self.inner.store.locks.alone(Lock::Planning).await?;
-        let algorithms = self.inner.registry.algorithms(None);
         if !self.inner.config.featured || self.inner.store.featured_count().await? > 0 {
             return Ok(());
         }
+        let algorithms = self.inner.registry.algorithms(None);
         let answered = |query: &Query| algorithms.iter().any(|a| a.queries.contains(query));
         let Some(query) = [Query::Proximity, Query::CollisionFirst].into_iter().find(answered) else {
             return Ok(());

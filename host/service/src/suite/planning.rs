@@ -125,7 +125,7 @@ impl Engine {
     /// Submitted plugins that are public are measured on the suite, also where the service ended before it was queued. What
     /// was measured on another hardware class, suite or oracle is for a campaign, which a curator begins.
     pub(crate) async fn catch_up_with_the_suite(&self) -> Result<()> {
-        if !self.inner.config.featured {
+        if !self.inner.config.catch_up {
             return Ok(());
         }
         let rows = self.inner.store.plugins().await?;

@@ -11,7 +11,7 @@ vi.mock('../api/client', { spy: true })
 const NEW = { hardware_class: 'new', cpu: 'CPU 2', machines: 1, queued: 3, expected_seconds: 90 }
 const USUAL = { hardware_class: 'usual', cpu: 'CPU 1', machines: 2, queued: 0, expected_seconds: 0 }
 const status = (classes: Status['classes']): Status => ({
-  version: '1', hardware_class: 'usual', classes, running: 0, queued: 3, oldest_seconds: 5, expected_seconds: 90, elsewhere: true, algorithms: 4, problems: [],
+  version: '1', hardware_class: 'usual', classes, running: 0, queued: 3, oldest_seconds: 5, expected_seconds: 90, idle_work: true, elsewhere: true, algorithms: 4, problems: [],
   machines: [{ name: 'alpha', state: 'waiting', seen_us: 1e15, hardware_class: 'usual' }, { name: 'beta', state: 'measuring', seen_us: 1e15, hardware_class: 'new' }],
 })
 let app: App | null = null
