@@ -63,10 +63,13 @@ pub async fn replay(engine: &Engine, recording: Arc<Recording>, spec: WorkloadSp
     let interrupted = serve::stop_signal()?;
     let stop = Stop::default();
     let said = AtomicU64::new(u64::MAX);
-    let tell = move |Progress { done, of }: Progress| {
-        let percent = 100 * done / of.max(1);
-        if said.swap(percent, Ordering::Relaxed) != percent {
-            eprintln!("{done} of {of} queries");
+    let tell = move |progress: Progress| match progress {
+        Progress::Scene { algorithm, process, of } => eprintln!("whole scene: {algorithm}, process {process} of {of}"),
+        Progress::Pairs { done, of } => {
+            let percent = 100 * done / of.max(1);
+            if said.swap(percent, Ordering::Relaxed) != percent {
+                eprintln!("{done} of {of} queries");
+            }
         }
     };
     let waits = || eprintln!("waiting: another process is measuring on this machine");

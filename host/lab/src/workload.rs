@@ -61,13 +61,25 @@ pub struct Wanted<'a> {
     pub seed: u64,
 }
 
-/// How far the replay is.
-#[derive(Clone, Copy, Debug)]
-pub struct Progress {
-    /// Queries of the pairs that are done.
-    pub done: u64,
-    /// All queries.
-    pub of: u64,
+/// How far the replay is: first the whole scene is asked, if that is wanted, then pair by pair.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// A process begins to be asked about the whole scene.
+    Scene {
+        /// Its algorithm.
+        algorithm: String,
+        /// Which of the algorithm's processes it is, counted from 1.
+        process: u32,
+        /// How many there are.
+        of: u32,
+    },
+    /// Pairs are asked.
+    Pairs {
+        /// Queries of the pairs that are done.
+        done: u64,
+        /// All queries.
+        of: u64,
+    },
 }
 
 /// A replayed recording.
@@ -94,9 +106,9 @@ pub fn replay(
     let solids = solids(&recording.scene)?;
     let mut judged = Truths::new(recording);
     let of: u64 = parts.iter().map(|part| part.rows.len() as u64).sum();
-    tell(Progress { done: 0, of });
+    tell(Progress::Pairs { done: 0, of });
     let scene = wanted.tracks.contains(&Track::Scene);
-    let scene = scene.then(|| Scene::measure(&parts, &solids, wanted, runner, machine, stop)).transpose()?;
+    let scene = scene.then(|| Scene::measure(&parts, &solids, wanted, runner, machine, stop, tell)).transpose()?;
     let tally = |i: usize| Tally::new(&wanted.algorithms[i], wanted.passes);
     let each = |track: &Track| match (track, &scene) {
         (Track::Scene, Some(scene)) => scene.algorithms().map(tally).collect(),
@@ -105,7 +117,7 @@ pub fn replay(
     let mut tallies: Vec<Vec<Tally>> = wanted.tracks.iter().map(each).collect();
     let (mut done, mut queries, mut far) = (0, 0, 0);
     for (number, part) in parts.iter().enumerate() {
-        tell(Progress { done, of });
+        tell(Progress::Pairs { done, of });
         done += part.rows.len() as u64;
         let Some(certified) = Certified::of(part, &solids, stop)? else { continue };
         far += (part.rows.len() - certified.rows.len()) as u64;
@@ -121,7 +133,7 @@ pub fn replay(
             measuring.measure(recording, tallies)?;
         }
     }
-    tell(Progress { done, of });
+    tell(Progress::Pairs { done, of });
     let whole = wanted.tracks.iter().zip(&mut tallies).find(|(track, _)| **track == Track::Scene);
     if let (Some(scene), Some((_, tallies))) = (scene, whole) {
         scene.conclude(tallies);

@@ -4,7 +4,7 @@ mod common;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use nalgebra::Vector3;
 use ocb_core::configuration::Configuration;
@@ -16,7 +16,7 @@ use ocb_core::workload::Claim;
 use ocb_sandbox::{Launcher, Objects, Outcome, Policy, Profile, Question, Trial};
 use ocb_service::model::{AlgorithmOnWorkload, OutcomeName, Track, WorkloadSpec};
 use ocb_service::recording::pack;
-use ocb_service::workload::workload_parquet;
+use ocb_service::workload::{Progress, workload_parquet};
 use ocb_service::{Engine, EngineError, Recording, Stop, sha256_hex};
 use serde_json::json;
 
@@ -220,7 +220,17 @@ async fn a_whole_scene_is_answered_by_one_process_as_pair_by_pair() {
     let names =
         ["brute-force", "box-tree", "box-tree:leaf_size=4", "crashes", "refuses", "other-object", "no-such-triangle"];
     let wanted = WorkloadSpec { tracks: vec![Track::Recorded, Track::Scene], ..spec(&names) };
-    let replayed = engine.replay_workload(recording.clone(), wanted, Stop::default(), |_| {}, || {}).await.unwrap();
+    let told = Arc::new(Mutex::new(Vec::new()));
+    let telling = told.clone();
+    let tell = move |progress| telling.lock().unwrap().push(progress);
+    let replayed = engine.replay_workload(recording.clone(), wanted, Stop::default(), tell, || {}).await.unwrap();
+    let told = std::mem::take(&mut *told.lock().unwrap());
+    let at = |it: &str, process| Progress::Scene { algorithm: it.to_owned(), process, of: 2 };
+    let first: Vec<_> = names[1..].iter().map(|it| at(it, 1)).collect();
+    assert_eq!((&told[1..7], &told[7..9]), (&first[..], &[at("box-tree", 2), at("box-tree:leaf_size=4", 2)][..]));
+    assert!(
+        matches!(told.last(), Some(Progress::Pairs { done, of }) if done == of && *done == recording.queries.len() as u64)
+    );
     let [pairs, whole] = &replayed.result.tracks[..] else { panic!("{:?}", replayed.result.tracks) };
     assert_eq!((pairs.track, whole.track), (Track::Recorded, Track::Scene));
     // Who does not offer scenes is asked pair by pair alone.

@@ -19,7 +19,7 @@ use ocb_sandbox::{Killer, Outcome, PassPlan, Question};
 use rayon::prelude::*;
 
 use super::tally::{Answered, Tally};
-use super::{Certified, LEAST, PairPart, Solid, Wanted};
+use super::{Certified, LEAST, PairPart, Progress, Solid, Wanted};
 use crate::Result;
 use crate::algorithm::Runner;
 use crate::machine::Machine;
@@ -50,6 +50,7 @@ impl<'a> Scene<'a> {
         runner: &'a Runner,
         machine: &'a Machine,
         stop: &'a Stop,
+        tell: &dyn Fn(Progress),
     ) -> Result<Self> {
         let objects = Objects::new(solids);
         let offers = |i: &usize| wanted.algorithms[*i].info.scene;
@@ -59,11 +60,11 @@ impl<'a> Scene<'a> {
             (i, asking, answers)
         });
         let mut scene = Self { asked: asked.collect(), parts, wanted, runner, machine, stop };
-        scene.rounds()?;
+        scene.rounds(tell)?;
         Ok(scene)
     }
 
-    fn rounds(&mut self) -> Result<()> {
+    fn rounds(&mut self, tell: &dyn Fn(Progress)) -> Result<()> {
         let _quiet = self.machine.keep_off();
         let mut asked = std::mem::take(&mut self.asked);
         let mut steady = true;
@@ -72,6 +73,8 @@ impl<'a> Scene<'a> {
                 if answers.outcome.is_some() || answers.reach == 0 {
                     continue;
                 }
+                let (process, of) = (round + 1, self.wanted.passes);
+                tell(Progress::Scene { algorithm: asking.algorithm.info.id.clone(), process, of });
                 let spent = answers.spent;
                 let (first, steal) = (round == 0, self.pass(asking, answers, round));
                 // As in any other run: `measure.rs`.

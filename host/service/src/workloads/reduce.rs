@@ -16,13 +16,13 @@ use crate::measure::Stop;
 use crate::model::{ReduceTerms, ReducedScene, ReducedSpeed, Track, WorkloadResult, WorkloadSpec, frontier};
 use crate::{EngineError, Result};
 
-/// What a replay does after all queries were replayed, in a sentence.
+/// What a replay does before or after it asks pair by pair, in a sentence.
 #[derive(Default)]
 pub(super) struct Doing(Mutex<Option<String>>);
 
 impl Doing {
-    fn say(&self, what: String) {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(what);
+    pub fn say(&self, what: Option<String>) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = what;
     }
 
     pub fn now(&self) -> Option<String> {
@@ -38,7 +38,7 @@ struct Looking {
 
 impl Watch for Looking {
     fn step(&self, what: &str, done: u64, total: u64) {
-        self.doing.say(format!("Reducing the scene: {what}, {done} of {total}."));
+        self.doing.say(Some(format!("Reducing the scene: {what}, {done} of {total}.")));
     }
 
     fn stopped(&self) -> bool {
@@ -102,7 +102,7 @@ impl Reducing<'_> {
     }
 
     async fn again(&self, recording: &Arc<Recording>, what: &str) -> Result<WorkloadResult> {
-        self.doing.say(what.to_owned());
+        self.doing.say(Some(what.to_owned()));
         let spec = WorkloadSpec { tracks: vec![self.track], reduce: None, ..self.spec.clone() };
         let (algorithms, stop) = (self.algorithms.to_vec(), self.stop.clone());
         Ok(replay(self.inner, recording.clone(), spec, algorithms, stop, |_| {}, || {}).await?.result)

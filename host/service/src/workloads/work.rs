@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-use ocb_lab::workload::workload_parquet;
+use ocb_lab::workload::{Progress, workload_parquet};
 use tokio::time::sleep;
 
 use super::reduce::{Doing, Reducing};
@@ -67,9 +67,17 @@ async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, row: &WorkloadRow, sto
     let (_, recording) = inner.recording(&row.id).await?;
     let algorithms = inner.algorithms_for(&recording, &row.spec.algorithms, row.owner.as_deref())?;
     let done = Arc::new(AtomicU64::new(0));
-    let so_far = done.clone();
-    let tell = move |progress: ocb_lab::workload::Progress| so_far.store(progress.done, Ordering::Relaxed);
     let doing = Arc::new(Doing::default());
+    let told = (done.clone(), doing.clone());
+    let tell = move |progress: Progress| match progress {
+        Progress::Scene { algorithm, process, of } => {
+            told.1.say(Some(format!("Asking {algorithm} about the whole scene: process {process} of {of}.")));
+        }
+        Progress::Pairs { done, .. } => {
+            told.1.say(None);
+            told.0.store(done, Ordering::Relaxed);
+        }
+    };
     let replaying = async {
         let of = (recording.clone(), row.spec.clone(), algorithms.clone());
         let mut replayed = replay(inner, of.0, of.1, of.2, stop.clone(), tell, || {}).await?;
