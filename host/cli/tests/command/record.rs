@@ -361,7 +361,12 @@ fn poses_that_were_written_down_are_a_recording() {
         assert_eq!(code, 2, "{text}: {stderr}");
         assert!(stderr.contains(words) && stderr.lines().count() == 1, "{words:?}: {stderr}");
     };
-    refused("{}", "missing field `objects`");
+    refused("{}", "missing field `queries`");
+    refused("{\"queries\": []}", "has no objects");
+    refused(
+        &queries.replace("\"program\"", "\"scene\": \"arm.ocbscene\", \"program\""),
+        "\"arm.ocbscene\" cannot be opened",
+    );
     refused(&queries.replace("\"library\"", "\"books\""), "unknown field `books`");
     refused(&queries.replace("\"file\"", "\"path\""), "unknown field `path`");
     refused(&queries.replace("\"hit\"", "\"hits\""), "unknown field `hits`");

@@ -1,5 +1,6 @@
 //! `ocb scene`: robots as scenes, without a store, and heatmaps of the objects of a replay.
 
+use ocb_service::Recording;
 use serde_json::json;
 
 use crate::support::Desk;
@@ -31,6 +32,26 @@ fn a_robot_is_imported_and_shown() {
     let turned = json["rows"][1]["pose"][0].as_f64().expect("a number");
     assert!((turned - 3.5f64.cos()).abs() < 1e-12, "{turned}");
     assert!(!desk.path("data").exists(), "nothing is kept");
+
+    // A recording of poses takes over its objects, where they stand, and its disabled pairs.
+    let written = json!({
+        "scene": "arm.ocbscene", "objects": [{ "name": "ball", "geometry": { "kind": "sphere", "radius": 0.5 } }],
+        "queries": [
+            { "objects": ["ball", "hand_0"], "query": "distance", "pose_a": [1, 0, 0, 4, 0, 1, 0, 0, 0, 0, 1, 0] },
+            { "objects": ["hand_0", "base_0"], "query": "collide" },
+        ],
+    });
+    let poses = desk.file("poses.json", written.to_string());
+    let recording = desk.path("arm.ocbrec").display().to_string();
+    let said = desk.run(&["record", "--poses", &poses, "--out", &recording]);
+    assert_eq!(said.code, 0, "{said:?}");
+    let json = desk.json(&["scene", "show", &recording]);
+    let names: Vec<_> = (0..3).map(|row| json["rows"][row]["name"].as_str().expect("a name")).collect();
+    assert_eq!((&names[..], &json["disabled_pairs"]), (&["base_0", "hand_0", "ball"][..], &1.into()), "{json}");
+    let read = Recording::read(&desk.path("arm.ocbrec")).expect("a recording");
+    let poses = |query: usize| read.queries[query].configuration;
+    let [ball, hand] = [poses(0).pose_a.translation.x, poses(0).pose_b.linear[(0, 0)]];
+    assert_eq!((ball, hand, poses(1).pose_a), (4.0, turned, poses(0).pose_b));
 }
 
 #[test]

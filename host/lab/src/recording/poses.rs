@@ -2,15 +2,15 @@
 //!
 //! In JSON, an object is `{"name": "cup", "file": "cup.stl"}` or `{"name": "table", "geometry": {"kind": "box", "size": [1, 2, 0.1]}}`,
 //! and a query `{"objects": ["cup", "table"], "query": "distance", "pose_b": [1,0,0,0, 0,1,0,0, 0,0,1,0.5], "distance": 0.1}`.
-//! Matrices are row-major, of 16 or 12 numbers; `pose_a` and `pose_b` place the objects in the scene, and are the identity where they
-//! are missing. Files are looked for beside the JSON file; coordinates are taken as they stand there, whatever their unit.
+//! Matrices are row-major, of 16 or 12 numbers; `pose_a` and `pose_b` place the objects in the scene, and are where the scene has
+//! them where they are missing, for objects that are listed the identity. Files are looked for beside the JSON file; coordinates are taken as they stand there, whatever their unit.
+//! `"scene": "robot.ocbscene"` takes the objects of a scene file, with its disabled pairs, before those that are listed.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use ocb_core::configuration::Configuration;
 use ocb_core::mesh::{self, MAX_BYTES};
-use ocb_core::pose::Pose;
 use ocb_core::scene::{Geometry, Scene};
 use ocb_core::workload::{Answered, Kind, Recorded};
 use ocb_sandbox::given;
@@ -35,6 +35,10 @@ struct Written {
     /// The library that answered.
     #[serde(default)]
     library: String,
+    /// A scene file, whose objects come first.
+    scene: Option<PathBuf>,
+    /// Of the scene, or more of them.
+    #[serde(default)]
     objects: Vec<Object>,
     queries: Vec<Asked>,
 }
@@ -99,7 +103,7 @@ pub fn from_pair([a, b]: [&Path; 2], poses: &[u8], query: Kind) -> Result<Record
         solid: false,
     };
     let objects = vec![of_file(&names[0], a), of_file(&names[1], b)];
-    let scene = scene(names.join(" and "), objects, Path::new("")).map_err(bad)?;
+    let scene = with(empty(), names.join(" and "), objects, Path::new("")).map_err(bad)?;
     let query = |(number, configuration)| Recorded {
         sequence: number,
         group: number,
@@ -115,11 +119,18 @@ pub fn from_pair([a, b]: [&Path; 2], poses: &[u8], query: Kind) -> Result<Record
 }
 
 fn recorded(written: Written, folder: &Path) -> Found<Recording> {
-    let Written { program, library, objects, queries } = written;
-    let numbers: HashMap<String, u32> = (0..).zip(&objects).map(|(number, it)| (it.name.clone(), number)).collect();
-    let scene = scene(program, objects, folder)?;
-    let pose = |matrix: Option<Matrix>| matrix.map_or(Ok(Pose::identity()), Matrix::pose);
-    let (mut all, mut poses) = (Vec::with_capacity(queries.len()), Vec::with_capacity(queries.len()));
+    let Written { program, library, scene, objects, queries } = written;
+    let known = match scene {
+        Some(file) => {
+            SceneFile::read(&folder.join(file)).map_err(|e| e.to_string().trim_end_matches('.').to_owned())?
+        }
+        None => empty(),
+    };
+    let scene = with(known, program, objects, folder)?;
+    let all = &scene.scene.objects;
+    let numbers: HashMap<String, u32> = (0..).zip(all).map(|(number, it)| (it.name.clone(), number)).collect();
+    let pose = |matrix: Option<Matrix>, object: u32| matrix.map_or(Ok(all[object as usize].pose), Matrix::pose);
+    let (mut recorded, mut poses) = (Vec::with_capacity(queries.len()), Vec::with_capacity(queries.len()));
     for (number, asked) in (0..).zip(queries) {
         let place = |why: String| format!("query {}: {why}", number + 1);
         let found = |name: &String| numbers.get(name).copied().ok_or_else(|| format!("there is no object {name:?}"));
@@ -132,9 +143,10 @@ fn recorded(written: Written, folder: &Path) -> Found<Recording> {
         if lengths.into_iter().flatten().any(|it| !(it.is_finite() && it >= 0.0)) {
             return Err(place("`limit` and `seconds` are 0 or more".into()));
         }
-        let [pose_a, pose_b] = [pose(asked.pose_a).map_err(place)?, pose(asked.pose_b).map_err(place)?];
+        let pose_a = pose(asked.pose_a, objects[0]).map_err(place)?;
+        let pose_b = pose(asked.pose_b, objects[1]).map_err(place)?;
         poses.push(Configuration { pose_a, pose_b });
-        all.push(Recorded {
+        recorded.push(Recorded {
             sequence: number,
             group: asked.group.unwrap_or(number),
             objects,
@@ -146,10 +158,10 @@ fn recorded(written: Written, folder: &Path) -> Found<Recording> {
             library: 0,
         });
     }
-    for (query, configuration) in all.iter_mut().zip(rotations(poses)?.poses) {
+    for (query, configuration) in recorded.iter_mut().zip(rotations(poses)?.poses) {
         query.configuration = configuration;
     }
-    finish(scene, library, all)
+    finish(scene, library, recorded)
 }
 
 /// One contact, where nobody says how many.
@@ -157,8 +169,15 @@ fn usual_limit(query: Kind) -> f64 {
     if query == Kind::Contacts { 1.0 } else { 0.0 }
 }
 
-fn scene(name: String, objects: Vec<Object>, folder: &Path) -> Found<SceneFile> {
-    let (mut meshes, mut all) = (HashMap::new(), Vec::new());
+fn empty() -> SceneFile {
+    let scene = Scene { name: String::new(), objects: Vec::new(), disabled: Vec::new() };
+    SceneFile { scene, meshes: HashMap::new() }
+}
+
+/// The scene under this name, with these objects behind its own.
+fn with(known: SceneFile, name: String, objects: Vec<Object>, folder: &Path) -> Found<SceneFile> {
+    let SceneFile { mut scene, mut meshes } = known;
+    scene.name = name;
     for Object { name, file, geometry, solid } in objects {
         let place = |why: String| format!("object {name:?}: {why}");
         let (geometry, source) = match (file, geometry) {
@@ -175,9 +194,8 @@ fn scene(name: String, objects: Vec<Object>, folder: &Path) -> Found<SceneFile> 
             (None, Some(geometry)) if !matches!(geometry, Geometry::Mesh { .. }) => (geometry, String::new()),
             _ => return Err(place("it has either a file with its mesh or the geometry of another shape".into())),
         };
-        all.push(object(name, geometry, source));
+        scene.objects.push(object(name, geometry, source));
     }
-    let scene = Scene { name, objects: all, disabled: Vec::new() };
     scene.check().map_err(|why| why.to_string())?;
     Ok(SceneFile { scene, meshes })
 }
