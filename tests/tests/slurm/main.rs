@@ -20,11 +20,11 @@ use serde_json::{Value, json};
 const PLUGINS: [&str; 2] = ["libocb_brute_force.so", "libocb_box_tree.so"];
 
 /// What each job runs: the token is that of its node. Both nodes are this machine, so that their jobs take turns in measuring.
-fn job(folder: &Path, internal: &str) -> String {
+fn job(folder: &Path, internal: &str, more: &str) -> String {
     let plugins: Vec<String> = PLUGINS.iter().map(|name| format!("--plugins '{}'", built(name).display())).collect();
     let script = format!(
         "#!/bin/sh\nexec '{}' work --once --server http://{internal} \
-         --token \"@{}/$SLURMD_NODENAME\" {} 2>> '{}/jobs.log'\n",
+         --token \"@{}/$SLURMD_NODENAME\" {} {more} 2>> '{}/jobs.log'\n",
         built("ocb").display(),
         folder.display(),
         plugins.join(" "),
@@ -44,22 +44,51 @@ fn wait(what: &str, within: Duration, there: impl Fn() -> bool) {
     }
 }
 
-#[test]
-fn nodes_measure_while_runs_wait_and_a_killed_job_costs_no_run() {
-    let cluster = Cluster::start();
-    let folder = tempfile::tempdir().expect("a folder");
-    // Jobs read it as the user of the node.
-    let data = folder.path().join("data");
+/// A service whose machines are the nodes of these partitions, which allows the first node first; with more arguments for the
+/// jobs. They read its folder as the user of the node.
+fn service(cluster: &Cluster, folder: &Path, partitions: &str, more: &str) -> Service {
+    let data = folder.join("data");
     let internal = free_address();
     for node in cluster::NAMES {
         let token = output(command(built("ocb")).arg("--data").arg(&data).args(["admin", "machine", node]));
-        fs::write(folder.path().join(node), token).expect("the token is written");
+        fs::write(folder.join(node), token).expect("the token is written");
     }
-    let program = job(folder.path(), &internal);
-    let more = ["--internal", &internal, "--most-drift", "100000", "--slurm", "measuring", "--slurm-job", &program];
+    let program = job(folder, &internal, more);
+    let more = ["--internal", &internal, "--most-drift", "100000", "--slurm", partitions, "--slurm-job", &program];
     let configuration = cluster.path("slurm.conf");
     let environment = [("SLURM_CONF", configuration.to_str().expect("UTF-8"))];
-    let service = Service::start_among(&data, &PLUGINS, &more, &environment);
+    Service::start_among(&data, &PLUGINS, &more, &environment)
+}
+
+#[test]
+fn a_partition_measures_the_runs_of_its_hardware_class() {
+    let (cluster, folder) = (Cluster::start(), tempfile::tempdir().expect("a folder"));
+    // The nodes differ by their notes alone: the class of n0 is the usual one.
+    let service = service(&cluster, folder.path(), "first,second", "--machine-note \"$SLURMD_NODENAME\"");
+    let guest = Guest::default();
+    let mut spec = json!({
+        "object_a": "stock:torus-knot@600", "query": "proximity", "passes": 1, "budget_seconds": 0.5,
+        "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 50 } }, "algorithms": ["box-tree"],
+    });
+    let ended = |run: &str| {
+        guest.wait(&service, run, "it has ended", |run| run["state"] != "queued" && run["state"] != "running")
+    };
+    // While a run waits, both partitions get jobs until their nodes have told their class.
+    let usual = ended(&guest.submit(&service, &spec));
+    let classes = || guest.get(&service, "/status")["classes"].as_array().expect("a list").clone();
+    wait("both classes are known", Duration::from_secs(60), || classes().len() == 2);
+    let classes: Vec<Value> = classes().iter().map(|class| class["hardware_class"].clone()).collect();
+    spec["hardware_class"] = classes[1].clone();
+    let other = ended(&guest.submit(&service, &spec));
+    let found = [usual, other].map(|run| (run["state"].clone(), run["environment"]["hardware_class"].clone()));
+    let done = json!("done");
+    assert_eq!(found, [(done.clone(), classes[0].clone()), (done, classes[1].clone())]);
+}
+
+#[test]
+fn nodes_measure_while_runs_wait_and_a_killed_job_costs_no_run() {
+    let (cluster, folder) = (Cluster::start(), tempfile::tempdir().expect("a folder"));
+    let service = service(&cluster, folder.path(), "measuring", "");
     let guest = Guest::default();
     let log = || fs::read_to_string(folder.path().join("jobs.log")).unwrap_or_default();
     let spec = json!({
@@ -117,7 +146,9 @@ fn nodes_measure_while_runs_wait_and_a_killed_job_costs_no_run() {
     println!("attempts at the run whose slurmstepd was killed: {}", last["attempts"]);
     // No job is left behind when nothing waits.
     let jobs = || {
-        let queue = output(command("squeue").args(["--noheader", "--format=%A"]).envs(environment));
+        let mut squeue = command("squeue");
+        squeue.args(["--noheader", "--format=%A"]).env("SLURM_CONF", cluster.path("slurm.conf"));
+        let queue = output(&mut squeue);
         queue.lines().count()
     };
     wait("no job is left", Duration::from_secs(40), || jobs() == 0);

@@ -201,6 +201,8 @@ SchedulerParameters=sched_interval=1,sched_min_interval=0,batch_sched_delay=0
 NodeName=n0 NodeHostname=localhost NodeAddr=127.0.0.1 Port={first} CPUs=1
 NodeName=n1 NodeHostname=localhost NodeAddr=127.0.0.1 Port={second} CPUs=1
 PartitionName=measuring Nodes=n0,n1 OverSubscribe=EXCLUSIVE State=UP Default=YES MaxTime=INFINITE
+PartitionName=first Nodes=n0 OverSubscribe=EXCLUSIVE State=UP MaxTime=INFINITE
+PartitionName=second Nodes=n1 OverSubscribe=EXCLUSIVE State=UP MaxTime=INFINITE
 "
     )
 }
