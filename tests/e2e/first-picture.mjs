@@ -59,7 +59,8 @@ async function visit(context, service, path, viewer, act) {
     const frames = []
     session.on('Page.screencastFrame', ({ data, metadata, sessionId }) => {
       frames.push({ data, at: 1000 * metadata.timestamp })
-      void session.send('Page.screencastFrameAck', { sessionId })
+      // The page may have been closed.
+      session.send('Page.screencastFrameAck', { sessionId }).catch(() => {})
     })
     await session.send('Page.startScreencast', { format: 'jpeg', quality: 80, maxWidth: WIDTH, maxHeight: HEIGHT })
     const opened = Date.now()
