@@ -13,6 +13,7 @@ use cluster::Cluster;
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use ocb_tests::place::built;
+use ocb_tests::postgres::Postgres;
 use ocb_tests::process::{command, output};
 use ocb_tests::service::{Guest, Service, free_address};
 use serde_json::{Value, json};
@@ -44,35 +45,45 @@ fn wait(what: &str, within: Duration, there: impl Fn() -> bool) {
     }
 }
 
-/// A service whose machines are the nodes of these partitions, which allows the first node first; with more arguments for the
-/// jobs. They read its folder as the user of the node.
-fn service(cluster: &Cluster, folder: &Path, partitions: &str, more: &str) -> Service {
-    let data = folder.join("data");
+/// A service on this PostgreSQL whose machines are the nodes of these partitions, which allows the first node first; with more
+/// arguments for the jobs. They read its folder as the user of the node.
+fn service(cluster: &Cluster, folder: &Path, database: &Postgres, partitions: &str, more: &str) -> Service {
+    let (data, url) = (folder.join("data"), database.url());
     let internal = free_address();
     for node in cluster::NAMES {
-        let token = output(command(built("ocb")).arg("--data").arg(&data).args(["admin", "machine", node]));
+        let mut admin = command(built("ocb"));
+        let token = output(admin.arg("--data").arg(&data).args(["--database", &url, "admin", "machine", node]));
         fs::write(folder.join(node), token).expect("the token is written");
     }
     let program = job(folder, &internal, more);
-    let more = ["--internal", &internal, "--most-drift", "100000", "--slurm", partitions, "--slurm-job", &program];
+    let slurm = ["--slurm", partitions, "--slurm-job", &program];
+    let more = [&["--database", &url, "--internal", &internal, "--most-drift", "100000"], &slurm[..]].concat();
     let configuration = cluster.path("slurm.conf");
     let environment = [("SLURM_CONF", configuration.to_str().expect("UTF-8"))];
     Service::start_among(&data, &PLUGINS, &more, &environment)
 }
 
+fn measured(run: &Value) -> bool {
+    run["state"] == "running" && run["stages"][2]["state"] == "running"
+}
+
+fn over(run: &Value) -> bool {
+    run["state"] != "queued" && run["state"] != "running"
+}
+
 #[test]
-fn a_partition_measures_the_runs_of_its_hardware_class() {
+fn a_partition_measures_the_runs_of_its_hardware_class_also_when_the_database_was_away() {
     let (cluster, folder) = (Cluster::start(), tempfile::tempdir().expect("a folder"));
     // The nodes differ by their notes alone: the class of n0 is the usual one.
-    let service = service(&cluster, folder.path(), "first,second", "--machine-note \"$SLURMD_NODENAME\"");
+    let database = Postgres::start();
+    let note = "--machine-note \"$SLURMD_NODENAME\"";
+    let service = service(&cluster, folder.path(), &database, "first,second", note);
     let guest = Guest::default();
     let mut spec = json!({
         "object_a": "stock:torus-knot@600", "query": "proximity", "passes": 1, "budget_seconds": 0.5,
         "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 50 } }, "algorithms": ["box-tree"],
     });
-    let ended = |run: &str| {
-        guest.wait(&service, run, "it has ended", |run| run["state"] != "queued" && run["state"] != "running")
-    };
+    let ended = |run: &str| guest.wait(&service, run, "it has ended", over);
     // While a run waits, both partitions get jobs until their nodes have told their class.
     let usual = ended(&guest.submit(&service, &spec));
     let classes = || guest.get(&service, "/status")["classes"].as_array().expect("a list").clone();
@@ -82,13 +93,32 @@ fn a_partition_measures_the_runs_of_its_hardware_class() {
     let other = ended(&guest.submit(&service, &spec));
     let found = [usual, other].map(|run| (run["state"].clone(), run["environment"]["hardware_class"].clone()));
     let done = json!("done");
-    assert_eq!(found, [(done.clone(), classes[0].clone()), (done, classes[1].clone())]);
+    assert_eq!(found, [(done.clone(), classes[0].clone()), (done.clone(), classes[1].clone())]);
+
+    // The database away while a run waits for its job, and while a job measures it.
+    spec["method"]["sampling"]["count"] = json!(300);
+    spec["algorithms"] = json!(["brute-force", "box-tree"]);
+    spec["budget_seconds"] = json!(4.0);
+    let run = guest.submit(&service, &spec);
+    let away = || {
+        database.stop();
+        std::thread::sleep(Duration::from_secs(4));
+        database.start_again();
+    };
+    away();
+    guest.wait(&service, &run, "it is measured", measured);
+    away();
+    let run = ended(&run);
+    println!("attempts at the run whose database was away: {}", run["attempts"]);
+    let results = run["results"].as_array().map(Vec::len);
+    assert_eq!((&run["state"], results, &run["environment"]["hardware_class"]), (&done, Some(2), &classes[1]), "{run}");
 }
 
 #[test]
 fn nodes_measure_while_runs_wait_and_a_killed_job_costs_no_run() {
     let (cluster, folder) = (Cluster::start(), tempfile::tempdir().expect("a folder"));
-    let service = service(&cluster, folder.path(), "measuring", "");
+    let database = Postgres::start();
+    let service = service(&cluster, folder.path(), &database, "measuring", "");
     let guest = Guest::default();
     let log = || fs::read_to_string(folder.path().join("jobs.log")).unwrap_or_default();
     let spec = json!({
@@ -99,7 +129,6 @@ fn nodes_measure_while_runs_wait_and_a_killed_job_costs_no_run() {
     let begun = Instant::now();
     let runs: Vec<String> = (0..4).map(|_| guest.submit(&service, &spec)).collect();
     let state = |run: &String| guest.get(&service, &format!("/runs/{run}"));
-    let measured = |run: &Value| run["state"] == "running" && run["stages"][2]["state"] == "running";
     wait("a run is measured", Duration::from_secs(60), || runs.iter().any(|run| measured(&state(run))));
     println!("from asking to measuring: {:.1} s", begun.elapsed().as_secs_f64());
     // The job of a node that has a run is killed, as the node's kernel does when memory is short; another one measures the sentinel.
@@ -114,8 +143,7 @@ fn nodes_measure_while_runs_wait_and_a_killed_job_costs_no_run() {
     killed(&at_work());
     let mut attempts = Vec::new();
     for run in &runs {
-        let run =
-            guest.wait(&service, run, "it has ended", |run| run["state"] != "queued" && run["state"] != "running");
+        let run = guest.wait(&service, run, "it has ended", over);
         assert_eq!(
             (&run["state"], run["results"].as_array().map(Vec::len)),
             (&json!("done"), Some(2)),
@@ -136,7 +164,7 @@ fn nodes_measure_while_runs_wait_and_a_killed_job_costs_no_run() {
     let name = output(command("ps").args(["-o", "comm=", "-p", guardian.trim()]));
     assert_eq!(name.trim(), "slurmstepd", "{guardian}");
     killed(guardian.trim());
-    let last = guest.wait(&service, &last, "it has ended", |run| run["state"] != "queued" && run["state"] != "running");
+    let last = guest.wait(&service, &last, "it has ended", over);
     assert_eq!(
         (&last["state"], last["results"].as_array().map(Vec::len)),
         (&json!("done"), Some(2)),
