@@ -12,8 +12,8 @@ use std::time::{Duration, Instant};
 use ocb_core::query::Query;
 use ocb_core::statistics::{Outliers, Statistic};
 use ocb_service::model::{
-    AccountInfo, Claim, Ended, HeatmapRequest, MachineFacts, MachineState, Measure, MeasuredAlgorithm, NextWork,
-    OutcomeName, PluginState, Role, RunInfo, RunSpec, Sentinel, State, Told, WorkOrder,
+    AccountInfo, AlgorithmResult, Claim, Ended, HeatmapRequest, MachineFacts, MachineState, Measure, MeasuredAlgorithm,
+    NextWork, OutcomeName, PluginState, Role, RunInfo, RunSpec, Sentinel, State, Told, WorkOrder,
 };
 use ocb_service::worker::{Handed, Seen, Worker};
 use ocb_service::{Ceilings, Engine, EngineConfig, EngineError, Handing, Profile, Stop, Visitor};
@@ -178,7 +178,9 @@ async fn what_a_machine_has_found_so_far_is_seen_and_nothing_of_something_else()
     assert!(so_far.len() == 2 && so_far.iter().any(|result| result.place_so_far == Some(1)), "{so_far:?}");
     assert!(hand_in(&engine, "alpha", &order, handed).await);
     let done = engine.run(&run.id, None).await.unwrap();
-    assert!(done.results.iter().all(|it| !it.preliminary && it.place_so_far.is_none() && it.n == 300), "{done:?}");
+    // Beside other programs its time may end first.
+    let whole = |it: &AlgorithmResult| it.n == 300 || it.budget_limited;
+    assert!(done.results.iter().all(|it| !it.preliminary && it.place_so_far.is_none() && whole(it)), "{done:?}");
     engine.shutdown().await;
 }
 
@@ -445,7 +447,9 @@ async fn a_submitted_plugin_comes_with_the_order_and_a_guests_time_is_limited() 
     let (worker, handed) = common::measured(&engine, "alpha", worker, &order_of_account).await;
     assert!(hand_in(&engine, "alpha", &order_of_account, handed).await);
     let found = engine.run(&run.id, Some(&author.owner())).await.unwrap();
-    assert_eq!((found.state, found.results[0].algorithm.as_str(), found.results[0].n), (State::Done, &*name, 40));
+    assert_eq!((found.state, found.results[0].algorithm.as_str()), (State::Done, &*name));
+    // Beside other programs its time may end first.
+    assert!(found.results[0].n == 40 || found.results[0].budget_limited, "{found:?}");
     let guest = Visitor { owner: uuid::Uuid::now_v7().to_string(), address: None };
     let (limited, _) = engine.submit_for(small(&["box-tree"]), &guest, None).await.unwrap();
     let order_of_guest = order(&engine, "alpha", worker.facts()).await;
