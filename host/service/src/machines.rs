@@ -3,6 +3,7 @@
 //! The token is shown once and known by its hash. It opens the machine's own attempts and the files that their orders name, and
 //! nothing else.
 
+mod elsewhere;
 mod files;
 mod orders;
 mod sentinel;

@@ -166,6 +166,7 @@ fn migrations(sqlite: bool) -> Vec<Migration> {
         one(42, "rate limits", include_str!("../migrations/0042_rate_limits.sql")),
         one(43, "run classes", include_str!("../migrations/0043_run_classes.sql")),
         one(44, "reduced scenes", include_str!("../migrations/0044_reduced_scenes.sql")),
+        one(45, "seen", if sqlite { "" } else { include_str!("../migrations/0045_seen.sql") }),
     ]
 }
 

@@ -4,11 +4,16 @@ mod common;
 
 use std::fs::File;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use futures::StreamExt;
-use ocb_service::model::{Ended, RunInfo, RunSpec, State, Told};
+use ocb_core::statistics::{Outliers, Statistic};
+use ocb_service::model::{Ended, HeatmapRequest, Measure, RunInfo, RunSpec, State, Told};
+use ocb_service::worker::Seen;
 use ocb_service::{Engine, EngineConfig, Handing};
+use tokio::runtime::Handle;
 
 /// A fresh schema in the harness's database.
 async fn database() -> (String, sqlx::AnyPool) {
@@ -140,7 +145,7 @@ async fn a_second_service_takes_nothing_from_the_first_until_that_is_silent() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_machine_begins_at_one_service_and_hands_in_at_the_other() {
-    let (url, _database) = database().await;
+    let (url, database) = database().await;
     let bucket = std::env::var("OCB_TEST_S3").expect("OCB_TEST_S3 is not set: run `make test`");
     let [data, other] = [(); 2].map(|()| tempfile::tempdir().unwrap());
     let settings = |data: &Path, dispatch| EngineConfig {
@@ -160,19 +165,46 @@ async fn a_machine_begins_at_one_service_and_hands_in_at_the_other() {
     let wait = Duration::from_secs(60);
     let spec = |seed| RunSpec { algorithms: vec!["box-tree".into()], ..common::spec("collision_first", 30, seed) };
 
-    let run = first.submit(spec(1), Some("me")).await.unwrap();
+    // Of so many that there is a first look.
+    let many = RunSpec { algorithms: vec!["box-tree".into()], ..common::spec("collision_first", 300, 1) };
+    let run = first.submit(many, Some("me")).await.unwrap();
     let order = common::next(&second, "alpha", &facts, wait).await.unwrap().unwrap();
-    let told = |done| Told::Progress { place: 0, done, total: 30, worked_us: 10 };
+    let told = |done| Told::Progress { place: 0, done, total: 300, worked_us: 10 };
     assert!(first.beat_of("alpha", &order.attempt, vec![told(3)]).await.unwrap());
     assert_eq!(second.run(&run.id, None).await.unwrap().stages[2].done, 3);
-    let (_, handed) = common::measured(&second, "alpha", worker, &order).await;
+    // It tells one what it has found, and both show it.
+    let (hears, shows, of) = (second.clone(), first.clone(), (run.id.clone(), order.attempt.clone()));
+    let seen = Arc::new(AtomicU32::new(0));
+    let counted = seen.clone();
+    let look = move |seen: Seen| {
+        let n = seen.preliminary.result.n;
+        let shown = async {
+            assert!(hears.seen_of("alpha", &of.1, seen).await.unwrap());
+            let there = |run: &RunInfo| run.results.first().is_some_and(|it| it.preliminary && it.n == n);
+            let run = until(&shows, &of.0, there).await;
+            assert!(run.seconds_left.is_some() && run.results[0].rank.is_none(), "{run:?}");
+            let request = HeatmapRequest::new("box-tree", Measure::Time, Statistic::Median, Outliers::Keep);
+            let map = shows.heatmap(&of.0, &request).await.unwrap();
+            assert_eq!((map.preliminary, map.n), (true, n));
+        };
+        Handle::current().block_on(shown);
+        counted.fetch_add(1, Ordering::Relaxed);
+    };
+    let (_, handed) = common::watched(&second, "alpha", worker, &order, look).await;
+    assert!(seen.load(Ordering::Relaxed) > 0, "there was a first look");
     let handing = Handing { ended: handed.ended, files: handed.files };
     assert!(first.hand_in("alpha", &order.attempt, handing).await.unwrap());
     let done = second.run(&run.id, None).await.unwrap();
-    assert_eq!((done.state, done.attempts, done.results[0].n), (State::Done, 1, 30));
+    assert_eq!((done.state, done.attempts, done.results[0].n), (State::Done, 1, 300));
     assert!(done.stages.iter().all(|stage| stage.state == State::Done), "{:?}", done.stages);
+    assert!(!done.results[0].preliminary && first.run(&run.id, None).await.unwrap().results == done.results);
     // A beat that comes late changes no stage.
     assert!(!second.beat_of("alpha", &order.attempt, vec![told(4)]).await.unwrap());
+    // What was found on the way is dropped.
+    let kept = async || sqlx::query_scalar::<_, i64>("SELECT COUNT(*) FROM seen").fetch_one(&database).await.unwrap();
+    assert_eq!(kept().await, 1);
+    first.sweep_once(now_us()).await.unwrap();
+    assert_eq!(kept().await, 0);
 
     // Cancelled at one, which the machine hears from the other.
     let run = first.submit(spec(2), Some("me")).await.unwrap();

@@ -183,11 +183,14 @@ impl Engine {
         if !self.inner.orders.heard(&attempt.id) {
             let row = self.inner.run_row(&attempt.job).await?;
             let inner = self.inner.clone();
-            blocking(move || inner.working(&attempt, &row).map(|_| ())).await?;
+            let current = attempt.clone();
+            blocking(move || inner.working(&current, &row).map(|_| ())).await?;
         }
         // Ranks are given here, at the end.
         let result = AlgorithmResult { preliminary: true, rank: None, place_so_far: None, ..result };
-        self.inner.under_way.show(&order.run, place, Preliminary { result, records, seconds });
+        let seen = Seen { place, preliminary: Preliminary { result, records, seconds } };
+        self.inner.store.keep_seen(&attempt, &seen, &self.inner.worker).await?;
+        self.inner.under_way.show(&order.run, place, seen.preliminary);
         self.inner.run_events.ring(&order.run);
         Ok(true)
     }

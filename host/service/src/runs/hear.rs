@@ -1,27 +1,38 @@
 //! Notifications from other services on the same PostgreSQL. Its triggers notify of every event, every change of state and new mails.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Duration;
 
+use ocb_lab::worker::Seen;
 use sqlx::postgres::PgListener;
-use tokio::sync::Notify;
+use tokio::sync::{Notify, mpsc};
 
+use crate::Result;
 use crate::engine::Inner;
+use crate::runs::preliminary::Shown;
+use crate::store::{Store, from_json};
 
-/// The channels of the triggers; see `migrations/0033_notify.sql` and `migrations/0037_house.sql`.
+/// The channels of the triggers; see `migrations/0033_notify.sql`, `migrations/0037_house.sql` and `migrations/0045_seen.sql`.
 const RUNS: &str = "ocb_runs";
 const PLUGINS: &str = "ocb_plugins";
 const MAILS: &str = "ocb_mails";
+const SEEN: &str = "ocb_seen";
+/// So much of what machines have found so far may wait to be shown; more of it is shown with the next news.
+const MOST_SEEN: usize = 100;
+/// For so long after the last news it is shown; that the run has ended is known at once.
+const SHOWN: Duration = Duration::from_secs(120);
 /// How long until what failed is tried again.
 const AGAIN: Duration = Duration::from_secs(1);
 
-/// Wakes those who follow runs, those who work and those who bring mails, and offers the plugins that others offer; until it is
-/// aborted.
+/// Wakes those who follow runs, those who work and those who bring mails, offers the plugins that others offer, and shows what
+/// machines tell others; until it is aborted.
 pub async fn hear(inner: Arc<Inner>, url: String) {
     let plugins = Notify::new();
+    let (seen, mut shown) = mpsc::channel(MOST_SEEN);
     let listening = async {
         loop {
-            if let Err(e) = listen(&inner, &url, &plugins).await {
+            if let Err(e) = listen(&inner, &url, &plugins, &seen).await {
                 tracing::warn!("changes by other services are noticed late: {e}");
             }
             tokio::time::sleep(AGAIN).await;
@@ -38,12 +49,21 @@ pub async fn hear(inner: Arc<Inner>, url: String) {
             }
         }
     };
-    tokio::join!(listening, renewing);
+    // Apart, because it may be large.
+    let showing = async {
+        let mut elsewhere = HashMap::new();
+        while let Some(told) = shown.recv().await {
+            if let Err(e) = show(&inner, &mut elsewhere, &told).await {
+                tracing::warn!("what a machine told another service is not shown here: {e}");
+            }
+        }
+    };
+    tokio::join!(listening, renewing, showing);
 }
 
-async fn listen(inner: &Inner, url: &str, plugins: &Notify) -> sqlx::Result<()> {
+async fn listen(inner: &Inner, url: &str, plugins: &Notify, seen: &mpsc::Sender<String>) -> sqlx::Result<()> {
     let mut listener = PgListener::connect(url).await?;
-    listener.listen_all([RUNS, PLUGINS, MAILS]).await?;
+    listener.listen_all([RUNS, PLUGINS, MAILS, SEEN]).await?;
     // Earlier changes were missed.
     everything(inner, plugins);
     loop {
@@ -60,6 +80,7 @@ async fn listen(inner: &Inner, url: &str, plugins: &Notify) -> sqlx::Result<()> 
                 changed(inner);
             }
             (MAILS, _) => inner.posting.notify_one(),
+            (SEEN, told) => drop(seen.try_send(told.to_owned())),
             _ => {}
         }
     }
@@ -70,6 +91,37 @@ fn changed(inner: &Inner) {
     inner.run_events.queue_moved();
     inner.wake.notify_one();
     inner.holding.look.notify_one();
+}
+
+/// Shows what a machine told another service: the words of its notification. `elsewhere` are the attempts that are shown so.
+async fn show(inner: &Inner, elsewhere: &mut HashMap<String, Shown>, told: &str) -> Result<()> {
+    let words: Vec<&str> = told.splitn(4, ' ').collect();
+    let &[run, place, attempt, service] = &words[..] else { return Ok(()) };
+    let Ok(place) = place.parse() else { return Ok(()) };
+    if service == inner.worker.machine {
+        return Ok(());
+    }
+    let Some(Seen { place, preliminary }) = inner.store.seen(run, place, attempt).await? else { return Ok(()) };
+    // The machine may have been heard from here before.
+    if !inner.orders.heard(attempt) {
+        let row = inner.run_row(run).await?;
+        elsewhere.retain(|_, shown| shown.is_heard());
+        elsewhere.entry(attempt.to_owned()).or_insert_with(|| inner.show(&row)).heard(SHOWN);
+    }
+    inner.under_way.show(run, place, preliminary);
+    inner.run_events.ring(run);
+    Ok(())
+}
+
+impl Store {
+    /// What this attempt has found so far of the algorithm at this place of the run, while it is current.
+    async fn seen(&self, run: &str, place: i64, attempt: &str) -> Result<Option<Seen>> {
+        let text = "SELECT s.seen FROM seen s JOIN attempts a ON a.id = s.attempt \
+                    WHERE s.run_id = $1 AND s.place = $2 AND s.attempt = $3 AND a.ended_us IS NULL";
+        let query = sqlx::query_scalar(text).bind(run).bind(place).bind(attempt);
+        let found: Option<String> = query.fetch_optional(&self.pool).await?;
+        found.as_deref().map(from_json).transpose()
+    }
 }
 
 fn everything(inner: &Inner, plugins: &Notify) {

@@ -12,7 +12,7 @@ use crate::Profile;
 use crate::model::AlgorithmResult;
 use crate::runs::remaining::Remaining;
 
-/// Runs by id: one that is carried out here, and those of measuring machines that this process hears from.
+/// Runs by id: one that is carried out here, and those of measuring machines that this process or another service hears from.
 #[derive(Default)]
 pub struct UnderWay {
     runs: Mutex<HashMap<String, Showing>>,
