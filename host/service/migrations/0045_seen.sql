@@ -14,3 +14,12 @@ BEGIN
     RETURN NULL;
 END $$;
 CREATE TRIGGER ocb_seen AFTER INSERT OR UPDATE ON seen FOR EACH ROW EXECUTE FUNCTION ocb_seen();
+
+-- It goes with its attempt.
+CREATE FUNCTION ocb_unseen() RETURNS trigger LANGUAGE plpgsql AS $$
+BEGIN
+    DELETE FROM seen WHERE attempt = NEW.id;
+    RETURN NULL;
+END $$;
+CREATE TRIGGER ocb_unseen AFTER UPDATE ON attempts FOR EACH ROW
+    WHEN (OLD.ended_us IS NULL AND NEW.ended_us IS NOT NULL) EXECUTE FUNCTION ocb_unseen();

@@ -114,10 +114,9 @@ impl Engine {
     }
 
     /// Takes away everything of guests whose time is over, and what was being made while its account was deleted; gives how many
-    /// they were. What machines had found so far of runs that have ended goes as well.
+    /// they were.
     #[boxed]
     pub async fn sweep_once(&self, now_us: i64) -> Result<u32> {
-        self.inner.store.forget_seen().await?;
         let mut swept = 0;
         for owner in self.inner.store.owners().await? {
             let over = match Owner::of(&owner) {

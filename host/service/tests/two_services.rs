@@ -163,15 +163,14 @@ async fn a_machine_begins_at_one_service_and_hands_in_at_the_other() {
     let worker = common::here(&settings(data.path(), true));
     let facts = worker.facts().clone();
     let wait = Duration::from_secs(60);
-    let spec = |seed| RunSpec { algorithms: vec!["box-tree".into()], ..common::spec("collision_first", 30, seed) };
+    let spec = |count, seed| {
+        let usual = common::spec("collision_first", count, seed);
+        RunSpec { algorithms: vec!["box-tree".into()], ..usual }
+    };
 
     // Of so many that there is a first look.
-    let many = RunSpec { algorithms: vec!["box-tree".into()], ..common::spec("collision_first", 300, 1) };
-    let run = first.submit(many, Some("me")).await.unwrap();
+    let run = first.submit(spec(300, 1), Some("me")).await.unwrap();
     let order = common::next(&second, "alpha", &facts, wait).await.unwrap().unwrap();
-    let told = |done| Told::Progress { place: 0, done, total: 300, worked_us: 10 };
-    assert!(first.beat_of("alpha", &order.attempt, vec![told(3)]).await.unwrap());
-    assert_eq!(second.run(&run.id, None).await.unwrap().stages[2].done, 3);
     // It tells one what it has found, and both show it.
     let (hears, shows, of) = (second.clone(), first.clone(), (run.id.clone(), order.attempt.clone()));
     let seen = Arc::new(AtomicU32::new(0));
@@ -192,6 +191,11 @@ async fn a_machine_begins_at_one_service_and_hands_in_at_the_other() {
     };
     let (_, handed) = common::watched(&second, "alpha", worker, &order, look).await;
     assert!(seen.load(Ordering::Relaxed) > 0, "there was a first look");
+    let kept = async || sqlx::query_scalar::<_, i64>("SELECT COUNT(*) FROM seen").fetch_one(&database).await.unwrap();
+    assert_eq!(kept().await, 1);
+    let told = |done| Told::Progress { place: 0, done, total: 300, worked_us: 10 };
+    assert!(first.beat_of("alpha", &order.attempt, vec![told(3)]).await.unwrap());
+    assert_eq!(second.run(&run.id, None).await.unwrap().stages[2].done, 3);
     let handing = Handing { ended: handed.ended, files: handed.files };
     assert!(first.hand_in("alpha", &order.attempt, handing).await.unwrap());
     let done = second.run(&run.id, None).await.unwrap();
@@ -200,14 +204,11 @@ async fn a_machine_begins_at_one_service_and_hands_in_at_the_other() {
     assert!(!done.results[0].preliminary && first.run(&run.id, None).await.unwrap().results == done.results);
     // A beat that comes late changes no stage.
     assert!(!second.beat_of("alpha", &order.attempt, vec![told(4)]).await.unwrap());
-    // What was found on the way is dropped.
-    let kept = async || sqlx::query_scalar::<_, i64>("SELECT COUNT(*) FROM seen").fetch_one(&database).await.unwrap();
-    assert_eq!(kept().await, 1);
-    first.sweep_once(now_us()).await.unwrap();
+    // What was found on the way went with the attempt.
     assert_eq!(kept().await, 0);
 
     // Cancelled at one, which the machine hears from the other.
-    let run = first.submit(spec(2), Some("me")).await.unwrap();
+    let run = first.submit(spec(30, 2), Some("me")).await.unwrap();
     let order = common::next(&first, "alpha", &facts, wait).await.unwrap().unwrap();
     second.cancel(&run.id, Some("me")).await.unwrap();
     assert!(!first.beat_of("alpha", &order.attempt, Vec::new()).await.unwrap());

@@ -2,9 +2,10 @@
 //!
 //! In JSON, an object is `{"name": "cup", "file": "cup.stl"}` or `{"name": "table", "geometry": {"kind": "box", "size": [1, 2, 0.1]}}`,
 //! and a query `{"objects": ["cup", "table"], "query": "distance", "pose_b": [1,0,0,0, 0,1,0,0, 0,0,1,0.5], "distance": 0.1}`.
-//! Matrices are row-major, of 16 or 12 numbers; `pose_a` and `pose_b` place the objects in the scene, and are where the scene has
-//! them where they are missing, for objects that are listed the identity. Files are looked for beside the JSON file; coordinates are taken as they stand there, whatever their unit.
-//! `"scene": "robot.ocbscene"` takes the objects of a scene file, with its disabled pairs, before those that are listed.
+//! Matrices are row-major, of 16 or 12 numbers; `pose_a` and `pose_b` place the objects in the scene. Files are looked for beside the
+//! JSON file; coordinates are taken as they stand there, whatever their unit. `"scene": "robot.ocbscene"` takes the objects of a scene
+//! file, with its disabled pairs, before those that are listed. A pose that is missing is that of the scene; for a listed object, the
+//! identity.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};

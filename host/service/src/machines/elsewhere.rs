@@ -13,20 +13,13 @@ impl Store {
         if !self.is_shared() {
             return Ok(());
         }
-        let text = "INSERT INTO seen (run_id, place, attempt, service, seen) VALUES ($1, $2, $3, $4, $5) \
+        // An attempt that ends at this moment waits for it, and takes it away.
+        let text = "INSERT INTO seen (run_id, place, attempt, service, seen) \
+                    SELECT job, $1, id, $2, $3 FROM attempts WHERE id = $4 AND ended_us IS NULL FOR SHARE \
                     ON CONFLICT (run_id, place) DO UPDATE SET attempt = excluded.attempt, \
                     service = excluded.service, seen = excluded.seen";
-        let query = sqlx::query(text).bind(&attempt.job).bind(seen.place as i64).bind(&attempt.id);
-        query.bind(&service.machine).bind(to_json(seen)?).execute(&self.pool).await?;
-        Ok(())
-    }
-
-    /// Drops what attempts that have ended had found.
-    pub async fn forget_seen(&self) -> Result<()> {
-        if self.is_shared() {
-            let text = "DELETE FROM seen WHERE attempt IN (SELECT id FROM attempts WHERE ended_us IS NOT NULL)";
-            sqlx::query(text).execute(&self.pool).await?;
-        }
+        let query = sqlx::query(text).bind(seen.place as i64).bind(&service.machine).bind(to_json(seen)?);
+        query.bind(&attempt.id).execute(&self.pool).await?;
         Ok(())
     }
 }

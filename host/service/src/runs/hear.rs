@@ -1,4 +1,5 @@
-//! Notifications from other services on the same PostgreSQL. Its triggers notify of every event, every change of state and new mails.
+//! Notifications from other services on the same PostgreSQL. Its triggers notify of every event, every change of state, new
+//! mails, and what machines have found so far.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -116,8 +117,7 @@ async fn show(inner: &Inner, elsewhere: &mut HashMap<String, Shown>, told: &str)
 impl Store {
     /// What this attempt has found so far of the algorithm at this place of the run, while it is current.
     async fn seen(&self, run: &str, place: i64, attempt: &str) -> Result<Option<Seen>> {
-        let text = "SELECT s.seen FROM seen s JOIN attempts a ON a.id = s.attempt \
-                    WHERE s.run_id = $1 AND s.place = $2 AND s.attempt = $3 AND a.ended_us IS NULL";
+        let text = "SELECT seen FROM seen WHERE run_id = $1 AND place = $2 AND attempt = $3";
         let query = sqlx::query_scalar(text).bind(run).bind(place).bind(attempt);
         let found: Option<String> = query.fetch_optional(&self.pool).await?;
         found.as_deref().map(from_json).transpose()
