@@ -5,7 +5,7 @@
 import { spawn } from 'node:child_process'
 import { readdirSync } from 'node:fs'
 import { join } from 'node:path'
-import { root, startService } from './service.mjs'
+import { apart, root, startService } from './service.mjs'
 
 const here = join(root, 'tests/e2e')
 const chosen = process.argv.slice(2)
@@ -19,7 +19,7 @@ const given = process.env.OCB_E2E_URL
 
 /** Walks one journey; its output comes as a whole. */
 async function walk(journey, service) {
-  const test = spawn(process.execPath, ['--test', '--test-reporter=spec', join('journeys', journey)], {
+  const test = spawn(apart, [process.execPath, '--test', '--test-reporter=spec', join('journeys', journey)], {
     cwd: here,
     stdio: ['ignore', 'pipe', 'pipe'],
     env: { ...process.env, OCB_E2E_URL: service.url, OCB_E2E_CURATOR: service.password ?? process.env.OCB_E2E_CURATOR ?? '', OCB_E2E_PICTURES: join(root, 'target/e2e') },
@@ -34,7 +34,7 @@ async function walk(journey, service) {
 
 /** Takes journeys until none is left. */
 async function walkAll() {
-  const service = given ? { url: given, stop: async () => {} } : await startService()
+  const service = given ? { url: given, stop: async () => {} } : await startService({ alone: true })
   let worst = 0
   try {
     for (let next = journeys.shift(); next; next = journeys.shift()) worst = Math.max(worst, await walk(next, service))

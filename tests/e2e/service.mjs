@@ -10,6 +10,9 @@ import { fileURLToPath } from 'node:url'
 export const root = resolve(dirname(fileURLToPath(import.meta.url)), '../..')
 const target = resolve(root, process.env.CARGO_TARGET_DIR ?? 'target')
 
+/** A command that runs another as on hardware of its own. */
+export const apart = join(root, 'tests/setup/apart.sh')
+
 /** A built file, such as `ocb` or a plugin. */
 export const built = (name) => join(target, 'release', name)
 
@@ -46,13 +49,14 @@ async function ready(url, alive) {
   throw new Error(`the service did not answer on ${url}`)
 }
 
-/** Serves this data folder, or a new one with a curator that goes away with the service, at a new address unless one is given; nothing is measured unasked, unless `idle`. */
-export async function startService({ data: given, url: known, options: more = [], idle = false } = {}) {
+/** Serves this data folder, or a new one with a curator that goes away with the service, at a new address unless one is given; nothing is measured unasked, unless `idle`. `alone` waits for no other that measures. */
+export async function startService({ data: given, url: known, options: more = [], idle = false, alone = false } = {}) {
   const url = known ?? `http://127.0.0.1:${await freePort()}`
   const data = given ?? mkdtempSync(join(tmpdir(), 'ocb-e2e-'))
   const password = given ? undefined : addCurator(data)
   const options = ['serve', '--data', data, '--listen', url.slice('http://'.length), '--stock-dir', join(root, 'target/stock'), '--idle', idle ? 'on' : 'off', ...more]
-  const service = spawn(built('ocb'), options, { cwd: root, stdio: ['ignore', 'inherit', 'inherit'] })
+  const [command, ...prefix] = alone ? [apart, built('ocb')] : [built('ocb')]
+  const service = spawn(command, [...prefix, ...options], { cwd: root, stdio: ['ignore', 'inherit', 'inherit'] })
   const ended = new Promise((done) => service.once('exit', (code, signal) => done(signal ?? code)))
   let running = true
   ended.then(() => { running = false })

@@ -32,6 +32,7 @@ export async function visitor(t, { scheme = 'light', width = 1280, height = 900,
   })
   page.on('response', (r) => r.status() >= 400 && problems.push(`response: ${r.status()} ${r.url()}`))
   t.after(async () => {
+    if (!t.passed) await page.screenshot({ path: join(pictures, `failed-${t.name.replaceAll(/\W+/g, '-')}.png`), fullPage: true }).catch(() => {})
     await context.close()
     assert.deepEqual(problems.filter((p) => ![...expected].some((part) => p.includes(part))), [], 'the page must be free of errors')
   })

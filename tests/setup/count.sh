@@ -39,6 +39,20 @@ only_not_run() { # only_not_run RUST_LOG
   grep -q '^rust: [0-9]* programs in ' "$1" && [ "$not_run" -gt 0 ] && [ "$failed" -eq "$not_run" ] && [ "$(uncounted "$1")" -eq 0 ]
 }
 
+# What failing tests said, apart from those that were not run: at most 40 lines of each log.
+why() { # why LOG...
+  local log
+  for log; do
+    plain "$log" 2>/dev/null | awk '
+      function tell() { if (!skipped) printf "%s", said; said = ""; skipped = 0 }
+      /^---- .* stdout ----$/ || /^✖ failing tests:/ { tell(); inside = 1 }
+      /^failures:$/ || /failed; to repeat it: /      { tell(); inside = 0 }
+      inside && /^not run: /                         { skipped = 1 }
+      inside && NF                                   { said = said substr($0, 1, 400) "\n" }
+      END                                            { tell() }' | head -n 40
+  done
+}
+
 # Reasons, steps that failed, and the last line, "N passed, N failed"; fails when a test or a step did.
 summary() { # summary LOGS STEP_THAT_FAILED...
   local logs=$1 passed failed reasons

@@ -58,4 +58,5 @@ for name in faults check; do
   step "$name" bash -c 'cat "$1.log"; exit "$(cat "$1.code")"' "$name" "$logs/beside-$name"
 done
 
+why "$logs"/{rust,browser}.log
 summary "$logs" ${broken[@]+"${broken[@]}"}

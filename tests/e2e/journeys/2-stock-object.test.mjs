@@ -3,6 +3,11 @@ import assert from 'node:assert/strict'
 import { test } from 'node:test'
 import { measured, runId, until, visitor } from '../visitor.mjs'
 
+/** Chooses these algorithms and no others. */
+async function choose(v, chosen) {
+  for (const { id } of await v.api('/algorithms')) await v.at(`algorithm-${id}`).setChecked(chosen.includes(id))
+}
+
 /** Chooses the torus knot and a set of `count` configurations, measured quickly. */
 async function build(v, count) {
   await v.go('/new')
@@ -67,10 +72,12 @@ test('each way of finding configurations has its fields, its estimate and its co
   await estimated()
   await v.accessible('the builder with random placement')
   await v.picture('builder-random')
+  await choose(v, ['box-tree', 'ocb-fast'])
   await v.at('start').click()
-  await runId(v.page)
+  const id = await runId(v.page)
+  await until('the end of the run', async () => (await v.api(`/runs/${id}`)).state === 'done')
   const facts = v.page.getByRole('region', { name: 'Conditions' })
-  await facts.waitFor({ timeout: 120_000 })
+  await facts.waitFor()
   const text = await facts.textContent()
   for (const words of ['random, 150 poses, 25 % colliding', 'Coverage', 'Entropy']) assert.ok(text.includes(words), `${words} in ${text}`)
 })
@@ -81,8 +88,7 @@ test('a stock object becomes a heatmap whose picked value is the API\'s', async 
   await v.at('query-cd').click()
   await v.at('contacts-first').click()
   // A few exact ones: each more is seven processes. That every plugin answers as it should is shown by `ocb plugin check`.
-  const measured = ['box-tree', 'brute-force', 'bullet', 'ocb-fast', 'parry']
-  for (const { id } of await v.api('/algorithms')) await v.at(`algorithm-${id}`).setChecked(measured.includes(id))
+  await choose(v, ['box-tree', 'brute-force', 'bullet', 'ocb-fast', 'parry'])
   await v.at('start').click()
   const id = await runId(v.page)
 
@@ -91,13 +97,13 @@ test('a stock object becomes a heatmap whose picked value is the API\'s', async 
     await v.at(stage).waitFor({ state: 'attached' })
   }
   await v.picture('live')
-  await v.at('viewer-0').waitFor({ timeout: 120_000 })
+  await until('a picture', () => v.at('viewer-0').count())
   await until('a coloured object while it is measured', async () => (await v.colours(v.at('viewer-0'))).hues >= 2)
   const marks = [await v.at('preliminary').count(), await v.at('result-table').locator('[data-preliminary="true"]').count()]
   if ((await v.api(`/runs/${id}`)).state !== 'done') assert.ok(marks.every((n) => n > 0), `${marks} marks`)
   await v.picture('preliminary')
   await v.accessible('a run while it is measured')
-  await until('the end of the run', async () => (await v.api(`/runs/${id}`)).state === 'done', 120)
+  await until('the end of the run', async () => (await v.api(`/runs/${id}`)).state === 'done')
   await until('no mark', async () => (await v.at('preliminary').count()) === 0)
   await v.picture('explorer')
   // One picture of its own scale: side by side, a fast algorithm is dark beside a slow one.
@@ -116,6 +122,7 @@ test('a stock object becomes a heatmap whose picked value is the API\'s', async 
 
   // Picking in the middle of the object reads the value that the API gives for that vertex.
   await until('a picked vertex with a value', async () => {
+    await v.at('viewer-0').scrollIntoViewIfNeeded()
     const box = await v.at('viewer-0').boundingBox()
     for (const [x, y] of [[0.5, 0.3], [0.4, 0.4], [0.6, 0.6], [0.35, 0.6], [0.65, 0.4], [0.5, 0.7], [0.3, 0.5], [0.7, 0.5], [0.5, 0.5]]) {
       await v.page.mouse.click(box.x + x * box.width, box.y + y * box.height)

@@ -92,6 +92,18 @@ fn a_program_that_dies_without_counts_is_one_failure() {
 }
 
 #[test]
+fn what_failing_tests_said_is_repeated() {
+    let browser = "✔ a start\nℹ fail 1\n\n✖ failing tests:\n\n✖ a run\n  waited 180 s\n2-stock failed; to repeat it: node run.mjs\n✔ an end\n";
+    let said = bash(
+        "why rust.log browser.log none.log",
+        &[("rust", &format!("{NOT_RUN}{FAILED}{PASSED}")), ("browser", browser)],
+    );
+    let expected = "---- charts::median stdout ----\nassertion failed: not run: is no reason in the middle of a line\n\
+                    ✖ failing tests:\n✖ a run\n  waited 180 s\n";
+    assert_eq!(said.0, expected);
+}
+
+#[test]
 fn a_log_without_its_end_and_a_step_without_counts_fail() {
     let log = format!("{PASSED}{NOT_RUN}");
     assert!(!bash("only_not_run rust.log", &[("rust", &log)]).1, "it ended before its end");

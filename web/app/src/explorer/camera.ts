@@ -23,6 +23,8 @@ export class CameraRig {
   private sphere: Sphere | null = null
   private wanted: readonly number[] | null = null
   private down: [number, number] | null = null
+  /** Position and target before the pointer went down. */
+  private before: [Vector3, Vector3] | null = null
   private rest = 0
   /** The view that was last told. */
   private resting = ''
@@ -47,6 +49,7 @@ export class CameraRig {
     element.addEventListener('focusout', () => (element.style.touchAction = 'pan-y'), { signal })
     element.addEventListener('pointerdown', (event) => this.press(event), { signal })
     element.addEventListener('pointerup', (event) => this.up(event), { signal })
+    element.addEventListener('pointercancel', () => this.cancel(), { signal })
   }
 
   /** Looks at the whole object, unless a view was asked for before. */
@@ -156,7 +159,17 @@ export class CameraRig {
   private press(event: PointerEvent): void {
     // A second finger makes it a pinch, which zooms whatever the wheel may do.
     this.down = event.isPrimary ? [event.clientX, event.clientY] : null
+    if (event.isPrimary) this.before = [this.camera.position.clone(), this.controls.target.clone()]
     this.controls.enableZoom = true
+  }
+
+  /** The browser scrolls the page by this swipe; before it knew, the swipe may have turned the object. */
+  private cancel(): void {
+    if (!this.before) return
+    this.camera.position.copy(this.before[0])
+    this.controls.target.copy(this.before[1])
+    this.controls.update()
+    this.events.moved()
   }
 
   private up(event: PointerEvent): void {
