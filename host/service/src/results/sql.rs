@@ -2,6 +2,7 @@
 
 use crate::Result;
 use crate::model::AlgorithmResult;
+use crate::runs::share::OfClass;
 use crate::store::{Store, from_json, now_us, to_json};
 use ocb_core::query::Query;
 use sqlx::AnyConnection;
@@ -42,18 +43,25 @@ impl Store {
             .collect()
     }
 
-    /// Triangles of both objects and wall seconds per query of this algorithm's newest 50 results.
-    pub async fn result_rates(&self, algorithm: &str, query: Query) -> Result<Vec<(u64, f64)>> {
-        let rows: Vec<(i64, f64)> = sqlx::query_as(
-            "SELECT triangles, seconds_per_query FROM results \
+    /// Triangles of both objects and wall seconds per query of this algorithm's newest 50 results on machines of this class,
+    /// or on any while there is none.
+    pub async fn result_rates(&self, algorithm: &str, query: Query, on: &OfClass) -> Result<Vec<(u64, f64)>> {
+        let rows: Vec<(i64, f64, i64)> = sqlx::query_as(
+            "SELECT triangles, seconds_per_query, \
+             CASE WHEN COALESCE(runs.hardware_class, $3) = $4 THEN 1 ELSE 0 END AS same \
+             FROM results JOIN runs ON runs.id = run_id \
              WHERE algorithm = $1 AND query = $2 AND seconds_per_query IS NOT NULL \
-             ORDER BY created_us DESC LIMIT 50",
+             ORDER BY same DESC, results.created_us DESC LIMIT 50",
         )
         .bind(algorithm)
         .bind(to_json(&query)?)
+        .bind(&on.usual)
+        .bind(&on.class)
         .fetch_all(&self.pool)
         .await?;
-        Ok(rows.into_iter().map(|(triangles, seconds)| (triangles as u64, seconds)).collect())
+        let known = rows.first().map_or(0, |first| first.2);
+        let of_class = rows.into_iter().take_while(|row| row.2 == known);
+        Ok(of_class.map(|(triangles, seconds, _)| (triangles as u64, seconds)).collect())
     }
 }
 

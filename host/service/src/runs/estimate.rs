@@ -13,7 +13,7 @@ use crate::{EngineError, Result, boxed};
 
 /// Seconds per configuration before anything was found on this machine.
 const FIRST_CONFIGURATION: f64 = 2e-3;
-/// Seconds per query before an algorithm was measured on this machine.
+/// Seconds per query before an algorithm was measured.
 const FIRST_QUERY: f64 = 1e-4;
 /// Starting a runner and building both structures, per pass.
 const START: f64 = 0.5;
@@ -69,15 +69,16 @@ pub async fn estimate_alone(inner: &Inner, checked: &Checked) -> Result<Estimate
             measure::cost(measured, spec.passes, spec.budget_seconds, counted, query, START);
         AlgorithmSeconds { algorithm: algorithm.info.id.clone(), seconds, budget_limited }
     };
+    let class = inner.waiting_for(spec);
     let mut measuring_seconds = Vec::new();
     for algorithm in &checked.algorithms {
-        let rates = inner.store.result_rates(&algorithm.info.id, spec.query).await?;
+        let rates = inner.store.result_rates(&algorithm.info.id, spec.query, &class).await?;
         measuring_seconds.push(cost(algorithm, algorithm.info.counters, &rates));
     }
     // It takes part in every round, whether it was asked for or not.
     let reference = spec::reference(spec, &inner.registry).filter(|it| !spec.algorithms.contains(&it.info.id));
     let reference_seconds = match reference {
-        Some(it) => cost(&it, false, &inner.store.result_rates(&it.info.id, spec.query).await?).seconds,
+        Some(it) => cost(&it, false, &inner.store.result_rates(&it.info.id, spec.query, &class).await?).seconds,
         None => 0.0,
     };
     let total_seconds =

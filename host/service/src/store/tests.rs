@@ -150,6 +150,7 @@ on_both!(
     a_machine_that_has_changed_is_not_admitted,
     prepared_runs_go_to_machines_in_turn,
     runs_go_to_machines_of_their_hardware_class,
+    rates_are_those_of_the_hardware_class_or_of_any,
     a_machine_reaches_its_own_attempt_alone,
     results_replace_those_of_an_earlier_attempt,
     the_newest_finished_featured_run_is_shown,
@@ -448,8 +449,8 @@ mod contract {
         assert!(end(&store, &begin(&store, "m").await.unwrap(), State::Done, Some(&second)).await);
         assert_eq!(store.results("r").await.unwrap(), [again, result("b", 5)]);
         assert_eq!(store.events("r", 0).await.unwrap()[0].seq, 1, "the log began anew");
-        assert_eq!(store.result_rates("a", Query::Proximity).await.unwrap(), [(100, 1e-6)]);
-        assert_eq!(store.result_rates("a", Query::CollisionFirst).await.unwrap(), []);
+        assert_eq!(store.result_rates("a", Query::Proximity, &usual()).await.unwrap(), [(100, 1e-6)]);
+        assert_eq!(store.result_rates("a", Query::CollisionFirst, &usual()).await.unwrap(), []);
     }
 
     pub async fn the_newest_finished_featured_run_is_shown(store: Store) {

@@ -1,10 +1,13 @@
 //! Machines: their tokens and facts, prepared runs and whose turn they are.
 
+use ocb_core::query::Query;
+
 use super::super::*;
-use super::{add, end, fresh_stages, run, usual, worker};
+use super::{StoredResult, add, end, fresh_stages, handed, result, run, usual, worker};
 use crate::attempts::Attempt;
 use crate::machines::sql::worker as of;
 use crate::model::{MachineFacts, RunSpec, State};
+use crate::runs::accept::Handed;
 use crate::runs::share::OfClass;
 use crate::runs::sql::RunRow;
 
@@ -130,6 +133,26 @@ pub async fn runs_go_to_machines_of_their_hardware_class(store: Store) {
     prepare(&store).await.unwrap();
     assert_eq!(next("m", "class", "new").await, None);
     assert_eq!(next("n", "new", "new").await.as_deref(), Some("new1"));
+}
+
+pub async fn rates_are_those_of_the_hardware_class_or_of_any(store: Store) {
+    for (id, class, seconds) in [("r", None, 1e-6), ("s", Some("new".to_owned()), 3e-6)] {
+        let row = run(id, None, 1, 1);
+        add(&store, RunRow { spec: RunSpec { hardware_class: class, ..row.spec.clone() }, ..row }).await;
+        let of_run = StoredResult { seconds_per_query: Some(seconds), ..result("a", 5) };
+        let class = if id == "r" { "class" } else { "new" };
+        prepare(&store).await.unwrap();
+        let attempt = store.begin_prepared_run(&of(id, class), "class").await.unwrap().unwrap();
+        let handed = Handed { results: vec![(0, of_run)], ..handed() };
+        assert!(end(&store, &attempt, State::Done, Some(&handed)).await);
+    }
+    let rates = async |class: &str, usual: &str| {
+        let on = OfClass { class: class.into(), usual: usual.into() };
+        store.result_rates("a", Query::Proximity, &on).await.unwrap().iter().map(|rate| rate.1).collect::<Vec<_>>()
+    };
+    assert_eq!(rates("class", "class").await, [1e-6]);
+    assert_eq!(rates("new", "class").await, [3e-6]);
+    assert_eq!(rates("third", "class").await, [3e-6, 1e-6], "the newest first");
 }
 
 pub async fn a_machine_reaches_its_own_attempt_alone(store: Store) {
