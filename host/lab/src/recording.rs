@@ -80,10 +80,21 @@ impl Recording {
 
     /// The same for a file that its owner knows by another name.
     pub fn read_as(path: &Path, name: &str) -> Result<Self> {
+        let read = Self::or_scene(path, name)?;
+        if read.queries.is_empty() {
+            return Err(LabError::Invalid(format!("{name:?} is not a recording: it is a scene without queries.")));
+        }
+        Ok(read)
+    }
+
+    /// The same, or the scene in a file that has no queries.
+    pub fn or_scene(path: &Path, name: &str) -> Result<Self> {
         let bad = |why: String| LabError::Invalid(format!("{name:?} is not a recording: {why}."));
         let mut file = Reader::open_as(path, name)?;
         let scene = file.scene()?;
-        let queries = file.other(QUERIES, MOST_QUERIES)?.ok_or_else(|| bad("it is a scene without queries".into()))?;
+        let Some(queries) = file.other(QUERIES, MOST_QUERIES)? else {
+            return Ok(Self { scene, about: About::default(), queries: Vec::new() });
+        };
         let about = file.other(ABOUT, MOST_ABOUT)?.ok_or_else(|| bad(format!("{ABOUT} is missing")))?;
         let about = serde_json::from_slice(&about).map_err(|e| bad(format!("{ABOUT} cannot be read ({e})")))?;
         let mut queries = read_recorded(&queries, scene.scene.objects.len())

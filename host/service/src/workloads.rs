@@ -34,8 +34,8 @@ const RETRY_SECONDS: u32 = 120;
 pub(crate) const MOST_QUERIES: usize = 2_000_000;
 
 impl Engine {
-    /// Keeps an uploaded recording and queues its replay. True when it is new: the same request under the same key returns the
-    /// existing one.
+    /// Keeps an uploaded recording and queues its replay; of a scene without queries nothing is replayed. True when it is new: the
+    /// same request under the same key returns the existing one.
     ///
     /// # Errors
     /// `Invalid` for a file that is no recording or a replay that cannot be carried out, `TooMuch` when too many wait.
@@ -71,6 +71,12 @@ impl Engine {
     ) -> Result<(WorkloadInfo, bool)> {
         self.inner.own_workload(id, Some(&visitor.owner), "repeat").await?;
         let (told, recording) = self.inner.recording(id).await?;
+        if recording.queries.is_empty() {
+            return Err(EngineError::Invalid(format!(
+                "{:?} has no queries, so there is nothing to replay.",
+                told.file
+            )));
+        }
         self.queue_workload(told, None, &recording, spec, visitor, key).await
     }
 
@@ -84,9 +90,12 @@ impl Engine {
         key: Option<&str>,
     ) -> Result<(WorkloadInfo, bool)> {
         let (inner, owner) = (&self.inner, visitor.owner.as_str());
-        spec.check().map_err(EngineError::Invalid)?;
-        let algorithms = inner.algorithms_for(read, &spec.algorithms, Some(owner))?;
-        inner.replay_may_take(owner, &spec, algorithms.len())?;
+        let replayed = !read.queries.is_empty();
+        if replayed {
+            spec.check().map_err(EngineError::Invalid)?;
+            let algorithms = inner.algorithms_for(read, &spec.algorithms, Some(owner))?;
+            inner.replay_may_take(owner, &spec, algorithms.len())?;
+        }
         let id = self.id_of_request(owner, Made::Workload, key, &(&recording, &spec)).await?;
         // Two concurrent requests must not share the last of a quota.
         let _alone = inner.store.locks.alone(Lock::Admission).await?;
@@ -95,7 +104,7 @@ impl Engine {
         }
         let turn = turn(owner, visitor.address.as_deref());
         let [all, own] = inner.store.open_workloads_of(&turn).await?;
-        if own >= MOST_OPEN || all >= MOST_IN_ALL {
+        if replayed && (own >= MOST_OPEN || all >= MOST_IN_ALL) {
             let whose = if own >= MOST_OPEN { format!("{own} of your") } else { format!("{all}") };
             let message = format!("{whose} recordings are queued or replayed; try again when one of them has ended.");
             return Err(EngineError::TooMuch { message, retry_seconds: RETRY_SECONDS });
@@ -110,17 +119,19 @@ impl Engine {
             id,
             owner: Some(owner.to_owned()),
             turn,
-            state: State::Queued,
+            state: if replayed { State::Queued } else { State::Done },
             attempts: 0,
             message: None,
             spec,
             recording,
             done: 0,
             created_us: now_us(),
-            finished_us: None,
+            finished_us: (!replayed).then(now_us),
         };
         let new = inner.store.add_workload(&row).await?;
-        inner.call();
+        if replayed {
+            inner.call();
+        }
         Ok((self.workload(&row.id).await?, new))
     }
 
@@ -198,7 +209,7 @@ impl Engine {
     #[boxed]
     pub async fn workload_scene(&self, id: &str) -> Result<PosedScene> {
         let (_, recording) = self.inner.recording(id).await?;
-        blocking(move || Ok(ocb_lab::workload::posed_scene(&recording))).await
+        blocking(move || Ok(ocb_lab::workload::posed_scene(&recording)?)).await
     }
 
     /// The triangles of an object of the scene, as algorithms get them.
@@ -308,7 +319,7 @@ fn parsed(name: &str, bytes: &[u8], folder: &std::path::Path) -> Result<Recordin
     let fault = |e: std::io::Error| EngineError::fault("Keeping the recording while it is read failed", e);
     let file = tempfile::NamedTempFile::new_in(folder).map_err(fault)?;
     std::fs::write(file.path(), bytes).map_err(fault)?;
-    let recording = Recording::read_as(file.path(), name)?;
+    let recording = Recording::or_scene(file.path(), name)?;
     if recording.queries.len() > MOST_QUERIES {
         return Err(EngineError::Invalid(format!(
             "{name:?} has {} queries; at most {MOST_QUERIES} can be replayed here. Record fewer groups, or use `ocb bench --workload`.",

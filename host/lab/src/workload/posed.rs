@@ -12,7 +12,7 @@ use crate::model::{PosedGroup, PosedObject, PosedScene, ScenePair, WhichGroup};
 use crate::recording::Recording;
 use crate::{LabError, Result};
 
-use super::shapes::solid;
+use super::shapes::{solid, solids};
 
 /// Pairs of a scene that are listed.
 const MOST_PAIRS: usize = 10_000;
@@ -59,8 +59,13 @@ fn first_places(queries: &[Recorded]) -> BTreeMap<u32, Pose> {
 }
 
 /// The scene with all its objects, and its pairs.
-pub fn posed_scene(recording: &Recording) -> PosedScene {
+///
+/// # Errors
+/// `Invalid` for a primitive that has no triangles.
+pub fn posed_scene(recording: &Recording) -> Result<PosedScene> {
     let scene = &recording.scene.scene;
+    let solids = solids(&recording.scene)?;
+    let about = solids.iter().zip(&scene.objects).map(|(solid, object)| solid.describe(&object.name)).collect();
     let mut pairs: BTreeMap<[u32; 2], (u64, Option<&str>)> = BTreeMap::new();
     for [a, b] in recording.queries.iter().map(|query| query.objects) {
         pairs.entry([a.min(b), a.max(b)]).or_default().0 += 1;
@@ -73,7 +78,8 @@ pub fn posed_scene(recording: &Recording) -> PosedScene {
     let mut pairs: Vec<_> = pairs.into_iter().collect();
     pairs.sort_by_key(|(objects, (queries, _))| (Reverse(*queries), *objects));
     pairs.truncate(MOST_PAIRS);
-    let placed_by_queries = scene.objects.iter().all(|object| object.pose == Pose::identity());
+    let unplaced = scene.objects.iter().all(|object| object.pose == Pose::identity());
+    let placed_by_queries = unplaced && !recording.queries.is_empty();
     let places = if placed_by_queries { first_places(&recording.queries) } else { BTreeMap::new() };
     let posed = |(object, it): (u32, &SceneObject)| PosedObject {
         object,
@@ -84,14 +90,15 @@ pub fn posed_scene(recording: &Recording) -> PosedScene {
         queries,
         disabled: disabled.map(str::to_owned),
     };
-    PosedScene {
+    Ok(PosedScene {
+        about,
         objects: (0..).zip(&scene.objects).map(posed).collect(),
         placed_by_queries,
         pairs: pairs.into_iter().map(pair).collect(),
         asked,
         disabled: scene.disabled.len() as u64,
         asked_though_disabled: asked_though_disabled as u64,
-    }
+    })
 }
 
 /// The triangles of an object as algorithms get them.
@@ -137,7 +144,7 @@ mod tests {
         let mut recording = recording();
         let disabled = |a, b, reason: &str| DisabledPair { a, b, reason: reason.to_owned() };
         recording.scene.scene.disabled = vec![disabled(0, 2, "same link"), disabled(1, 2, "adjacent")];
-        let scene = posed_scene(&recording);
+        let scene = posed_scene(&recording).expect("a scene");
         let x: Vec<f64> = scene.objects.iter().map(|it| it.pose[3]).collect();
         assert_eq!((scene.placed_by_queries, x), (true, vec![0.0, 5.0, 7.0, 0.0]));
         let pair = |objects, queries, disabled: Option<&str>| ScenePair {
@@ -155,8 +162,17 @@ mod tests {
         let mut recording = recording();
         let objects = &mut recording.scene.scene.objects;
         objects[3].pose = Pose { translation: Vector3::new(9.0, 0.0, 0.0), ..Pose::identity() };
-        let scene = posed_scene(&recording);
+        let scene = posed_scene(&recording).expect("a scene");
         let x: Vec<f64> = scene.objects.iter().map(|it| it.pose[3]).collect();
         assert_eq!((scene.placed_by_queries, x), (false, vec![0.0, 0.0, 0.0, 9.0]));
+    }
+
+    #[test]
+    fn a_scene_that_was_never_asked_stands_where_it_is_placed() {
+        let scene = posed_scene(&Recording { queries: Vec::new(), ..recording() }).expect("a scene");
+        assert_eq!((scene.placed_by_queries, scene.asked, scene.pairs.len()), (false, 0, 0));
+        let names: Vec<_> = scene.about.iter().map(|it| it.name.as_str()).collect();
+        assert_eq!(names, ["a", "b", "c", "never"]);
+        assert!(scene.about.iter().all(|it| it.triangles > 100 && it.bound.is_some_and(|bound| bound > 0.0)));
     }
 }

@@ -3,12 +3,15 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use super::WorkloadObject;
 use crate::workload_job::PosedObject;
 
-/// The scene of a recording: where its objects stand, and which pairs were asked or are disabled.
+/// The scene of a recording: its objects, where they stand, and which pairs were asked or are disabled.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PosedScene {
-    /// All objects, in their order in the scene.
+    /// What the objects are, in their order in the scene.
+    pub about: Vec<WorkloadObject>,
+    /// Where they stand, in the same order.
     pub objects: Vec<PosedObject>,
     /// The scene places every object at its origin, as recorders do, so each stands where its first query places it.
     pub placed_by_queries: bool,

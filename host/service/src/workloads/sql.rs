@@ -43,11 +43,11 @@ macro_rules! select {
 }
 
 impl Store {
-    /// Queues one; false when there is one with its id.
+    /// Keeps one, queued or ended; false when there is one with its id.
     pub async fn add_workload(&self, row: &WorkloadRow) -> Result<bool> {
         let added = sqlx::query(
-            "INSERT INTO workloads (id, owner, turn, state, attempts, spec, recording, blob, done, created_us) \
-             VALUES ($1, $2, $3, 'queued', 0, $4, $5, $6, 0, $7) ON CONFLICT (id) DO NOTHING",
+            "INSERT INTO workloads (id, owner, turn, state, attempts, spec, recording, blob, done, created_us, finished_us) \
+             VALUES ($1, $2, $3, $8, 0, $4, $5, $6, 0, $7, $9) ON CONFLICT (id) DO NOTHING",
         )
         .bind(&row.id)
         .bind(&row.owner)
@@ -56,6 +56,8 @@ impl Store {
         .bind(to_json(&row.recording)?)
         .bind(&row.recording.sha256)
         .bind(row.created_us)
+        .bind(state_name(row.state))
+        .bind(row.finished_us)
         .execute(&self.pool)
         .await?;
         Ok(added.rows_affected() == 1)
