@@ -1,6 +1,7 @@
 // A visitor replays a recording: uploads it, follows it, reads what was found, chooses a stretch of it, and takes the files away.
 import assert from 'node:assert/strict'
-import { readFileSync, writeFileSync } from 'node:fs'
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
+import { tmpdir } from 'node:os'
 import { dirname, join } from 'node:path'
 import { test } from 'node:test'
 import { recording } from '../recording.mjs'
@@ -93,6 +94,38 @@ test('a recording is replayed, read and explored', async (t) => {
   for (const name of ['workload-json', 'workload-parquet', 'workload-recording', 'timeline-svg']) await v.at(name).click()
   await until('the files', () => files.length === 4)
   assert.match(await v.at('workload-command').textContent(), new RegExp(`--run-seed ${result.seed}`))
+})
+
+test('a robot is looked at before anything is asked about it', async (t) => {
+  const folder = mkdtempSync(join(tmpdir(), 'ocb-robot-'))
+  t.after(() => rmSync(folder, { recursive: true, force: true }))
+  const link = (name, shape) => `<link name="${name}"><collision><geometry>${shape}</geometry></collision></link>`
+  const joint = (a, b, z) => `<joint name="${b}" type="fixed"><parent link="${a}"/><child link="${b}"/><origin xyz="0 0 ${z}"/></joint>`
+  writeFileSync(join(folder, 'arm.urdf'), `<robot name="arm">${link('base', '<box size="1 1 0.4"/>')}${link('arm', '<cylinder radius="0.2" length="1"/>')}${link('hand', '<sphere radius="0.3"/>')}${joint('base', 'arm', 0.7)}${joint('arm', 'hand', 0.7)}</robot>`)
+  ocb(['scene', 'import', join(folder, 'arm.urdf'), '--out', join(folder, 'arm.ocbscene')])
+
+  const v = await visitor(t)
+  await v.go('/workloads')
+  await v.at('workload-file').setInputFiles(join(folder, 'arm.ocbscene'))
+  await v.at('workload-is-scene').waitFor()
+  assert.equal(await v.page.locator('[data-testid^="algorithm-"]').count(), 0, 'nothing is chosen')
+  await v.at('workload-start').click()
+  await v.at('scene-words').waitFor()
+  assert.equal(await state(v), 'done')
+  assert.equal(await v.at('scene-words').textContent(), '3 pairs of objects. 2 are disabled.')
+  assert.equal(await v.at('scene-stage').getAttribute('data-objects'), '3')
+  await until('a coloured scene', async () => (await v.colours(v.at('scene-stage'))).coloured > 500)
+  const before = await v.colours(v.at('scene-stage'))
+  await v.at('scene-pairs').locator('[data-pair="0-1"] button').click()
+  assert.match(await v.at('scene-lit').textContent(), /disabled \(adjacent/)
+  await until('the pair in its colour', async () => Object.keys((await v.colours(v.at('scene-stage'))).each).some((hue) => !(hue in before.each)))
+  await v.accessible('a scene without queries')
+  await v.picture('scene-alone')
+  const [file] = await Promise.all([v.page.waitForEvent('download'), v.at('workload-recording').click()])
+  assert.equal(file.suggestedFilename(), 'arm.ocbscene')
+  await v.at('workload-delete').click()
+  await v.at('workload-delete-now').click()
+  await v.page.waitForURL(/\/workloads$/)
 })
 
 test('a heatmap shows where on an object its queries are, and the scene shows the pair that is chosen', async (t) => {

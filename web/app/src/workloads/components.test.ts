@@ -64,6 +64,7 @@ describe('the page of a replay', () => {
     expect(text()).toContain('no result')
     expect([at('workload-json'), at('workload-cancel')]).toEqual([null, null])
     app?.unmount()
+    vi.mocked(getScene).mockReturnValue(new Promise(() => undefined))
     await page({ state: 'cancelled', done: 10, message: 'Cancelled.' })
     expect(host.querySelector('[role=alert]')).toBeNull()
     expect(text()).toContain('Cancelled.')
@@ -161,7 +162,7 @@ describe('the heatmap of an object', () => {
 it('lights a pair of the matrix in the list of the scene, with why it is disabled', async () => {
   const scenePairs = [{ objects: [0, 1], queries: 60, disabled: null }, { objects: [1, 2], queries: 0, disabled: 'adjacent links' }]
   vi.mocked(getScene).mockResolvedValue({
-    objects: [0, 1, 2].map((object) => ({ object, pose: [] })), placed_by_queries: false, pairs: scenePairs, asked: 1, disabled: 1, asked_though_disabled: 0,
+    about: replay().objects, objects: [0, 1, 2].map((object) => ({ object, pose: [] })), placed_by_queries: false, pairs: scenePairs, asked: 1, disabled: 1, asked_though_disabled: 0,
   })
   await page({ result: replay() })
   expect(at('scene-words')?.textContent).toBe('1 of 3 pairs were asked. 1 is disabled; 1 is neither.')
@@ -177,6 +178,21 @@ it('lights a pair of the matrix in the list of the scene, with why it is disable
   at('scene-unlit')?.click()
   await settle()
   expect([lit(), router.currentRoute.value.query]).toEqual([[], {}])
+})
+
+it('shows a scene about which nothing was asked, without what only a replay has', async () => {
+  const disabled = [{ objects: [1, 2], queries: 0, disabled: 'adjacent links' }]
+  vi.mocked(getScene).mockResolvedValue({
+    about: replay().objects, objects: [0, 1, 2].map((object) => ({ object, pose: [] })), placed_by_queries: false, pairs: disabled, asked: 0, disabled: 1, asked_though_disabled: 0,
+  })
+  await page({ total: 0, done: 0, recording: { ...info({}).recording, file: 'arm.ocbscene', queries: 0, program: '' } })
+  expect(host.querySelector('h1')?.textContent).toBe('arm.ocbscene')
+  expect(at('workload-progress')?.textContent).toContain('A scene without queries: there is nothing to replay.')
+  expect(at('scene-words')?.textContent).toBe('3 pairs of objects. 1 is disabled.')
+  expect(at('scene-pairs')?.textContent).toMatch(/table against ball\s*adjacent links$/)
+  expect(at('scene-lit')?.textContent).not.toContain('matrix')
+  expect(at('workload-objects')?.querySelectorAll('tbody tr').length).toBe(3)
+  expect(['left-out', 'scene-asked', 'workload-command', 'again', 'workload-json'].filter(at)).toEqual([])
 })
 
 it('walks the matrix with the arrow keys, over places without a pair', async () => {

@@ -6,7 +6,7 @@ import { readView } from './view'
 
 const pair = (a: number, b: number, queries: number, disabled: string | null = null): ScenePair => ({ objects: [a, b], queries, disabled })
 const scene = (n: number, pairs: ScenePair[], change: Partial<PosedScene> = {}): PosedScene => ({
-  objects: Array.from({ length: n }, (_, object) => ({ object, pose: [] })), placed_by_queries: true, pairs,
+  about: [], objects: Array.from({ length: n }, (_, object) => ({ object, pose: [] })), placed_by_queries: true, pairs,
   asked: pairs.filter(({ queries }) => queries > 0).length, disabled: pairs.filter(({ disabled }) => disabled).length,
   asked_though_disabled: pairs.filter(({ queries, disabled }) => queries > 0 && disabled).length, ...change,
 })
@@ -15,6 +15,8 @@ const pairs = [pair(0, 1, 20), pair(1, 2, 1, 'adjacent'), pair(0, 2, 0, 'same li
 it('says what becomes of a pair, and of all of them', () => {
   expect(pairs.map(pairState)).toEqual(['asked 20 times', 'disabled (adjacent), but asked once', 'disabled (same link)'])
   expect(pairsWords(scene(4, pairs))).toBe('2 of 6 pairs were asked. 2 are disabled, of which 1 was asked all the same; 3 are neither.')
+  expect(pairsWords(scene(4, [pair(0, 1, 0, 'same link')]))).toBe('6 pairs of objects. 1 is disabled.')
+  expect(pairsWords(scene(2, []))).toBe('1 pair of objects. None is disabled.')
   expect(pairsWords(scene(2, [pair(0, 1, 3)]))).toBe('1 of 1 pair was asked. The recording disables none.')
 })
 

@@ -21,6 +21,10 @@ export function pairState({ queries, disabled }: ScenePair): string {
 /** The pairs of a scene by what becomes of them, in a sentence or two. */
 export function pairsWords({ objects, asked, disabled, asked_though_disabled: both }: PosedScene): string {
   const all = (objects.length * (objects.length - 1)) / 2
+  if (asked === 0) {
+    const off = disabled === 0 ? 'None is disabled' : `${count(disabled)} ${disabled === 1 ? 'is' : 'are'} disabled`
+    return `${count(all)} ${all === 1 ? 'pair' : 'pairs'} of objects. ${off}.`
+  }
   const rest = Math.max(0, all - asked - disabled + both)
   const off = disabled === 0 ? 'The recording disables none' : `${count(disabled)} ${disabled === 1 ? 'is' : 'are'} disabled${both > 0 ? `, of which ${count(both)} ${both === 1 ? 'was' : 'were'} asked all the same` : ''}`
   const neither = rest === 0 ? '' : `; ${count(rest)} ${rest === 1 ? 'is' : 'are'} neither`

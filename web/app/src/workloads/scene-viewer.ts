@@ -15,10 +15,11 @@ export interface Placed {
   tone: Tone
 }
 
-/** Draws objects of a scene, some of them in a colour of their own. */
+/** Draws objects of a scene, z up as robots and simulators have it, some of them in a colour of their own. */
 export class SceneViewer extends Stage {
   show(objects: readonly Placed[]): void {
     this.clear()
+    this.content.rotation.x = -Math.PI / 2
     const [first] = objects
     if (!first) return
     // Drawn about the first object: the graphics card has single precision, and a scene may be far from the origin.
@@ -34,7 +35,7 @@ export class SceneViewer extends Stage {
       })
       const mesh = new Mesh(surface, material)
       this.place(mesh, placed, strong ? 1 : 2)
-      mesh.updateMatrixWorld(true)
+      mesh.updateWorldMatrix(true, false)
       box.expandByObject(mesh, true)
     }
     this.rig.fit(box.getBoundingSphere(new Sphere()))

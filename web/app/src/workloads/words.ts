@@ -26,12 +26,16 @@ export const ASKED: Record<Track, string> = {
 
 export const isOpen = ({ state }: Pick<WorkloadInfo, 'state'>): boolean => state === 'queued' || state === 'running'
 
+/** A scene about which nothing was asked. */
+export const isScene = ({ recording }: Pick<WorkloadInfo, 'recording'>): boolean => recording.queries === 0
+
 /** The recorded program, or the recording's file where it does not say. */
 export const titleOf = ({ recording }: Pick<WorkloadInfo, 'recording'>): string => recording.program || recording.file
 
 /** How far a replay is, in a sentence. */
 export function progressWords({ state, runs_ahead: ahead, done, total }: Pick<WorkloadInfo, 'state' | 'runs_ahead' | 'done' | 'total'>): string {
   if (state === 'queued') return ahead === 0 ? 'Next replay in the queue.' : `${ahead} ${ahead === 1 ? 'replay' : 'replays'} ahead in the queue.`
+  if (total === 0) return 'A scene without queries: there is nothing to replay.'
   return `${count(done)} of ${count(total)} queries replayed.`
 }
 

@@ -28,7 +28,7 @@ use crate::upload::{MAX_BYTES, Upload};
 struct WorkloadForm {
     /// How to replay it, as JSON; it comes before the file. Absent: the usual algorithms in both orders.
     spec: Option<WorkloadSpec>,
-    /// A recording (.ocbrec) of at most 256 MiB and 2,000,000 queries.
+    /// A recording (.ocbrec) of at most 256 MiB and 2,000,000 queries, or a scene (.ocbscene), of which nothing is replayed.
     #[schema(value_type = String, format = Binary)]
     file: Vec<u8>,
 }
@@ -39,7 +39,7 @@ struct WorkloadForm {
     request_body(content = inline(WorkloadForm), content_type = "multipart/form-data"), params(IdempotencyKey),
     responses(
         (status = 200, description = "Already requested with this key", body = WorkloadInfo),
-        (status = 201, description = "Queued; its address is in `Location`", body = WorkloadInfo),
+        (status = 201, description = "Queued, or done for a scene without queries; its address is in `Location`", body = WorkloadInfo),
         (status = 400, description = "The upload is not well-formed"),
         (status = 409, description = "The visitor has stored too much"),
         (status = 413, description = "Larger than 256 MiB"),
@@ -74,7 +74,7 @@ pub(crate) async fn add_workload(
         (status = 200, description = "Already requested with this key", body = WorkloadInfo),
         (status = 201, description = "Queued; its address is in `Location`", body = WorkloadInfo),
         (status = 404, description = "The visitor has no such workload"),
-        (status = 422, description = "No such algorithm, or a replay that may take too long"),
+        (status = 422, description = "No such algorithm, no queries, or a replay that may take too long"),
         (status = 429, description = "Too many are queued; `Retry-After` says when to try again"),
     ))]
 pub(crate) async fn replay_again(

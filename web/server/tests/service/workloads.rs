@@ -18,8 +18,8 @@ use serde_json::{Value, json};
 use crate::people::member;
 use crate::support::{Guest, Service, header, problem};
 
-/// A knot and a ball that passes it, five queries a group; the program was told that nothing ever collides.
-fn recording(queries: u64) -> Vec<u8> {
+/// A knot and a ball in it, which are adjacent.
+fn scene() -> SceneFile {
     let mut meshes = HashMap::new();
     let knot = SceneFile::keep(&mut meshes, stock::generate("torus-knot", 800).expect("a mesh"));
     let object = |name: &str, geometry| SceneObject {
@@ -32,6 +32,12 @@ fn recording(queries: u64) -> Vec<u8> {
         licence: None,
     };
     let objects = vec![object("knot", knot), object("ball", Geometry::Sphere { radius: 0.3 })];
+    let disabled = vec![DisabledPair { a: 0, b: 1, reason: "adjacent links".into() }];
+    SceneFile { scene: Scene { name: "robot".into(), objects, disabled }, meshes }
+}
+
+/// The ball passes the knot, five queries a group; the program was told that nothing ever collides.
+fn recording(queries: u64) -> Vec<u8> {
     let at = |x: f64| Pose { translation: [x, 0.0, 0.0].into(), ..Pose::identity() };
     let query = |i: u64| Recorded {
         sequence: 10 + i,
@@ -51,9 +57,7 @@ fn recording(queries: u64) -> Vec<u8> {
         seen: queries + 2,
         dropped: vec![ocb_service::recording::Dropped { reason: "sampled".into(), count: 2 }],
     };
-    let disabled = vec![DisabledPair { a: 0, b: 1, reason: "adjacent links".into() }];
-    let scene = SceneFile { scene: Scene { name: "robot".into(), objects, disabled }, meshes };
-    let recording = Recording { scene, about, queries: (0..queries).map(query).collect() };
+    let recording = Recording { scene: scene(), about, queries: (0..queries).map(query).collect() };
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("robot.ocbrec");
     recording.write(&file).expect("a recording");
@@ -61,7 +65,11 @@ fn recording(queries: u64) -> Vec<u8> {
 }
 
 async fn send(guest: &Guest, spec: Value, file: Vec<u8>) -> reqwest::Response {
-    let part = reqwest::multipart::Part::bytes(file).file_name("robot.ocbrec");
+    send_as(guest, "robot.ocbrec", spec, file).await
+}
+
+async fn send_as(guest: &Guest, name: &'static str, spec: Value, file: Vec<u8>) -> reqwest::Response {
+    let part = reqwest::multipart::Part::bytes(file).file_name(name);
     let form = reqwest::multipart::Form::new().text("spec", spec.to_string()).part("file", part);
     guest.post("/api/v1/workloads").multipart(form).send().await.expect("an answer")
 }
@@ -237,6 +245,45 @@ async fn a_recording_is_uploaded_replayed_and_taken_away() {
     assert_eq!(guest.json("/api/v1/data").await["workloads"], 1);
     assert_eq!(remove("/api/v1/data".into()).await.expect("an answer").status(), StatusCode::OK);
     assert_eq!(service.blobs(), 0);
+    service.stop().await;
+}
+
+#[tokio::test]
+async fn a_scene_without_queries_is_kept_and_shown() {
+    let service = Service::start_with(&["libocb_box_tree.so"]).await;
+    let guest = service.guest();
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("robot.ocbscene");
+    scene().write(&file, &[]).expect("a scene");
+    let bytes = std::fs::read(file).expect("its bytes");
+    // More than may wait at a time: none of them waits.
+    let mut places = Vec::new();
+    for _ in 0..5 {
+        let sent = send_as(&guest, "robot.ocbscene", spec(), bytes.clone()).await;
+        assert_eq!(sent.status(), StatusCode::CREATED);
+        places.push(header(&sent, "location"));
+        let kept: Value = sent.json().await.expect("JSON");
+        assert_eq!((&kept["state"], &kept["total"], &kept["result"]), (&"done".into(), &0.into(), &Value::Null));
+        assert!(kept["finished_us"].is_number() && kept["recording"]["objects"] == 2, "{kept}");
+    }
+    let place = &places[0];
+    let shown = guest.json(&format!("{place}/scene")).await;
+    let pair = json!({ "objects": [0, 1], "queries": 0, "disabled": "adjacent links" });
+    assert_eq!((&shown["pairs"], &shown["placed_by_queries"]), (&json!([pair]), &false.into()));
+    let [knot, ball] = [0, 1].map(|i| &shown["about"][i]);
+    assert_eq!((&knot["name"], &knot["triangles"], &knot["bound"]), (&"knot".into(), &800.into(), &Value::Null));
+    assert!(ball["name"] == "ball" && ball["bound"].as_f64().is_some_and(|bound| bound > 0.0), "{ball}");
+    assert!(guest.bytes(&format!("{place}/objects/1/mesh.glb")).await.0.starts_with(b"glTF"));
+    assert_eq!(guest.bytes(&format!("{place}/recording.ocbrec")).await.0, bytes);
+    let told =
+        async |answer: reqwest::RequestBuilder, status| problem(answer.send().await.expect("an answer"), status).await;
+    let again = told(guest.post(&format!("{place}/again")).json(&spec()), 422).await;
+    assert!(again.contains("\"robot.ocbscene\" has no queries"), "{again}");
+    assert!(told(guest.get(&format!("{place}/group?group=0")), 422).await.contains("no group 0"));
+    assert!(told(guest.get(&format!("{place}/queries.parquet")), 404).await.contains("has not been replayed"));
+    problem(service.guest().get(place).send().await.expect("an answer"), 404).await;
+    let gone = guest.request(Method::DELETE, "/api/v1/data").send().await.expect("an answer");
+    assert_eq!((gone.status(), service.blobs()), (StatusCode::OK, 0));
     service.stop().await;
 }
 
