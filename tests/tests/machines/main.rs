@@ -167,16 +167,16 @@ fn runs_of_machines_that_are_silent_are_measured_by_another() {
     let machine = |(token, log): &(PathBuf, PathBuf)| Machine::apart(&site.internal, token, log);
     let wire = Wire::to(&site.internal);
     let cut = Machine::apart(&wire.address, &gamma.0, &gamma.1);
-    let zeroth = site.submit(2.0);
+    let zeroth = site.submit(1.0);
     site.measures(&zeroth, &cut);
     wire.cut();
     let cut_since = Instant::now();
     let still = machine(&alpha);
-    let first = site.submit(2.0);
+    let first = site.submit(1.0);
     site.measures(&first, &still);
     still.signal(Signal::SIGSTOP);
     let killed = machine(&beta);
-    let second = site.submit(2.0);
+    let second = site.submit(1.0);
     site.measures(&second, &killed);
     let runner = runner_below(killed.pid()).expect("a runner");
     killed.signal(Signal::SIGKILL);
@@ -243,7 +243,7 @@ fn a_cancelled_run_ends_on_its_machine() {
 fn a_machine_that_is_asked_to_stop_puts_its_run_back() {
     let mut site = Site::open();
     let mut machine = site.machine("alpha");
-    let run = site.submit(4.0);
+    let run = site.submit(1.5);
     site.measures(&run, &machine);
     machine.signal(Signal::SIGTERM);
     assert_eq!(machine.ended(Duration::from_secs(10)).code(), Some(0), "{}", machine.said());
@@ -257,7 +257,7 @@ fn a_machine_that_is_asked_to_stop_puts_its_run_back() {
 fn a_machine_outlives_its_service() {
     let mut site = Site::open();
     let machine = site.machine("alpha");
-    let run = site.submit(6.0);
+    let run = site.submit(1.5);
     site.measures(&run, &machine);
     site.service.take().expect("a service").kill();
     // Longer than the lease: the run is measured to its end, and the machine asks again and again whether it may hand in.
@@ -286,7 +286,7 @@ fn a_run_outlives_the_database_and_the_files_of_its_service() {
     let guest = Guest::default();
 
     // Away for a moment while the run is prepared, and for longer than the lease while it is measured and handed in.
-    let run = guest.submit(&service, &spec(3.0));
+    let run = guest.submit(&service, &spec(1.5));
     postgres.stop();
     std::thread::sleep(Duration::from_secs(3));
     postgres.start_again();
@@ -303,7 +303,7 @@ fn a_run_outlives_the_database_and_the_files_of_its_service() {
     to_end("the database's return", &run);
 
     // The files away while it is measured and handed in.
-    let next = guest.submit(&service, &spec(3.0));
+    let next = guest.submit(&service, &spec(1.5));
     measures(&guest, &service, &next, &machine);
     files.kill_and_start_again();
     let next = to_end("the kill of the store of files", &next);
@@ -441,7 +441,7 @@ fn many_runs_are_shared_fairly_while_machines_are_killed() {
             machines[victim] = site.machine(["alpha", "beta"][victim]);
             killed += 1;
         }
-        std::thread::sleep(Duration::from_millis(50));
+        std::thread::sleep(Duration::from_millis(200));
         assert!(begun.elapsed() < Duration::from_secs(60 + 20 * runs as u64), "{} of {runs} runs", ended.len());
     }
     assert!(ended.len() == runs && killed * 10 >= kills * 9, "each once: {} of {runs}, {killed} kills", ended.len());

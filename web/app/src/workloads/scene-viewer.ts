@@ -24,7 +24,6 @@ export class SceneViewer extends Stage {
     if (!first) return
     // Drawn about the first object: the graphics card has single precision, and a scene may be far from the origin.
     const about = new Vector3().setFromMatrixPosition(new Matrix4().fromArray([...first.pose]).transpose())
-    const box = new Box3()
     for (const { surface, pose, tone } of objects) {
       if (!surface.getAttribute('normal')) surface.computeVertexNormals()
       const placed = new Matrix4().fromArray([...pose]).transpose().multiply(new Matrix4().makeTranslation(new Vector3(...originOf(surface))))
@@ -35,10 +34,9 @@ export class SceneViewer extends Stage {
       })
       const mesh = new Mesh(surface, material)
       this.place(mesh, placed, strong ? 1 : 2)
-      mesh.updateWorldMatrix(true, false)
-      box.expandByObject(mesh, true)
     }
-    this.rig.fit(box.getBoundingSphere(new Sphere()))
+    this.content.updateMatrixWorld(true)
+    this.rig.fit(new Box3().setFromObject(this.content, true).getBoundingSphere(new Sphere()))
     this.invalidate()
   }
 
