@@ -31,7 +31,7 @@ pub const KEPT_POINTS: usize = 200_000;
 impl Inner {
     /// One chart of a run, from memory when it was drawn lately.
     pub async fn chart(&self, run: &str, request: ChartRequest, viewer: Option<&str>) -> Result<Chart> {
-        let row = self.run_row(run).await?;
+        let row = self.store.run_row(run).await?;
         let runs = self.charted_runs(&row, request.kind, viewer).await?;
         let Some(key) = key(&request, &row, &runs) else { return self.draw(&row, &runs, request).await };
         if let Some(chart) = self.charts.get(&key) {

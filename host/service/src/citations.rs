@@ -14,7 +14,7 @@ impl Engine {
     /// the service as its author: who asked for it is nobody's business.
     #[boxed]
     pub async fn cite_run(&self, id: &str, origin: &str) -> Result<Citation> {
-        let row = self.inner.run_row(id).await?;
+        let row = self.inner.store.run_row(id).await?;
         if matches!(row.state, State::Queued | State::Running) {
             return Err(EngineError::Busy("This run has not ended; it can be cited when it has.".into()));
         }

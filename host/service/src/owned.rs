@@ -136,7 +136,7 @@ impl Engine {
 
 impl Inner {
     async fn own_run(&self, id: &str, owner: &str) -> Result<OwnedIds> {
-        let row = self.run_row(id).await?;
+        let row = self.store.run_row(id).await?;
         if row.owner.as_deref() != Some(owner) {
             return Err(EngineError::Forbidden("Only the owner of this run may delete it.".to_owned()));
         }

@@ -70,7 +70,7 @@ impl Inner {
         if request.measure == Measure::TriangleTests {
             return self.triangle_map(run, algorithm, request).await;
         }
-        let row = self.run_row(run).await?;
+        let row = self.store.run_row(run).await?;
         let set = self.set_so_far(&row).await?;
         let (mesh, map) = self.vertex_map(&row, &set, request.side).await?;
         let selection = request.selection.as_deref().map(selected::read).transpose()?;
@@ -110,7 +110,7 @@ impl Inner {
             let sentence = "Tests per triangle are counted over all configurations; leave out the selection.";
             return Err(EngineError::Invalid(sentence.into()));
         }
-        let row = self.run_row(run).await?;
+        let row = self.store.run_row(run).await?;
         let [a, b] = self.both_meshes(&row).await?;
         let (side, mesh) = if request.side == Side::A { (0, a) } else { (1, b) };
         let parquet = self.triangle_tests_parquet(run, algorithm).await?;
@@ -221,7 +221,7 @@ impl Inner {
     }
 
     async fn stored_result(&self, run: &str, algorithm: &str) -> Result<(StoredResult, String)> {
-        let row = self.run_row(run).await?;
+        let row = self.store.run_row(run).await?;
         let results = self.store.results(run).await?;
         let Some(stored) = results.into_iter().find(|r| r.result.algorithm == algorithm) else {
             let there_are = row.spec.algorithms.join(", ");
@@ -273,7 +273,7 @@ impl Inner {
 
     /// The run's set as it is stored.
     pub async fn configurations_parquet(&self, run: &str) -> Result<Vec<u8>> {
-        let row = self.run_row(run).await?;
+        let row = self.store.run_row(run).await?;
         self.blobs.get(&row.set_blob.ok_or_else(|| not_yet(run))?).await
     }
 
@@ -321,17 +321,6 @@ impl Inner {
         })
         .await
     }
-
-    /// The run, or that there is none.
-    pub async fn run_row(&self, run: &str) -> Result<RunRow> {
-        let row = self.store.run(run).await?;
-        row.ok_or_else(|| no_run(run))
-    }
-}
-
-/// There is no such run, or not for who asks: both sound alike.
-pub fn no_run(run: &str) -> EngineError {
-    EngineError::NotFound(format!("There is no run {run:?}; check the link."))
 }
 
 /// Which file.

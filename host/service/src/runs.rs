@@ -154,7 +154,7 @@ impl Engine {
     /// earlier, and the interval over processes needs processes that measured everything.
     #[boxed]
     pub async fn refine(&self, id: &str, caller: Option<&str>) -> Result<RunInfo> {
-        let row = self.inner.run_row(id).await?;
+        let row = self.inner.store.run_row(id).await?;
         if caller.is_none() || row.owner.as_deref() != caller {
             return Err(EngineError::Forbidden("Only the owner of this run may refine it.".into()));
         }
@@ -181,7 +181,7 @@ impl Engine {
     /// One run.
     #[boxed]
     pub async fn run(&self, id: &str, viewer: Option<&str>) -> Result<RunInfo> {
-        let row = self.inner.run_row(id).await?;
+        let row = self.inner.store.run_row(id).await?;
         self.info(row, viewer).await
     }
 
@@ -212,7 +212,7 @@ impl Engine {
     /// Ends a run that is queued or under way. A run that has ended stays as it is.
     #[boxed]
     pub async fn cancel(&self, id: &str, caller: Option<&str>) -> Result<RunInfo> {
-        let row = self.inner.run_row(id).await?;
+        let row = self.inner.store.run_row(id).await?;
         if caller.is_none() || row.owner.as_deref() != caller {
             return Err(EngineError::Forbidden("Only the owner of this run may cancel it.".into()));
         }
@@ -229,7 +229,7 @@ impl Engine {
         if curator.role < Role::Curator {
             return Err(EngineError::Forbidden("Only the owner of this run or a curator may cancel it.".into()));
         }
-        let row = self.inner.run_row(id).await?;
+        let row = self.inner.store.run_row(id).await?;
         self.end(&row, Some("Cancelled by a curator.")).await?;
         self.run(id, Some(&curator.owner())).await
     }
@@ -252,7 +252,7 @@ impl Engine {
                 self.inner.run_events.queue_moved();
                 break;
             }
-            let state = self.inner.run_row(id).await?.state;
+            let state = self.inner.store.run_row(id).await?.state;
             if !matches!(state, State::Queued | State::Running) || asked.elapsed() > CANCEL_PATIENCE {
                 break;
             }

@@ -9,8 +9,7 @@ use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::model::{ObjectInfo, Owner, RunInfo, Visibility};
 use crate::objects::unknown;
-use crate::results::no_run;
-use crate::runs::sql::RunRow;
+use crate::runs::sql::{RunRow, no_run};
 use crate::{EngineError, Result};
 
 impl Engine {
@@ -29,7 +28,7 @@ impl Engine {
     /// Decides who sees a run; only its owner may, and no more than see its objects.
     #[boxed]
     pub async fn change_run_visibility(&self, id: &str, to: Visibility, caller: &str) -> Result<RunInfo> {
-        let row = self.inner.run_row(id).await?;
+        let row = self.inner.store.run_row(id).await?;
         if row.owner.as_deref() != Some(caller) {
             return Err(EngineError::Forbidden("Only the owner of this run may change its visibility.".to_owned()));
         }

@@ -88,7 +88,7 @@ impl Inner {
             OwnedIds::default(),
         );
         for run in all.runs {
-            let row = self.run_row(&run.id).await?;
+            let row = self.store.run_row(&run.id).await?;
             let ended = !matches!(row.state, State::Queued | State::Running);
             let cited = ended && self.visibility_of(&row).await? == Visibility::Public;
             let side = if cited { &mut stays } else { &mut goes };

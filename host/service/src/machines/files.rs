@@ -15,7 +15,7 @@ impl Engine {
         let inner = &self.inner;
         let unknown = || EngineError::NotFound(format!("The work of this machine has no file {name:?}."));
         let (attempt, order) = inner.store.order_of(machine, attempt).await?.ok_or_else(unknown)?;
-        let row = inner.run_row(&attempt.job).await?;
+        let row = inner.store.run_row(&attempt.job).await?;
         match name {
             "a" | "b" => {
                 let id = if name == "a" { row.object_a() } else { row.object_b() };

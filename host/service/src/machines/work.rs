@@ -79,7 +79,7 @@ impl Engine {
             Ok(order) => Ok(order),
             // It cannot be measured as it was asked for.
             Err(e @ (EngineError::Invalid(_) | EngineError::NotFound(_))) => {
-                let row = self.inner.run_row(&attempt.job).await?;
+                let row = self.inner.store.run_row(&attempt.job).await?;
                 ended(&self.inner, attempt, &row, &Err(e), None, None).await?;
                 Ok(None)
             }
@@ -104,7 +104,7 @@ impl Engine {
     }
 
     async fn try_begin(&self, attempt: &Attempt) -> Result<Option<WorkOrder>> {
-        let row = self.inner.run_row(&attempt.job).await?;
+        let row = self.inner.store.run_row(&attempt.job).await?;
         let Some(order) = order(&self.inner, attempt, &row).await? else {
             self.inner.store.prepare_again(attempt).await?;
             self.inner.wake.notify_one();
@@ -149,7 +149,7 @@ impl Engine {
         if steps.is_empty() && self.inner.orders.heard(&attempt.id) {
             return Ok(true);
         }
-        let row = self.inner.run_row(&attempt.job).await?;
+        let row = self.inner.store.run_row(&attempt.job).await?;
         let inner = self.inner.clone();
         let telling = blocking(move || {
             let working = inner.working(&attempt, &row)?;
@@ -181,7 +181,7 @@ impl Engine {
             return Err(wrong("a preliminary one is of another algorithm or of other configurations"));
         }
         if !self.inner.orders.heard(&attempt.id) {
-            let row = self.inner.run_row(&attempt.job).await?;
+            let row = self.inner.store.run_row(&attempt.job).await?;
             let inner = self.inner.clone();
             let current = attempt.clone();
             blocking(move || inner.working(&current, &row).map(|_| ())).await?;
@@ -199,7 +199,7 @@ impl Engine {
     #[boxed]
     pub async fn hand_in(&self, machine: &str, attempt: &str, handing: Handing) -> Result<bool> {
         let Some((current, order)) = self.inner.store.order_of(machine, attempt).await? else { return Ok(false) };
-        let row = self.inner.run_row(&current.job).await?;
+        let row = self.inner.store.run_row(&current.job).await?;
         match self.take(machine, (&current, &order), &row, handing).await {
             // It was cancelled or deleted while it was taken.
             Err(EngineError::Busy(_) | EngineError::NotFound(_)) if !self.is_at_work(machine, attempt).await? => {

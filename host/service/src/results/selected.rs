@@ -55,7 +55,7 @@ impl Inner {
     /// All pairs of triangles that meet in one configuration of the run; of the objects with their coordinates `rounded` to single
     /// precision, or as they are.
     pub async fn meeting(&self, run: &str, configuration: u32, rounded: bool) -> Result<Meeting> {
-        let row = self.run_row(run).await?;
+        let row = self.store.run_row(run).await?;
         let set = self.set(row.set_blob.as_deref().ok_or_else(|| super::not_yet(run))?).await?;
         let Some(placed) = set.placed.get(configuration as usize).copied() else {
             let n = set.placed.len();

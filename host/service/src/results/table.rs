@@ -21,7 +21,7 @@ impl Inner {
         selection: Option<&Selection>,
         all: bool,
     ) -> Result<RecordTable> {
-        let row = self.run_row(run).await?;
+        let row = self.store.run_row(run).await?;
         let set = self.set(row.set_blob.as_deref().ok_or_else(|| not_yet(run))?).await?;
         let table = self.table_so_far(&row, set, looked_at, selection, all).await?;
         if table.preliminary { Err(still_measured()) } else { Ok(table) }

@@ -33,7 +33,7 @@ pub async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, idle: Option<u64>)
         stop.stop();
     }
     inner.run_events.queue_moved();
-    let row = inner.run_row(id).await?;
+    let row = inner.store.run_row(id).await?;
     let shown = inner.show(&row);
     let how = match run_in_time(inner, attempt, &row, &stop).await {
         // Whoever stopped it need not wait for another attempt.

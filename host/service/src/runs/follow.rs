@@ -23,7 +23,7 @@ impl Engine {
     /// The run's events behind `after_seq` (0: all), oldest first.
     #[boxed]
     pub async fn events(&self, id: &str, after_seq: i64) -> Result<Vec<RunEvent>> {
-        self.inner.run_row(id).await?;
+        self.inner.store.run_row(id).await?;
         self.inner.store.events(id, after_seq).await
     }
 
@@ -35,7 +35,7 @@ impl Engine {
     ) -> Result<impl Stream<Item = Result<RunEvent>> + Send + 'static + use<>> {
         // Listen first, read then: what happens in between is heard.
         let changes = self.inner.run_events.listen();
-        let row = self.inner.run_row(id).await?;
+        let row = self.inner.store.run_row(id).await?;
         let follower = Follower {
             engine: self.clone(),
             id: id.to_owned(),

@@ -92,7 +92,7 @@ fn end_stage(log: &mut RunLog, stage: usize, result: &AlgorithmResult) -> Result
 
 fn heatmaps(inner: &Inner, log: &mut RunLog, row: &RunRow, handed: &Handed) -> Result<()> {
     let stage = FIRST_MEASURING + row.spec.algorithms.len();
-    let row = log.wait(inner.run_row(&row.id))?;
+    let row = log.wait(inner.store.run_row(&row.id))?;
     let records: Vec<&String> = handed.results.iter().filter_map(|(_, stored)| stored.records.as_ref()).collect();
     let total = records.len() as u64;
     log.start(stage, total)?;

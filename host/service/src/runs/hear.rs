@@ -105,7 +105,7 @@ async fn show(inner: &Inner, elsewhere: &mut HashMap<String, Shown>, told: &str)
     let Some(Seen { place, preliminary }) = inner.store.seen(run, place, attempt).await? else { return Ok(()) };
     // The machine may have been heard from here before.
     if !inner.orders.heard(attempt) {
-        let row = inner.run_row(run).await?;
+        let row = inner.store.run_row(run).await?;
         elsewhere.retain(|_, shown| shown.is_heard());
         elsewhere.entry(attempt.to_owned()).or_insert_with(|| inner.show(&row)).heard(SHOWN);
     }

@@ -33,7 +33,7 @@ impl Engine {
     }
 
     async fn repro_of(&self, run: &str) -> Result<File> {
-        let row = self.inner.run_row(run).await?;
+        let row = self.inner.store.run_row(run).await?;
         if matches!(row.state, State::Queued | State::Running) {
             return Err(EngineError::Busy("This run has not ended; it can be exported when it has.".into()));
         }

@@ -202,6 +202,11 @@ impl Store {
         find_run(&self.pool, id).await
     }
 
+    /// The run, or that there is none.
+    pub async fn run_row(&self, id: &str) -> Result<RunRow> {
+        self.run(id).await?.ok_or_else(|| no_run(id))
+    }
+
     /// The owner's runs from this place on, newest first, at most `limit`.
     pub async fn runs_of(&self, owner: &str, from: &Cursor, limit: usize) -> Result<Vec<RunRow>> {
         let rows = sqlx::query(select_runs!(
@@ -318,6 +323,11 @@ pub(crate) fn read_run(row: &AnyRow) -> Result<RunRow> {
         created_us: row.try_get("created_us")?,
         finished_us: row.try_get("finished_us")?,
     })
+}
+
+/// There is no such run, or not for who asks: both sound alike.
+pub fn no_run(run: &str) -> EngineError {
+    EngineError::NotFound(format!("There is no run {run:?}; check the link."))
 }
 
 pub(crate) fn state_name(state: State) -> &'static str {

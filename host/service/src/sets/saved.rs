@@ -38,7 +38,7 @@ impl Engine {
     /// Saves the configurations that a run was measured on.
     #[boxed]
     pub async fn save_configurations_of(&self, run: &str, owner: &str) -> Result<SavedConfigurations> {
-        let row = self.inner.run_row(run).await?;
+        let row = self.inner.store.run_row(run).await?;
         // What the run was measured on may go with its last run, but not while it is saved here.
         let _keeping = self.inner.store.locks.keeping().await?;
         let blob = row.set_blob.clone().ok_or_else(|| not_yet(run))?;

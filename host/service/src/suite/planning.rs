@@ -114,7 +114,7 @@ impl Engine {
     #[boxed]
     pub async fn end_suite_runs(&self, runs: &[RunInfo]) -> Result<()> {
         for run in runs {
-            let row = self.inner.run_row(&run.id).await?;
+            let row = self.inner.store.run_row(&run.id).await?;
             if row.suite.is_some() {
                 self.end(&row, None).await?;
             }
