@@ -3,12 +3,12 @@
 use crate::blocking::blocking;
 use crate::boxed;
 use crate::configurations::{ConfigurationFile, read_file, read_text};
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::model::{Cursor, OwnedItem, OwnedItems, Page, Part, SavedConfigurations};
 use crate::objects::clean_name;
 use crate::owned::sql::OwnedIds;
 use crate::results::not_yet;
-use crate::store::now_us;
+use crate::store::{Store, now_us};
 use crate::{EngineError, Result};
 
 /// Most bytes of a file of configurations that is sent: 250,000 pairs of matrices as text.
@@ -32,7 +32,7 @@ impl Engine {
         let _keeping = self.inner.store.locks.keeping().await?;
         let blob = self.inner.blobs.put(bytes).await?;
         self.inner.store.add_blob(&blob, length, "application/octet-stream").await?;
-        self.inner.keep_saved(&clean_name(name, "configurations"), blob, &file, owner).await
+        self.inner.store.keep_saved(&clean_name(name, "configurations"), blob, &file, owner).await
     }
 
     /// Saves the configurations that a run was measured on.
@@ -46,7 +46,7 @@ impl Engine {
         self.has_room_for_a_file(Some(owner), bytes.len()).await?;
         let file = blocking(move || Ok(read_file(&bytes)?)).await?;
         let name = format!("{} x {}", row.object_a_name, row.object_b_name);
-        self.inner.keep_saved(&name, blob, &file, owner).await
+        self.inner.store.keep_saved(&name, blob, &file, owner).await
     }
 
     /// This owner's, newest first.
@@ -60,7 +60,7 @@ impl Engine {
     /// The file, as it came, and what it is.
     #[boxed]
     pub async fn saved_file(&self, id: &str, owner: &str) -> Result<(SavedConfigurations, Vec<u8>)> {
-        let saved = self.inner.own_saved(id, owner).await?;
+        let saved = self.inner.store.own_saved(id, owner).await?;
         let bytes = self.inner.blobs.get(&saved.sha256).await?;
         Ok((saved, bytes))
     }
@@ -68,14 +68,14 @@ impl Engine {
     /// What goes with them: they alone.
     #[boxed]
     pub async fn deletion_preview_of_saved(&self, id: &str, owner: &str) -> Result<OwnedItems> {
-        let saved = self.inner.own_saved(id, owner).await?;
+        let saved = self.inner.store.own_saved(id, owner).await?;
         self.inner.told(owner, alone(saved)).await
     }
 
     /// Takes them away; runs that were measured on them keep the file.
     #[boxed]
     pub async fn remove_saved(&self, id: &str, owner: &str) -> Result<OwnedItems> {
-        let saved = self.inner.own_saved(id, owner).await?;
+        let saved = self.inner.store.own_saved(id, owner).await?;
         self.remove(owner, alone(saved)).await
     }
 
@@ -83,7 +83,7 @@ impl Engine {
     /// `NotFound` when they are not this viewer's.
     #[boxed]
     pub async fn saved_are_for(&self, id: &str, viewer: Option<&str>) -> Result<()> {
-        self.inner.own_saved(id, viewer.unwrap_or_default()).await.map(drop)
+        self.inner.store.own_saved(id, viewer.unwrap_or_default()).await.map(drop)
     }
 }
 
@@ -92,10 +92,10 @@ fn alone(saved: SavedConfigurations) -> OwnedIds {
     OwnedIds { configurations, ..OwnedIds::default() }
 }
 
-impl Inner {
+impl Store {
     async fn own_saved(&self, id: &str, owner: &str) -> Result<SavedConfigurations> {
         let missing = || EngineError::NotFound(format!("You have no saved configurations {id:?}."));
-        self.store.saved(id, owner).await?.ok_or_else(missing)
+        self.saved(id, owner).await?.ok_or_else(missing)
     }
 
     /// Adds the row, while `Blobs::keeping` is held.
@@ -106,7 +106,7 @@ impl Inner {
         file: &ConfigurationFile,
         owner: &str,
     ) -> Result<SavedConfigurations> {
-        if let Some(known) = self.store.saved_from(&blob, owner).await? {
+        if let Some(known) = self.saved_from(&blob, owner).await? {
             return Ok(known);
         }
         let saved = SavedConfigurations {
@@ -117,7 +117,7 @@ impl Inner {
             straightened: file.straightened as u32,
             created_us: now_us(),
         };
-        self.store.add_saved(&saved, owner).await?;
+        self.add_saved(&saved, owner).await?;
         Ok(saved)
     }
 }
