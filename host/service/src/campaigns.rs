@@ -16,6 +16,7 @@ use std::time::Duration;
 use crate::accounts::{NAME_OF_OPERATOR, said};
 use crate::audit::Note;
 use crate::boxed;
+use crate::campaigns::compare::side_by_side;
 use crate::campaigns::sql::CampaignRow;
 use crate::engine::{Engine, Inner};
 use crate::locks::Lock;
@@ -136,8 +137,9 @@ impl Engine {
     pub async fn campaign(&self, id: &str, viewer: Option<&str>) -> Result<CampaignInfo> {
         // The state before the results: where it is the end, they are all of them.
         let info = self.inner.campaign_info(self.inner.campaign_row(id).await?).await?;
-        let runs = self.inner.store.campaign_runs(id).await?;
-        Ok(CampaignInfo { results: self.inner.compared(&runs, viewer).await?, ..info })
+        let Inner { store, objects, .. } = &*self.inner;
+        let results = side_by_side(store, objects, &store.campaign_runs(id).await?, viewer).await?;
+        Ok(CampaignInfo { results, ..info })
     }
 
     /// Ends what waits of a campaign; the run at work comes to its end. One that has ended stays as it is.

@@ -193,7 +193,7 @@ impl Engine {
         let part = Part::of(rows, limit, |row: &RunRow| Cursor::behind(row.created_us, &row.id));
         let mut entries = Vec::new();
         for row in part.entries {
-            if self.inner.may_see(&row, Some(owner)).await? {
+            if self.inner.objects.may_see(&row, Some(owner)).await? {
                 entries.push(self.info(row, Some(owner)).await?);
             }
         }
@@ -288,7 +288,7 @@ impl Engine {
             stages,
             results,
             mine: viewer.is_some() && row.owner.as_deref() == viewer,
-            visibility: self.inner.visibility_of(&row).await?,
+            visibility: self.inner.objects.visibility_of(&row).await?,
             runs_ahead,
             id: row.id,
             object_a_name: row.object_a_name,

@@ -6,9 +6,9 @@
 pub mod sql;
 
 use crate::boxed;
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::model::{ObjectInfo, Owner, RunInfo, Visibility};
-use crate::objects::unknown;
+use crate::objects::{Objects, unknown};
 use crate::runs::sql::{RunRow, no_run};
 use crate::{EngineError, Result};
 
@@ -63,7 +63,7 @@ impl Engine {
     #[boxed]
     pub async fn run_is_for(&self, id: &str, viewer: Option<&str>) -> Result<()> {
         match self.inner.store.run(id).await? {
-            Some(row) if !self.inner.may_see(&row, viewer).await? => Err(no_run(id)),
+            Some(row) if !self.inner.objects.may_see(&row, viewer).await? => Err(no_run(id)),
             _ => Ok(()),
         }
     }
@@ -83,12 +83,12 @@ impl Engine {
     }
 }
 
-impl Inner {
+impl Objects {
     /// Who sees the run besides its owner: what that decided, and no more than see its objects.
     #[boxed]
     pub async fn visibility_of(&self, row: &RunRow) -> Result<Visibility> {
         let decided = if row.private { Visibility::Private } else { row.visibility };
-        let (a, b) = (self.objects.visibility(row.object_a()).await?, self.objects.visibility(row.object_b()).await?);
+        let (a, b) = (self.visibility(row.object_a()).await?, self.visibility(row.object_b()).await?);
         Ok(decided.min(a).min(b))
     }
 
@@ -96,7 +96,7 @@ impl Inner {
     #[boxed]
     pub async fn may_see(&self, row: &RunRow, viewer: Option<&str>) -> Result<bool> {
         for object in [row.object_a(), row.object_b()] {
-            if !self.objects.is_for(object, viewer).await? {
+            if !self.is_for(object, viewer).await? {
                 return Ok(false);
             }
         }

@@ -90,7 +90,7 @@ impl Inner {
         for run in all.runs {
             let row = self.store.run_row(&run.id).await?;
             let ended = !matches!(row.state, State::Queued | State::Running);
-            let cited = ended && self.visibility_of(&row).await? == Visibility::Public;
+            let cited = ended && self.objects.visibility_of(&row).await? == Visibility::Public;
             let side = if cited { &mut stays } else { &mut goes };
             side.runs.push(run);
         }

@@ -15,7 +15,7 @@ impl Engine {
     #[boxed]
     pub async fn board(&self, request: &BoardRequest, viewer: Option<&str>) -> Result<Board> {
         let suites = self.inner.store.suites().await?;
-        let standings = self.inner.standings().await?;
+        let standings = self.inner.store.standings().await?;
         let mut measured = Vec::new();
         for row in self.inner.visible_runs(viewer).await? {
             let suite = row.suite.as_ref().and_then(|sha256| suites.iter().find(|suite| suite.sha256 == *sha256));
@@ -44,7 +44,9 @@ impl Inner {
         let mut visible = Vec::new();
         for row in self.store.finished_runs(viewer, MOST_RUNS).await? {
             let own = viewer.is_some() && row.owner.as_deref() == viewer;
-            if self.may_see(&row, viewer).await? && (own || self.visibility_of(&row).await? == Visibility::Public) {
+            if self.objects.may_see(&row, viewer).await?
+                && (own || self.objects.visibility_of(&row).await? == Visibility::Public)
+            {
                 visible.push(row);
             }
         }

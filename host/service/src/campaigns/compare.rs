@@ -2,38 +2,42 @@
 
 use crate::Result;
 use crate::board;
-use crate::engine::Inner;
 use crate::model::{AlgorithmResult, Compared, ComparedResult, Estimated};
+use crate::objects::Objects;
 use crate::results::sql::StoredResult;
 use crate::runs::sql::RunRow;
+use crate::store::Store;
 
-impl Inner {
-    /// Each algorithm of each of these runs, as far as the viewer may see the run, with what was measured before.
-    pub(crate) async fn compared(&self, runs: &[RunRow], viewer: Option<&str>) -> Result<Vec<Compared>> {
-        let mut all = Vec::new();
-        for row in runs {
-            if !self.may_see(row, viewer).await? {
-                continue;
-            }
-            let before = self.run_before(row, viewer).await?;
-            let new = self.store.results(&row.id).await?;
-            let old = match &before {
-                Some(before) => self.store.results(&before.id).await?,
-                None => Vec::new(),
-            };
-            for algorithm in &row.spec.algorithms {
-                all.push(compared(row, before.as_ref(), algorithm, &old, &new));
-            }
+/// Each algorithm of each of these runs, as far as the viewer may see the run, with what was measured before.
+pub async fn side_by_side(
+    store: &Store,
+    objects: &Objects,
+    runs: &[RunRow],
+    viewer: Option<&str>,
+) -> Result<Vec<Compared>> {
+    let mut all = Vec::new();
+    for row in runs {
+        if !objects.may_see(row, viewer).await? {
+            continue;
         }
-        Ok(all)
+        let before = run_before(store, objects, row, viewer).await?;
+        let new = store.results(&row.id).await?;
+        let old = match &before {
+            Some(before) => store.results(&before.id).await?,
+            None => Vec::new(),
+        };
+        for algorithm in &row.spec.algorithms {
+            all.push(compared(row, before.as_ref(), algorithm, &old, &new));
+        }
     }
+    Ok(all)
+}
 
-    /// The run that this one repeats, when it is there for the viewer.
-    async fn run_before(&self, row: &RunRow, viewer: Option<&str>) -> Result<Option<RunRow>> {
-        let Some(id) = &row.rerun_of else { return Ok(None) };
-        let Some(before) = self.store.run(id).await? else { return Ok(None) };
-        Ok(if self.may_see(&before, viewer).await? { Some(before) } else { None })
-    }
+/// The run that this one repeats, when it is there for the viewer.
+async fn run_before(store: &Store, objects: &Objects, row: &RunRow, viewer: Option<&str>) -> Result<Option<RunRow>> {
+    let Some(id) = &row.rerun_of else { return Ok(None) };
+    let Some(before) = store.run(id).await? else { return Ok(None) };
+    Ok(if objects.may_see(&before, viewer).await? { Some(before) } else { None })
 }
 
 fn compared(

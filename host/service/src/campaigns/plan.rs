@@ -106,7 +106,7 @@ impl Inner {
         let mut due = Vec::new();
         let stored = self.store.runs_of_the_agreeing().await?;
         for newest in newest_of_families(&stored, own, |row| self.is_of_now(row, class)) {
-            if self.visibility_of(newest).await? != Visibility::Public {
+            if self.objects.visibility_of(newest).await? != Visibility::Public {
                 continue;
             }
             let mut spec = RunSpec { hardware_class: self.named(class), ..newest.spec.clone() };

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use crate::Result;
 use crate::board::Measured;
-use crate::engine::Inner;
 use crate::model::PluginState;
 use crate::plugins::sql::PluginRow;
+use crate::store::Store;
 
 /// Where a plugin file stands that has left the public benchmark.
 pub struct Standing {
@@ -31,10 +31,10 @@ impl Standing {
     }
 }
 
-impl Inner {
+impl Store {
     /// By the hash of the file; a file that somebody else has made public stands as that.
     pub(crate) async fn standings(&self) -> Result<HashMap<String, Standing>> {
-        let rows = self.store.plugins().await?;
+        let rows = self.plugins().await?;
         let public = |blob: &str| rows.iter().any(|row| row.blob == blob && row.state == PluginState::Public);
         let left = rows.iter().filter(|row| row.state.is_shown() && !public(&row.blob));
         let standing = |row: &PluginRow| Standing {
