@@ -44,7 +44,7 @@ impl Engine {
     #[boxed]
     pub async fn preview_campaign(&self, suite: bool, people: bool, class: Option<&str>) -> Result<CampaignPreview> {
         let inner = &self.inner;
-        let class = inner.measures_on(class)?;
+        let class = inner.classes.measures_on(class)?;
         let due = inner.due(suite, people, &class, &[]).await?;
         let of_suite = || due.iter().filter(|due| due.of_suite);
         Ok(CampaignPreview {
@@ -74,7 +74,7 @@ impl Engine {
                 "A campaign measures the suite, user runs, or both; choose at least one.".into(),
             ));
         }
-        let class = inner.measures_on(asked.hardware_class.as_deref())?;
+        let class = inner.classes.measures_on(asked.hardware_class.as_deref())?;
         let owner = by.map_or_else(|| NAME_OF_OPERATOR.to_owned(), AccountInfo::owner);
         let id = self.id_of_request(&owner, Made::Campaign, key, &asked).await?;
         let viewer = by.map(AccountInfo::owner);
@@ -250,7 +250,7 @@ impl Engine {
 impl Inner {
     /// For a class on which runs are measured here, this oracle and this suite.
     fn is_for_now(&self, row: &CampaignRow) -> bool {
-        self.hardware_classes().contains(&row.hardware_class)
+        self.classes.names().contains(&row.hardware_class)
             && row.oracle == ocb_core::oracle::VERSION
             && row.suite == self.suite.sha256
     }

@@ -15,7 +15,7 @@ use crate::advice::work::Advices;
 use crate::attempts::worker::{Holding, Worker};
 use crate::blobs::Blobs;
 use crate::cache::Cache;
-use crate::classes::known::Classes;
+use crate::classes::Classes;
 use crate::columns::RecordColumns;
 use crate::house::House;
 use crate::machine::Machine;

@@ -64,7 +64,7 @@ impl Filling {
             return Ok(true);
         }
         // Enough for every machine until the next look.
-        if inner.config.elsewhere && inner.store.idle_runs().await? >= 2 * inner.measuring_machines() {
+        if inner.config.elsewhere && inner.store.idle_runs().await? >= 2 * inner.classes.machines() {
             return Ok(false);
         }
         if !inner.house.is_here() || self.next.is_some_and(|next| Instant::now() < next) {
@@ -90,7 +90,7 @@ async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
     }
     if let Some(spec) = inner.next_of_the_suite(&tried).await? {
         inner.keep_suite().await?;
-        let what = inner.of_the_suite(&spec, &inner.waiting_for(&spec).class)?;
+        let what = inner.of_the_suite(&spec, &inner.classes.waiting_for(&spec).class)?;
         let algorithms = inner.public().into_iter().filter(|algorithm| spec.algorithms.contains(&algorithm.id));
         let tried: Vec<Tried> = algorithms.map(|algorithm| Tried::of(&what, &algorithm)).collect();
         queue_run(inner, spec, &tried, Some(&inner.suite.sha256)).await?;
@@ -163,7 +163,7 @@ impl Inner {
 
     async fn next_of_the_suite(&self, tried: &TriedSet) -> Result<Option<RunSpec>> {
         let public = self.public();
-        for class in self.hardware_classes() {
+        for class in self.classes.names() {
             let known = self.known(&class).await?;
             for spec in self.suite.scenarios() {
                 let what = self.of_the_suite(&spec, &class)?;
@@ -174,7 +174,7 @@ impl Inner {
                 });
                 let algorithms: Vec<String> = missing.take(AT_ONCE).map(|algorithm| algorithm.id.clone()).collect();
                 if !algorithms.is_empty() {
-                    return Ok(Some(RunSpec { algorithms, hardware_class: self.named(&class), ..spec }));
+                    return Ok(Some(RunSpec { algorithms, hardware_class: self.classes.named(&class), ..spec }));
                 }
             }
         }

@@ -48,7 +48,7 @@ impl Engine {
     #[boxed]
     pub async fn machines(&self) -> Result<Vec<MachineInfo>> {
         let mut all = self.inner.store.machines().await?;
-        for class in self.inner.hardware_classes() {
+        for class in self.inner.classes.names() {
             let readings = self.inner.store.readings(&class).await?;
             let of_class = |it: &&mut MachineInfo| it.facts.as_ref().is_some_and(|facts| facts.hardware_class == class);
             all.iter_mut().filter(of_class).for_each(|machine| machine.drift = drift(&readings, &machine.name));
@@ -113,7 +113,7 @@ impl Engine {
             return Err(differs(&format!("its plugin of {} is missing or another file", missing.id)));
         }
         match self.inner.store.machine_was_seen(machine, facts).await? {
-            None => self.inner.learn_classes().await,
+            None => self.inner.classes.learn_from(&self.inner.store).await,
             Some(what) => Err(EngineError::Busy(format!(
                 "The {what} of {machine} has changed since it was allowed to measure; if that is right, allow it again with `ocb admin \
                  machine {machine}`."

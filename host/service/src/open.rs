@@ -11,7 +11,7 @@ use crate::attempts::{beat, lost};
 use crate::blobs::Blobs;
 use crate::boxed;
 use crate::cache::Cache;
-use crate::classes::known::Classes;
+use crate::classes::Classes;
 use crate::engine::{Engine, Inner};
 use crate::house::House;
 use crate::machine::{Machine, lock_data_folder};
@@ -47,7 +47,7 @@ impl Engine {
             worker: Worker::of(&lock, &machine.hardware_class)?,
             holding: Arc::default(),
             objects: Objects::new(store.clone(), blobs.clone(), config.stock_dir.clone()),
-            classes: Classes::of(&machine.hardware_class, &machine.cpu),
+            classes: Classes::of(&machine.hardware_class, &machine.cpu, config.elsewhere),
             machine,
             run_events: RunEvents::new(),
             under_way: Arc::default(),
@@ -77,7 +77,7 @@ impl Engine {
         });
         let engine = Self { inner };
         engine.inner.renew_plugins().await?;
-        engine.inner.learn_classes().await?;
+        engine.inner.classes.learn_from(&engine.inner.store).await?;
         if engine.inner.config.dispatch {
             engine.inner.store.believe_machines().await?;
             lost::take_back(&engine.inner, Some(&engine.inner.worker)).await?;
@@ -131,8 +131,8 @@ impl Engine {
         let now = now_us();
         Ok(Status {
             version: env!("CARGO_PKG_VERSION").into(),
-            hardware_class: self.inner.hardware_class(),
-            classes: self.inner.class_status().await?,
+            hardware_class: self.inner.classes.usual(),
+            classes: self.inner.classes.status(store).await?,
             running: store.running_in_all().await?,
             queued,
             oldest_seconds: store.oldest_seconds().await?,

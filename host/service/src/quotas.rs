@@ -5,7 +5,8 @@
 
 use std::time::Duration;
 
-use crate::engine::{Engine, Inner};
+use crate::config::Ceilings;
+use crate::engine::Engine;
 use crate::model::{Owner, RunSpec, WorkloadSpec};
 use crate::runs::queue::Granted;
 use crate::runs::sql::RunRow;
@@ -67,34 +68,33 @@ impl Kind {
     }
 }
 
-impl Inner {
-    fn ceiling(&self, kind: Kind) -> f64 {
-        let ceilings = &self.config.ceilings;
+impl Ceilings {
+    fn of(&self, kind: Kind) -> f64 {
         let ceiling = match kind {
-            Kind::Guest => ceilings.guest,
-            Kind::Account => ceilings.account,
-            Kind::Address => ceilings.address,
+            Kind::Guest => self.guest,
+            Kind::Account => self.account,
+            Kind::Address => self.address,
         };
         ceiling.as_secs_f64()
     }
 
     /// The time limit of a run, if it has one.
-    pub fn longest_run(&self, row: &RunRow) -> Option<Duration> {
+    pub(crate) fn longest_run(&self, row: &RunRow) -> Option<Duration> {
         self.longest_of(row.owner.as_deref()).filter(|_| row.campaign.is_none())
     }
 
     /// The time limit of a run, stability run or replay of this owner, if there is one.
-    pub fn longest_of(&self, owner: Option<&str>) -> Option<Duration> {
-        (owner.and_then(kind) == Some(Kind::Guest)).then_some(self.config.ceilings.guest_run)
+    pub(crate) fn longest_of(&self, owner: Option<&str>) -> Option<Duration> {
+        (owner.and_then(kind) == Some(Kind::Guest)).then_some(self.guest_run)
     }
 
     /// # Errors
     /// `Invalid` when the run exceeds the time limit of a guest's run, or the ceiling of its owner even alone.
-    pub fn may_be_asked_for(&self, owner: &str, spec: &RunSpec, expected_seconds: f64) -> Result<()> {
+    pub(crate) fn may_be_asked_for(&self, owner: &str, spec: &RunSpec, expected_seconds: f64) -> Result<()> {
         let Some(kind) = kind(owner) else { return Ok(()) };
-        let (asks, ceiling) = (granted(spec), self.ceiling(kind));
+        let (asks, ceiling) = (granted(spec), self.of(kind));
         if kind == Kind::Guest {
-            can_be_run(spec, expected_seconds, self.config.ceilings.guest_run)?;
+            can_be_run(spec, expected_seconds, self.guest_run)?;
         }
         if asks <= ceiling {
             return Ok(());
@@ -106,17 +106,15 @@ impl Inner {
             time(ceiling)
         )))
     }
-}
 
-impl Inner {
     /// # Errors
     /// `Invalid` when a replay may measure longer than a guest's run may take, or its owner may in all.
-    pub fn replay_may_take(&self, owner: &str, spec: &WorkloadSpec, algorithms: usize) -> Result<()> {
+    pub(crate) fn replay_may_take(&self, owner: &str, spec: &WorkloadSpec, algorithms: usize) -> Result<()> {
         let Some(kind) = kind(owner) else { return Ok(()) };
         let turns = (algorithms * spec.turns()) as f64;
         let limit = match kind {
-            Kind::Guest => self.config.ceilings.guest_run.as_secs_f64(),
-            Kind::Account | Kind::Address => self.ceiling(kind),
+            Kind::Guest => self.guest_run.as_secs_f64(),
+            Kind::Account | Kind::Address => self.of(kind),
         };
         if spec.budget_seconds * turns <= limit {
             return Ok(());
@@ -143,12 +141,13 @@ impl Engine {
         let Some((owner, kind)) = row.owner.as_deref().and_then(|owner| Some((owner, kind(owner)?))) else {
             return Ok(());
         };
-        self.inner.may_be_asked_for(owner, &row.spec, row.expected_seconds)?;
+        let ceilings = &self.inner.config.ceilings;
+        ceilings.may_be_asked_for(owner, &row.spec, row.expected_seconds)?;
         let own = self.inner.store.granted_to(owner).await?;
-        room(kind, own, row, self.inner.ceiling(kind))?;
+        room(kind, own, row, ceilings.of(kind))?;
         if let Some(address) = &row.address {
             let all = self.inner.store.granted_at(address).await?;
-            room(Kind::Address, all, row, self.inner.ceiling(Kind::Address))?;
+            room(Kind::Address, all, row, ceilings.of(Kind::Address))?;
         }
         Ok(())
     }

@@ -268,7 +268,7 @@ impl Engine {
     async fn info(&self, row: RunRow, viewer: Option<&str>) -> Result<RunInfo> {
         let store = &self.inner.store;
         let runs_ahead = match row.state {
-            State::Queued => store.runs_before(&row.id, &self.inner.waiting_for(&row.spec)).await?.unwrap_or(0),
+            State::Queued => store.runs_before(&row.id, &self.inner.classes.waiting_for(&row.spec)).await?.unwrap_or(0),
             _ => 0,
         };
         let mut stages = store.stages(&row.id).await?;

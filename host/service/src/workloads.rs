@@ -94,7 +94,7 @@ impl Engine {
         if replayed {
             spec.check().map_err(EngineError::Invalid)?;
             let algorithms = inner.algorithms_for(read, &spec.algorithms, Some(owner))?;
-            inner.replay_may_take(owner, &spec, algorithms.len())?;
+            inner.config.ceilings.replay_may_take(owner, &spec, algorithms.len())?;
         }
         let id = self.id_of_request(owner, Made::Workload, key, &(&recording, &spec)).await?;
         // Two concurrent requests must not share the last of a quota.

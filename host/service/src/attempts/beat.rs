@@ -25,9 +25,7 @@ pub async fn beat(inner: Arc<Inner>) {
                 Err(e) => tracing::warn!("the lease of the attempt {attempt} was not renewed: {e}"),
             }
         }
-        if inner.config.elsewhere
-            && let Err(e) = inner.learn_classes().await
-        {
+        if let Err(e) = inner.classes.learn_from(&inner.store).await {
             tracing::warn!("the hardware classes of the measuring machines are not known: {e}");
         }
         if inner.house.is_here()

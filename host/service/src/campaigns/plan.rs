@@ -94,7 +94,7 @@ impl Inner {
                 }
             }
             due.extend(groups.into_iter().map(|(old, algorithms)| Due {
-                spec: RunSpec { algorithms, hardware_class: self.named(class), ..spec.clone() },
+                spec: RunSpec { algorithms, hardware_class: self.classes.named(class), ..spec.clone() },
                 repeats: old.cloned(),
                 of_suite: true,
             }));
@@ -109,7 +109,7 @@ impl Inner {
             if self.objects.visibility_of(newest).await? != Visibility::Public {
                 continue;
             }
-            let mut spec = RunSpec { hardware_class: self.named(class), ..newest.spec.clone() };
+            let mut spec = RunSpec { hardware_class: self.classes.named(class), ..newest.spec.clone() };
             // Of what was withdrawn since, nothing is measured.
             spec.algorithms.retain(|name| self.registry.choose(name, None).is_ok_and(|found| found.is_some()));
             if !spec.algorithms.is_empty() {

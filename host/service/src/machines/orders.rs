@@ -30,7 +30,7 @@ pub async fn order(inner: &Inner, attempt: &Attempt, row: &RunRow) -> Result<Opt
         None => None,
     };
     // What preparing took is a part of its time.
-    let most_seconds = match inner.longest_run(row) {
+    let most_seconds = match inner.config.ceilings.longest_run(row) {
         Some(longest) => Some((longest.as_secs_f64() - inner.store.prepared_in_seconds(&row.id).await?).max(0.0)),
         None => None,
     };

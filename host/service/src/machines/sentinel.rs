@@ -70,7 +70,7 @@ impl Engine {
             Sentinel::Measured { median_ns } => {
                 let machines = store.machines().await?;
                 let facts = machines.iter().find(|it| it.name == machine).and_then(|it| it.facts.as_ref());
-                let class = facts.map_or_else(|| self.inner.hardware_class(), |facts| facts.hardware_class.clone());
+                let class = facts.map_or_else(|| self.inner.classes.usual(), |facts| facts.hardware_class.clone());
                 let reading = Reading { machine: machine.to_owned(), at_us: now_us(), median_ns, off: false };
                 let mut readings = store.readings(&class).await?;
                 readings.insert(0, reading.clone());

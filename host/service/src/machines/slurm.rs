@@ -51,7 +51,7 @@ impl Engine {
 
     /// One partition that cannot be had keeps no other from its jobs.
     async fn supplied(&self, partitions: &[(String, Slurm)]) -> Result<()> {
-        let (machines, usual) = (self.inner.store.machines().await?, self.inner.hardware_class());
+        let (machines, usual) = (self.inner.store.machines().await?, self.inner.classes.usual());
         let mut all = Ok(());
         for (partition, slurm) in partitions {
             let class = class_of(&machines, partition).unwrap_or_else(|| usual.clone());

@@ -60,7 +60,7 @@ impl Engine {
         let (asked, worker) = (Instant::now(), worker(machine, &facts.hardware_class));
         while !self.inner.closing() {
             let prepared = self.inner.orders.prepared.notified();
-            if let Some(attempt) = self.inner.store.begin_prepared_run(&worker, &self.inner.hardware_class()).await? {
+            if let Some(attempt) = self.inner.store.begin_prepared_run(&worker, &self.inner.classes.usual()).await? {
                 match self.begun(machine, &attempt).await? {
                     Some(order) => return Ok(NextWork::Run(Box::new(order))),
                     None => continue,
@@ -142,7 +142,7 @@ impl Engine {
         if !self.inner.store.beat(&attempt.id).await? {
             return Ok(false);
         }
-        if self.inner.store.gives_way(&attempt.job, &self.inner.hardware_class()).await? {
+        if self.inner.store.gives_way(&attempt.job, &self.inner.classes.usual()).await? {
             self.inner.put_back_runs_of(machine).await?;
             return Ok(false);
         }
@@ -250,7 +250,7 @@ impl Engine {
                     working.log.lock().unwrap_or_else(PoisonError::into_inner).end_open(State::Cancelled, None)
                 });
                 closing.await?;
-                let reason = inner.longest_run(row).map(too_long);
+                let reason = inner.config.ceilings.longest_run(row).map(too_long);
                 ended(inner, attempt, row, &Ok(End::Stopped), reason.as_deref(), None).await
             }
             Ended::PutBack => inner.store.put_back_run(attempt).await,

@@ -107,7 +107,7 @@ async fn run_in_time(inner: &Arc<Inner>, attempt: &Attempt, row: &RunRow, stop: 
         let _ = sender.send(benchmark::run(&for_run, &for_attempt, &for_stop, &handle));
     });
     thread.map_err(|e| EngineError::fault("Starting the run's thread failed", e))?;
-    let limit = inner.longest_run(row).map(|longest| (longest, too_long(longest)));
+    let limit = inner.config.ceilings.longest_run(row).map(|longest| (longest, too_long(longest)));
     // The sender is dropped without a word only when the thread panicked.
     in_time(ended, stop, limit).await.unwrap_or_else(|_| Err(EngineError::Fault("The run failed; see the log.".into())))
 }

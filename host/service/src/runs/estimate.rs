@@ -30,7 +30,7 @@ impl Engine {
     pub async fn estimate_for(&self, spec: &RunSpec, owner: &str) -> Result<Estimate> {
         let checked = self.check(spec, Some(owner)).await?;
         let expected = estimate(&self.inner, &checked).await?;
-        match self.inner.may_be_asked_for(owner, &checked.spec, expected.total_seconds) {
+        match self.inner.config.ceilings.may_be_asked_for(owner, &checked.spec, expected.total_seconds) {
             Ok(()) => Ok(expected),
             Err(EngineError::Invalid(why)) => Ok(Estimate { refused: Some(why), ..expected }),
             Err(e) => Err(e),
@@ -39,7 +39,7 @@ impl Engine {
 
     pub(crate) async fn check(&self, spec: &RunSpec, viewer: Option<&str>) -> Result<Checked> {
         let inner = &self.inner;
-        inner.measures_on(spec.hardware_class.as_deref())?;
+        inner.classes.measures_on(spec.hardware_class.as_deref())?;
         spec::check(spec, &inner.objects, &inner.registry, &inner.store, &inner.blobs, viewer).await
     }
 }
@@ -69,7 +69,7 @@ pub async fn estimate_alone(inner: &Inner, checked: &Checked) -> Result<Estimate
             measure::cost(measured, spec.passes, spec.budget_seconds, counted, query, START);
         AlgorithmSeconds { algorithm: algorithm.info.id.clone(), seconds, budget_limited }
     };
-    let class = inner.waiting_for(spec);
+    let class = inner.classes.waiting_for(spec);
     let mut measuring_seconds = Vec::new();
     for algorithm in &checked.algorithms {
         let rates = inner.store.result_rates(&algorithm.info.id, spec.query, &class).await?;
@@ -97,7 +97,7 @@ pub async fn estimate_alone(inner: &Inner, checked: &Checked) -> Result<Estimate
 
 /// Runs ahead of such an interactive one that is asked for now, and the seconds until they are done.
 async fn queue_ahead(inner: &Inner, spec: &RunSpec) -> Result<(u32, f64)> {
-    let class = inner.waiting_for(spec);
+    let class = inner.classes.waiting_for(spec);
     let running = inner.store.running(&class).await?;
     let (ahead, seconds) = inner.store.waiting(crate::runs::priority::INTERACTIVE, &class).await?;
     let left = |(started_us, expected): &(i64, f64)| (expected - (now_us() - started_us) as f64 / 1e6).max(1.0);

@@ -42,7 +42,7 @@ impl Engine {
             after: after_seq,
             read: VecDeque::new(),
             changes,
-            waits: self.inner.waiting_for(&row.spec),
+            waits: self.inner.classes.waiting_for(&row.spec),
             place: None,
             shown: 0,
             ended: false,

@@ -64,7 +64,7 @@ async fn part_in_time(
     row: &StabilityRow,
     stop: &Stop,
 ) -> std::result::Result<(), LabError> {
-    let limit = inner.longest_of(row.owner.as_deref()).map(|longest| {
+    let limit = inner.config.ceilings.longest_of(row.owner.as_deref()).map(|longest| {
         let reason = format!(
             "Stopped after {}, the time limit for guests. Choose fewer tests or seeds, or log in.",
             time(longest.as_secs_f64())

@@ -35,7 +35,7 @@ impl Engine {
     #[boxed]
     pub async fn suite(&self, class: Option<&str>) -> Result<SuiteInfo> {
         let suite = &self.inner.suite;
-        let class = self.inner.measures_on(class)?;
+        let class = self.inner.classes.measures_on(class)?;
         let (known, tried) = (self.inner.known(&class).await?, self.inner.store.tried().await?);
         let scenarios = suite.scenarios();
         let progress = |algorithm: AlgorithmInfo| -> Result<SuiteProgress> {
@@ -63,7 +63,7 @@ impl Engine {
             passes: document.passes,
             scenarios: scenarios.len() as u32,
             hardware_class: class.clone(),
-            hardware_classes: self.inner.hardware_classes(),
+            hardware_classes: self.inner.classes.names(),
             oracle: ocb_core::oracle::VERSION,
             idle: self.inner.config.idle,
             progress: self.inner.public().into_iter().map(progress).collect::<Result<_>>()?,
@@ -76,7 +76,7 @@ impl Engine {
     pub async fn measure_suite(&self, only: &[String]) -> Result<Vec<RunInfo>> {
         let _alone = self.inner.store.locks.alone(Lock::Planning).await?;
         let mut queued = Vec::new();
-        for class in self.inner.hardware_classes() {
+        for class in self.inner.classes.names() {
             queued.extend(self.queue_missing(only, &self.inner.known(&class).await?, &class).await?);
         }
         Ok(queued)
@@ -101,7 +101,8 @@ impl Engine {
             };
             let missing: Vec<String> = public.iter().filter(wanted).map(|a| a.id.clone()).collect();
             for some in missing.chunks(AT_ONCE) {
-                let spec = RunSpec { algorithms: some.to_vec(), hardware_class: inner.named(class), ..spec.clone() };
+                let spec =
+                    RunSpec { algorithms: some.to_vec(), hardware_class: inner.classes.named(class), ..spec.clone() };
                 let asking =
                     RunContext { priority: BACKGROUND, suite: Some(&inner.suite.sha256), ..RunContext::default() };
                 queued.push(self.queue(spec, asking).await?.0);
@@ -136,7 +137,7 @@ impl Engine {
         }
         let _alone = self.inner.store.locks.alone(Lock::Planning).await?;
         let known = self.inner.known_anywhere().await?;
-        self.queue_missing(&only, &known, &self.inner.hardware_class()).await.map(drop)
+        self.queue_missing(&only, &known, &self.inner.classes.usual()).await.map(drop)
     }
 
     /// Queues what is missing of these, as far as they are public.
@@ -209,7 +210,7 @@ impl Inner {
     pub(crate) async fn known(&self, class: &str) -> Result<AllKnown> {
         let mut all = AllKnown::default();
         for row in self.store.suite_runs().await?.iter().filter(|row| self.is_of_the_suite(row)) {
-            let waits = row.state != State::Done && self.waiting_for(&row.spec).class == class;
+            let waits = row.state != State::Done && self.classes.waiting_for(&row.spec).class == class;
             if waits || row.state == State::Done && self.is_of_now(row, class) {
                 self.note(&mut all, row).await?;
             }

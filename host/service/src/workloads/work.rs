@@ -101,7 +101,7 @@ async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, row: &WorkloadRow, sto
             }
         }
     };
-    let limit = inner.longest_of(row.owner.as_deref()).map(|longest| {
+    let limit = inner.config.ceilings.longest_of(row.owner.as_deref()).map(|longest| {
         let reason = format!(
             "Stopped after {}, the time limit for guests. Choose fewer algorithms or a smaller budget, or log in.",
             time(longest.as_secs_f64())
