@@ -64,8 +64,6 @@ pub struct Inner {
     pub orders: Orders,
     /// What public plugins are measured on.
     pub suite: Suite,
-    /// Held from reading which plugins are offered until they are.
-    pub offering: tokio::sync::Mutex<()>,
     /// Rung when the queue has something new.
     pub wake: Notify,
     /// Work under way.

@@ -91,7 +91,8 @@ async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
     if let Some(spec) = inner.next_of_the_suite(&tried).await? {
         inner.keep_suite().await?;
         let what = inner.of_the_suite(&spec, &inner.classes.waiting_for(&spec).class)?;
-        let algorithms = inner.public().into_iter().filter(|algorithm| spec.algorithms.contains(&algorithm.id));
+        let algorithms =
+            inner.registry.public().into_iter().filter(|algorithm| spec.algorithms.contains(&algorithm.id));
         let tried: Vec<Tried> = algorithms.map(|algorithm| Tried::of(&what, &algorithm)).collect();
         queue_run(inner, spec, &tried, Some(&inner.suite.sha256)).await?;
         return Ok(true);
@@ -162,7 +163,7 @@ impl Inner {
     }
 
     async fn next_of_the_suite(&self, tried: &TriedSet) -> Result<Option<RunSpec>> {
-        let public = self.public();
+        let public = self.registry.public();
         for class in self.classes.names() {
             let known = self.known(&class).await?;
             for spec in self.suite.scenarios() {

@@ -40,7 +40,7 @@ impl Engine {
         let lock = lock_data_folder(&config.data)?;
         let store = Store::open(&config.data, config.database_url.as_deref()).await?;
         let blobs = Blobs::open(&config.data, config.blob_url.as_deref())?;
-        let registry = Registry::open(&config, &store).await?;
+        let registry = Registry::open(&config, &store, &blobs).await?;
         let suite = Suite::open(config.suite.as_deref())?;
         let machine = Machine::observe()?.noted(config.machine_note.as_deref());
         let inner = Arc::new(Inner {
@@ -53,7 +53,6 @@ impl Engine {
             under_way: Arc::default(),
             orders: Orders::default(),
             suite,
-            offering: tokio::sync::Mutex::default(),
             wake: Notify::new(),
             current: Mutex::new(None),
             asked: AtomicU64::new(0),
@@ -76,7 +75,7 @@ impl Engine {
             registry,
         });
         let engine = Self { inner };
-        engine.inner.renew_plugins().await?;
+        engine.inner.registry.renew().await?;
         engine.inner.classes.learn_from(&engine.inner.store).await?;
         if engine.inner.config.dispatch {
             engine.inner.store.believe_machines().await?;

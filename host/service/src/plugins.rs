@@ -26,7 +26,6 @@ use crate::model::{
     AccountInfo, Action, CheckLine, CheckVerdict, Cursor, Decision, Manifest, Page, Part, PluginInfo, PluginState, Role,
 };
 use crate::plugins::notices::of_decision;
-use crate::plugins::registry::submitted;
 use crate::plugins::sql::PluginRow;
 use crate::sha256_hex;
 use crate::store::now_us;
@@ -283,7 +282,7 @@ impl Engine {
         if now == PluginState::Failed {
             self.inner.store.withdraw(Kind::Check, &row.id, &self.inner.worker).await?;
         }
-        self.inner.renew_plugins().await?;
+        self.inner.registry.renew().await?;
         if now == PluginState::Public {
             self.measure_submitted(row.algorithms.iter()).await?;
         } else if row.state == PluginState::Public {
@@ -299,18 +298,6 @@ impl Engine {
             Some(id) => Err(EngineError::Busy(format!("The algorithm id {id:?} belongs to another author's plugin."))),
             None => Ok(()),
         }
-    }
-}
-
-impl crate::engine::Inner {
-    /// Offers what may be benchmarked now.
-    #[boxed]
-    pub async fn renew_plugins(&self) -> Result<()> {
-        // Of two that read, the later one offers last.
-        let _offering = self.offering.lock().await;
-        let all = submitted::submitted(&self.store, &self.blobs, &self.config.data).await?;
-        self.registry.offer(all);
-        Ok(())
     }
 }
 

@@ -8,12 +8,11 @@ pub mod work;
 use std::sync::Arc;
 
 use crate::boxed;
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::measure::Stop;
 use crate::model::{Stability, StabilityTable};
 use crate::{EngineError, Result};
 use ocb_lab::LabError;
-use ocb_lab::algorithm::Algorithm;
 use ocb_lab::stability::{self, Selection};
 
 impl Engine {
@@ -32,7 +31,7 @@ impl Engine {
         at: impl Fn(&str) + Send + 'static,
     ) -> Result<Stability> {
         selection.check()?;
-        let algorithm = self.inner.stability_algorithm(algorithm, None)?;
+        let algorithm = self.inner.registry.named(algorithm, None)?;
         let whole = selection.parts.is_empty() && selection.at.is_none() && selection.seed.is_none();
         let inner = Arc::clone(&self.inner);
         // A thread of its own: a jail ends with the thread that started it.
@@ -50,16 +49,5 @@ impl Engine {
             self.inner.store.keep_stability(&found).await?;
         }
         Ok(found)
-    }
-}
-
-impl Inner {
-    /// The algorithm of this name, with settings, that the viewer may use.
-    pub(crate) fn stability_algorithm(&self, algorithm: &str, viewer: Option<&str>) -> Result<Arc<Algorithm>> {
-        let unknown = || {
-            let known: Vec<String> = self.registry.algorithms(viewer).into_iter().map(|a| a.id).collect();
-            EngineError::Invalid(format!("There is no algorithm {algorithm:?}; available: {}.", known.join(", ")))
-        };
-        self.registry.choose(algorithm, viewer)?.ok_or_else(unknown)
     }
 }

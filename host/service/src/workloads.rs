@@ -93,7 +93,7 @@ impl Engine {
         let replayed = !read.queries.is_empty();
         if replayed {
             spec.check().map_err(EngineError::Invalid)?;
-            let algorithms = inner.algorithms_for(read, &spec.algorithms, Some(owner))?;
+            let algorithms = replay::algorithms_for(&inner.registry, read, &spec.algorithms, Some(owner))?;
             inner.config.ceilings.replay_may_take(owner, &spec, algorithms.len())?;
         }
         let id = self.id_of_request(owner, Made::Workload, key, &(&recording, &spec)).await?;

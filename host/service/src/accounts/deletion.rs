@@ -67,7 +67,7 @@ impl Engine {
             }
         }
         drop(alone);
-        inner.renew_plugins().await?;
+        inner.registry.renew().await?;
         Ok(told)
     }
 }

@@ -44,7 +44,7 @@ impl Inner {
             return Ok(());
         }
         self.post_soon();
-        self.renew_plugins().await?;
+        self.registry.renew().await?;
         self.forget_waiting().await
     }
 

@@ -78,7 +78,7 @@ impl Inner {
                 before.entry([scenario.clone(), algorithm.clone()]).or_insert(row);
             }
         }
-        let (public, mut due) = (self.public(), Vec::new());
+        let (public, mut due) = (self.registry.public(), Vec::new());
         for spec in self.suite.scenarios() {
             let name = scenario(&spec)?;
             let mut groups: Vec<(Option<&RunRow>, Vec<String>)> = Vec::new();

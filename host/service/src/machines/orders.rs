@@ -13,7 +13,7 @@ use crate::{EngineError, Result};
 /// What a machine is told of this run; nothing when it must be prepared again, because its configurations were drawn for other
 /// plugin files.
 pub async fn order(inner: &Inner, attempt: &Attempt, row: &RunRow) -> Result<Option<WorkOrder>> {
-    let algorithms = inner.algorithms_of(row)?;
+    let algorithms = inner.registry.algorithms_of(row)?;
     let suite = &inner.suite;
     if suite.document.seed.is_none()
         && row.suite.as_ref() == Some(&suite.sha256)

@@ -95,7 +95,7 @@ async fn settle(inner: &Inner, attempt: &Attempt, row: &PluginRow, report: Plugi
     } else {
         tracing::warn!("plugin {}: the report of attempt {} comes too late and is not kept", row.id, attempt.number);
     }
-    inner.renew_plugins().await
+    inner.registry.renew().await
 }
 
 fn note<'a>(row: &'a PluginRow, state: PluginState, reason: &'a str) -> Note<'a> {

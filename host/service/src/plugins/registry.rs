@@ -4,19 +4,20 @@ pub mod sql;
 pub mod submitted;
 
 use std::collections::HashMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, RwLockReadGuard};
 
 use ocb_core::query::Query;
 use ocb_lab::algorithm::{Algorithm, Runner, plugin_files, plugin_hash};
 use ocb_sandbox::Profile;
 
+use crate::blobs::Blobs;
 use crate::blocking::blocking;
 use crate::model::AlgorithmInfo;
 use crate::store::Store;
-use crate::{EngineConfig, Result};
+use crate::{EngineConfig, EngineError, Result, boxed};
 
-use submitted::AllSubmitted;
+use submitted::{AllSubmitted, submitted};
 
 /// Our algorithms that a run measures by default: each kind once. Third-party plugins are measured as well. `all`
 /// takes every algorithm; with thirty installed, that can take an hour.
@@ -27,9 +28,15 @@ const MAX_KNOWN: usize = 1000;
 
 /// The known plugins.
 pub struct Registry {
+    store: Store,
+    blobs: Blobs,
+    /// The data folder, where the files of submitted plugins are.
+    data: PathBuf,
     runner: Runner,
     algorithms: Vec<Arc<Algorithm>>,
     submitted: RwLock<AllSubmitted>,
+    /// Held from reading which submitted plugins are offered until they are.
+    offering: tokio::sync::Mutex<()>,
     /// What algorithms answer with their settings, by plugin file and name.
     queries: Mutex<HashMap<(String, String), Vec<Query>>>,
     problems: Vec<String>,
@@ -38,11 +45,15 @@ pub struct Registry {
 impl Registry {
     /// Looks through the configured files and folders. A file that was described before is not loaded again; one that
     /// cannot be described is a problem of its own and keeps no other from being offered.
-    pub async fn open(config: &EngineConfig, store: &Store) -> Result<Self> {
+    pub async fn open(config: &EngineConfig, store: &Store, blobs: &Blobs) -> Result<Self> {
         let mut registry = Self {
+            store: store.clone(),
+            blobs: blobs.clone(),
+            data: config.data.clone(),
             runner: Runner { program: config.runner.clone(), profile: config.profile },
             algorithms: Vec::new(),
             submitted: RwLock::default(),
+            offering: tokio::sync::Mutex::default(),
             queries: Mutex::default(),
             problems: Vec::new(),
         };
@@ -55,7 +66,7 @@ impl Registry {
         }
         let mut all: Vec<Arc<Algorithm>> = Vec::new();
         for file in plugin_files(&config.plugins) {
-            match registry.describe(&file, store).await {
+            match registry.describe(&file).await {
                 Ok(found) => {
                     for algorithm in found {
                         if let Some(twin) = all.iter().find(|c| c.info.id == algorithm.info.id) {
@@ -93,9 +104,21 @@ impl Registry {
         self.algorithms.iter().map(|c| c.info.clone()).collect()
     }
 
-    /// From now on these, of all that developers submitted.
-    pub fn offer(&self, submitted: AllSubmitted) {
-        *self.submitted.write().unwrap_or_else(PoisonError::into_inner) = submitted;
+    /// Those that everybody may ask for, each in its newest version.
+    pub fn public(&self) -> Vec<AlgorithmInfo> {
+        let mut all = self.algorithms(None);
+        all.retain(|algorithm| !algorithm.id.contains('@'));
+        all
+    }
+
+    /// Offers, of all that developers submitted, what may be benchmarked now.
+    #[boxed]
+    pub async fn renew(&self) -> Result<()> {
+        // Of two that read, the later one offers last.
+        let _offering = self.offering.lock().await;
+        let all = submitted(&self.store, &self.blobs, &self.data).await?;
+        *self.submitted.write().unwrap_or_else(PoisonError::into_inner) = all;
+        Ok(())
     }
 
     fn submitted(&self) -> RwLockReadGuard<'_, AllSubmitted> {
@@ -142,6 +165,15 @@ impl Registry {
             (Some(plain), Some(settings)) => Ok(Some(Arc::new(plain.with_settings(settings)?))),
             (found, _) => Ok(found),
         }
+    }
+
+    /// The same, or why there is none.
+    pub fn named(&self, name: &str, viewer: Option<&str>) -> Result<Arc<Algorithm>> {
+        let unknown = || {
+            let known: Vec<String> = self.algorithms(viewer).into_iter().map(|a| a.id).collect();
+            EngineError::Invalid(format!("There is no algorithm {name:?}; available: {}.", known.join(", ")))
+        };
+        self.choose(name, viewer)?.ok_or_else(unknown)
     }
 
     /// The kinds of query that an algorithm answers with its settings; a plugin may have to be asked.
@@ -192,17 +224,17 @@ impl Registry {
     }
 
     /// The algorithms of an installed file. One that was described before is not loaded again.
-    async fn describe(&self, file: &Path, store: &Store) -> Result<Vec<Algorithm>> {
+    async fn describe(&self, file: &Path) -> Result<Vec<Algorithm>> {
         let path = file.to_owned();
         let sha256 = blocking(move || Ok(plugin_hash(&path)?)).await?;
         let trusted = self.runner.trusts(file);
         let known_as = self.runner.known_as(file, &sha256)?;
         // A row that an older version wrote may lack a field; then the plugin is described again.
-        let algorithms = match store.described(&known_as).await {
+        let algorithms = match self.store.described(&known_as).await {
             Ok(Some(known)) if known.iter().all(|algorithm| !algorithm.builds.is_empty()) => known,
             _ => {
                 let described = self.described(file, &sha256, trusted).await?;
-                store.keep_description(&known_as, &described).await?;
+                self.store.keep_description(&known_as, &described).await?;
                 described
             }
         };

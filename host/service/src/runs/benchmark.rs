@@ -221,7 +221,7 @@ impl<'a> Bench<'a> {
     }
 
     fn algorithms(&self) -> Result<Vec<Arc<Algorithm>>> {
-        self.inner.algorithms_of(&self.row)
+        self.inner.registry.algorithms_of(&self.row)
     }
 }
 

@@ -43,7 +43,7 @@ pub async fn hear(inner: Arc<Inner>, url: String) {
     let renewing = async {
         loop {
             plugins.notified().await;
-            if let Err(e) = inner.renew_plugins().await {
+            if let Err(e) = inner.registry.renew().await {
                 tracing::error!("plugins that another service offers are not offered here yet: {e}");
                 tokio::time::sleep(AGAIN).await;
                 plugins.notify_one();

@@ -9,7 +9,6 @@ use ocb_lab::algorithm::Algorithm;
 
 use crate::blobs::Blobs;
 use crate::configurations;
-use crate::engine::Inner;
 use crate::model::{AlgorithmInfo, ObjectInfo, RunSpec};
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;
@@ -226,11 +225,11 @@ pub fn reference(spec: &RunSpec, registry: &Registry) -> Option<Arc<Algorithm>> 
     known.into_iter().find(|c| c.trusted && answers(&c.info, spec))
 }
 
-impl Inner {
+impl Registry {
     /// The algorithms of a run. They may have changed since it was asked for, by a restart with other plugins.
     pub fn algorithms_of(&self, row: &RunRow) -> Result<Vec<Arc<Algorithm>>> {
         let find = |id: &String| {
-            self.registry.choose(id, row.owner.as_deref())?.ok_or_else(|| {
+            self.choose(id, row.owner.as_deref())?.ok_or_else(|| {
                 EngineError::Invalid(format!(
                     "The algorithm {id:?} is no longer installed; start the run again without it."
                 ))

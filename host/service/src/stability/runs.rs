@@ -37,7 +37,7 @@ impl Engine {
     ) -> Result<(StabilityRunInfo, bool)> {
         let (inner, owner) = (&self.inner, visitor.owner.as_str());
         check(&spec)?;
-        let algorithm = inner.stability_algorithm(&spec.algorithm, Some(owner))?;
+        let algorithm = inner.registry.named(&spec.algorithm, Some(owner))?;
         let id = self.id_of_request(owner, Made::StabilityRun, key, &spec).await?;
         // Two concurrent requests must not share the last of a quota.
         let _alone = inner.store.locks.alone(Lock::Admission).await?;

@@ -82,7 +82,8 @@ async fn one_part(
 ) -> std::result::Result<(), LabError> {
     let fault = |e: EngineError| LabError::Fault(e.to_string());
     let algorithm = inner
-        .stability_algorithm(&row.spec.algorithm, row.owner.as_deref())
+        .registry
+        .named(&row.spec.algorithm, row.owner.as_deref())
         .map_err(|e| LabError::Invalid(e.to_string()))?;
     let selection = selection(&row.spec);
     let kept = inner.store.stability_found(&row.id).await.map_err(fault)?;
@@ -98,7 +99,7 @@ async fn one_part(
     found.complete = done.len() == parts.len();
     let seconds = row.spent_seconds + stop.worked().as_secs_f64();
     if inner.store.accept_part(attempt, &done, &found, seconds).await.map_err(fault)? {
-        inner.publish(row, &algorithm, &found).await.map_err(fault)?;
+        publish(inner, row, &algorithm, &found).await.map_err(fault)?;
     }
     Ok(())
 }
@@ -124,12 +125,10 @@ async fn tried(
     ended.await.unwrap_or_else(|_| Err(LabError::Fault("The stability run failed; see the log.".into())))
 }
 
-impl Inner {
-    /// A whole run of a public algorithm as it is usually used takes its place in the table that everybody sees.
-    async fn publish(&self, row: &StabilityRow, algorithm: &Algorithm, found: &Stability) -> Result<()> {
-        let usual = row.spec.parts.is_empty() && row.spec.seeds.is_none() && algorithm.settings.is_empty();
-        let named = |info: &AlgorithmInfo| (&info.id, &info.plugin_sha256) == (&found.algorithm, &found.plugin_sha256);
-        let public = self.public().iter().any(named);
-        if usual && public { self.store.keep_stability(found).await } else { Ok(()) }
-    }
+/// A whole run of a public algorithm as it is usually used takes its place in the table that everybody sees.
+async fn publish(inner: &Inner, row: &StabilityRow, algorithm: &Algorithm, found: &Stability) -> Result<()> {
+    let usual = row.spec.parts.is_empty() && row.spec.seeds.is_none() && algorithm.settings.is_empty();
+    let named = |info: &AlgorithmInfo| (&info.id, &info.plugin_sha256) == (&found.algorithm, &found.plugin_sha256);
+    let public = inner.registry.public().iter().any(named);
+    if usual && public { inner.store.keep_stability(found).await } else { Ok(()) }
 }

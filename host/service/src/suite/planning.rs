@@ -11,6 +11,7 @@ use crate::engine::{Engine, Inner};
 use crate::idle::sql::Tried;
 use crate::locks::Lock;
 use crate::model::{AlgorithmInfo, Environment, PluginState, RunInfo, RunSpec, State, SuiteInfo, SuiteProgress};
+use crate::plugins::registry::Registry;
 use crate::runs::RunContext;
 use crate::runs::priority::BACKGROUND;
 use crate::runs::sql::RunRow;
@@ -66,7 +67,7 @@ impl Engine {
             hardware_classes: self.inner.classes.names(),
             oracle: ocb_core::oracle::VERSION,
             idle: self.inner.config.idle,
-            progress: self.inner.public().into_iter().map(progress).collect::<Result<_>>()?,
+            progress: self.inner.registry.public().into_iter().map(progress).collect::<Result<_>>()?,
         })
     }
 
@@ -85,7 +86,7 @@ impl Engine {
     /// Queues what is not known of these, or of all, on a class. Whoever calls it is planning alone.
     async fn queue_missing(&self, only: &[String], known: &AllKnown, class: &str) -> Result<Vec<RunInfo>> {
         let inner = &self.inner;
-        let public = inner.public();
+        let public = inner.registry.public();
         if let Some(unknown) = only.iter().find(|id| public.iter().all(|a| a.id != **id)) {
             return Err(EngineError::Invalid(format!(
                 "There is no public algorithm {unknown:?}; the suite measures public algorithms with default settings."
@@ -131,7 +132,7 @@ impl Engine {
         }
         let rows = self.inner.store.plugins().await?;
         let public = rows.iter().filter(|row| row.state == PluginState::Public);
-        let only = self.inner.of_these(public.flat_map(|row| &row.algorithms));
+        let only = public_of(&self.inner.registry, public.flat_map(|row| &row.algorithms));
         if only.is_empty() {
             return Ok(());
         }
@@ -142,7 +143,7 @@ impl Engine {
 
     /// Queues what is missing of these, as far as they are public.
     pub(crate) async fn measure_submitted(&self, submitted: impl Iterator<Item = &AlgorithmInfo>) -> Result<()> {
-        let only = self.inner.of_these(submitted);
+        let only = public_of(&self.inner.registry, submitted);
         if only.is_empty() { Ok(()) } else { self.measure_suite(&only).await.map(drop) }
     }
 }
@@ -179,22 +180,15 @@ pub(crate) fn scenario(spec: &RunSpec) -> Result<String> {
     serde_json::to_string(&scenario_of(spec)).map_err(|e| EngineError::fault("Naming a scenario failed", e))
 }
 
+/// The ids of these, as far as they are public.
+fn public_of<'a>(registry: &Registry, these: impl Iterator<Item = &'a AlgorithmInfo>) -> Vec<String> {
+    let these: Vec<&str> = these.map(|algorithm| algorithm.id.as_str()).collect();
+    let mut only: Vec<String> = registry.public().into_iter().map(|algorithm| algorithm.id).collect();
+    only.retain(|id| these.contains(&id.as_str()));
+    only
+}
+
 impl Inner {
-    /// The algorithms that everybody may ask for, each in its newest version.
-    pub(crate) fn public(&self) -> Vec<AlgorithmInfo> {
-        let mut all = self.registry.algorithms(None);
-        all.retain(|algorithm| !algorithm.id.contains('@'));
-        all
-    }
-
-    /// The ids of these, as far as they are public.
-    fn of_these<'a>(&self, these: impl Iterator<Item = &'a AlgorithmInfo>) -> Vec<String> {
-        let these: Vec<&str> = these.map(|algorithm| algorithm.id.as_str()).collect();
-        let mut only: Vec<String> = self.public().into_iter().map(|algorithm| algorithm.id).collect();
-        only.retain(|id| these.contains(&id.as_str()));
-        only
-    }
-
     /// Keeps the suite, so that results may lie under its hash.
     pub(crate) async fn keep_suite(&self) -> Result<()> {
         if self.store.keep_suite(&self.suite).await? {

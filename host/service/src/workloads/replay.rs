@@ -11,6 +11,7 @@ use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::measure::Stop;
 use crate::model::WorkloadSpec;
+use crate::plugins::registry::Registry;
 use crate::{EngineError, Result};
 
 impl Engine {
@@ -25,7 +26,7 @@ impl Engine {
         waits: impl FnOnce() + Send + 'static,
     ) -> Result<Replayed> {
         spec.check().map_err(EngineError::Invalid)?;
-        let algorithms = self.inner.algorithms_for(&recording, &spec.algorithms, None)?;
+        let algorithms = algorithms_for(&self.inner.registry, &recording, &spec.algorithms, None)?;
         replay(&self.inner, recording, spec, algorithms, stop, tell, waits).await
     }
 }
@@ -58,36 +59,34 @@ pub(super) async fn replay(
     Ok(replayed.await.map_err(|_| EngineError::Fault("The replay failed; see the log.".into()))??)
 }
 
-impl Inner {
-    /// The algorithms of these names, or the usual ones, that answer at least one kind of query of the recording.
-    pub(super) fn algorithms_for(
-        &self,
-        recording: &Recording,
-        named: &[String],
-        viewer: Option<&str>,
-    ) -> Result<Vec<Arc<Algorithm>>> {
-        let every = named.iter().any(|name| name == "all");
-        let names: Vec<String> = if every || named.is_empty() {
-            self.registry.algorithms(viewer).into_iter().filter(|it| every || it.usual).map(|it| it.id).collect()
-        } else {
-            named.to_vec()
-        };
-        let asked = |algorithm: &Arc<Algorithm>| {
-            recording.queries.iter().any(|query| algorithm.info.queries.contains(&query.kind.query()))
-        };
-        let mut algorithms = Vec::new();
-        for name in names {
-            let algorithm = self.stability_algorithm(&name, viewer)?;
-            if asked(&algorithm) {
-                algorithms.push(algorithm);
-            } else if !named.is_empty() && !every {
-                return Err(EngineError::Invalid(format!("{name} answers no kind of query of this recording.")));
-            }
+/// The algorithms of these names, or the usual ones, that answer at least one kind of query of the recording.
+pub(super) fn algorithms_for(
+    registry: &Registry,
+    recording: &Recording,
+    named: &[String],
+    viewer: Option<&str>,
+) -> Result<Vec<Arc<Algorithm>>> {
+    let every = named.iter().any(|name| name == "all");
+    let names: Vec<String> = if every || named.is_empty() {
+        registry.algorithms(viewer).into_iter().filter(|it| every || it.usual).map(|it| it.id).collect()
+    } else {
+        named.to_vec()
+    };
+    let asked = |algorithm: &Arc<Algorithm>| {
+        recording.queries.iter().any(|query| algorithm.info.queries.contains(&query.kind.query()))
+    };
+    let mut algorithms = Vec::new();
+    for name in names {
+        let algorithm = registry.named(&name, viewer)?;
+        if asked(&algorithm) {
+            algorithms.push(algorithm);
+        } else if !named.is_empty() && !every {
+            return Err(EngineError::Invalid(format!("{name} answers no kind of query of this recording.")));
         }
-        if algorithms.is_empty() {
-            let told = "No installed algorithm answers a kind of query of this recording.";
-            return Err(EngineError::Invalid(told.into()));
-        }
-        Ok(algorithms)
     }
+    if algorithms.is_empty() {
+        let told = "No installed algorithm answers a kind of query of this recording.";
+        return Err(EngineError::Invalid(told.into()));
+    }
+    Ok(algorithms)
 }

@@ -8,7 +8,7 @@ use ocb_lab::workload::{Progress, workload_parquet};
 use tokio::time::sleep;
 
 use super::reduce::{Doing, Reducing};
-use super::replay::replay;
+use super::replay::{algorithms_for, replay};
 use super::sql::WorkloadRow;
 use crate::attempts::sql::end;
 use crate::attempts::{Attempt, MOST_LOST, Outcome};
@@ -65,7 +65,7 @@ pub async fn next_replay(inner: &Arc<Inner>) -> Result<bool> {
 
 async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, row: &WorkloadRow, stop: &Stop) -> Result<()> {
     let (_, recording) = inner.recording(&row.id).await?;
-    let algorithms = inner.algorithms_for(&recording, &row.spec.algorithms, row.owner.as_deref())?;
+    let algorithms = algorithms_for(&inner.registry, &recording, &row.spec.algorithms, row.owner.as_deref())?;
     let done = Arc::new(AtomicU64::new(0));
     let doing = Arc::new(Doing::default());
     let told = (done.clone(), doing.clone());
