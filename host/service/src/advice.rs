@@ -65,7 +65,7 @@ impl Engine {
             return Ok((self.advice(&info.id).await?, false));
         };
         inner.clone().begin_advice(attempt, inner.advices.add(info.clone()));
-        inner.call();
+        inner.work.call();
         Ok((info, true))
     }
 
@@ -147,13 +147,13 @@ impl Inner {
 
     fn begin_advice(self: Arc<Self>, attempt: Attempt, job: Arc<Job>) {
         let inner = self.clone();
-        self.spawn(async move {
+        self.tasks.spawn(async move {
             let id = attempt.job.as_str();
             let lost = job.clone();
-            let _held = inner.holding.hold(&attempt, move || lost.stop());
+            let _held = inner.work.holding.hold(&attempt, move || lost.stop());
             let found = inner.work_on_advice(&attempt, &job).await;
             // What closing interrupted stays open, and is begun again.
-            let ended = match inner.closing() {
+            let ended = match inner.tasks.closing() {
                 true => inner.store.put_back_advice(&attempt).await,
                 false => inner.end_advice(&attempt, job.info(), found).await,
             };
@@ -162,7 +162,7 @@ impl Inner {
             }
             inner.advices.remove(id);
             // Idle work waits for it.
-            inner.wake.notify_one();
+            inner.work.wake.notify_one();
         });
     }
 

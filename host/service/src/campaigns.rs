@@ -109,7 +109,7 @@ impl Engine {
         // Whoever asked may be gone before all of it is queued; closing waits for it.
         let (sender, filled) = tokio::sync::oneshot::channel();
         let (engine, id) = (self.clone(), row.id.clone());
-        inner.spawn(async move {
+        inner.tasks.spawn(async move {
             // Nobody is left to be told: the log is, and the next start takes the campaign up.
             if let Err(Err(e)) = sender.send(engine.fill_campaign(&id).await) {
                 tracing::error!("campaign {id}: not all of it was queued: {e}");
@@ -160,7 +160,7 @@ impl Engine {
             let row = inner.campaign_row(id).await?;
             let own = inner.store.campaign_runs(id).await?;
             for due in inner.due(row.of_suite, row.of_people, &row.hardware_class, &own).await? {
-                if inner.closing() {
+                if inner.tasks.closing() {
                     return Ok(());
                 }
                 if inner.campaign_row(id).await?.cancelled_us.is_some() {

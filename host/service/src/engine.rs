@@ -1,18 +1,16 @@
 //! The one handle for server and command line.
 
 use std::fs::File;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use ocb_core::configuration::ConfigurationSet;
 use ocb_core::heatmap::VertexMap;
 use ocb_core::oracle::Shape;
 use ocb_lab::recording::Recording;
 use tokio::sync::Notify;
-use tokio::task::{AbortHandle, JoinHandle};
 
 use crate::advice::work::Advices;
-use crate::attempts::worker::{Holding, Worker};
+use crate::attempts::worker::Worker;
 use crate::blobs::Blobs;
 use crate::cache::Cache;
 use crate::classes::Classes;
@@ -20,13 +18,14 @@ use crate::columns::RecordColumns;
 use crate::house::House;
 use crate::machine::Machine;
 use crate::machines::under_way::Orders;
-use crate::measure::Stop;
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;
+use crate::runs::current::Work;
 use crate::runs::log::RunEvents;
 use crate::runs::preliminary::UnderWay;
 use crate::store::Store;
 use crate::suite::Suite;
+use crate::tasks::Tasks;
 use crate::{EngineConfig, EngineError, Result};
 
 /// Runs, objects, algorithms and results behind one cheap-to-clone handle.
@@ -37,14 +36,6 @@ use crate::{EngineConfig, EngineError, Result};
 #[derive(Clone)]
 pub struct Engine {
     pub(crate) inner: Arc<Inner>,
-}
-
-/// Work under way, and how it is stopped.
-pub struct Current {
-    pub id: String,
-    pub stop: Stop,
-    /// It gives way to any request.
-    pub idle: bool,
 }
 
 /// What all parts of one engine share.
@@ -64,16 +55,10 @@ pub struct Inner {
     pub orders: Orders,
     /// What public plugins are measured on.
     pub suite: Suite,
-    /// Rung when the queue has something new.
-    pub wake: Notify,
-    /// Work under way.
-    pub current: Mutex<Option<Current>>,
     /// Who this process is to others on the same database.
     pub worker: Worker,
-    /// The attempts that it works on.
-    pub holding: Arc<Holding>,
-    /// Number of requests for work.
-    pub asked: AtomicU64,
+    pub work: Work,
+    pub tasks: Tasks,
     pub sets: Cache<ConfigurationSet>,
     pub records: Cache<RecordColumns>,
     pub maps: Cache<VertexMap>,
@@ -81,38 +66,12 @@ pub struct Inner {
     pub recordings: Cache<Recording>,
     pub charts: Cache<ocb_chart::Chart>,
     pub advices: Advices,
-    pub closing: AtomicBool,
     /// Whether this service does the work that one service does for all on the database.
     pub house: House,
     /// Rung when there is a mail to bring.
     pub posting: Notify,
-    /// Hears of other services on the same database.
-    pub hearing: Mutex<Option<AbortHandle>>,
-    /// What closing waits for.
-    pub tasks: Mutex<Vec<JoinHandle<()>>>,
     /// Held as long as this process uses the folder.
     pub lock: File,
-}
-
-impl Inner {
-    /// The engine is shutting down.
-    pub fn closing(&self) -> bool {
-        self.closing.load(Ordering::SeqCst)
-    }
-
-    /// There is new work: the dispatcher looks at the queue, and idle work gives way.
-    pub fn call(&self) {
-        self.asked.fetch_add(1, Ordering::SeqCst);
-        self.give_way();
-        self.wake.notify_one();
-    }
-
-    /// Work that closing waits for.
-    pub fn spawn(&self, work: impl Future<Output = ()> + Send + 'static) {
-        let mut tasks = self.tasks.lock().unwrap_or_else(PoisonError::into_inner);
-        tasks.retain(|task| !task.is_finished());
-        tasks.push(tokio::spawn(work));
-    }
 }
 
 impl Engine {

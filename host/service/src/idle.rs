@@ -38,7 +38,7 @@ impl Filling {
     /// Carries out one piece of idle work; false when there is none, or none may be done now. `asked` is the number of requests
     /// when the queue was found empty.
     pub async fn work(&mut self, inner: &Arc<Inner>, asked: u64) -> bool {
-        if !inner.config.idle || inner.closing() || !inner.advices.is_empty() {
+        if !inner.config.idle || inner.tasks.closing() || !inner.advices.is_empty() {
             return false;
         }
         self.go_on(inner, asked).await.unwrap_or_else(|e| {
@@ -58,8 +58,8 @@ impl Filling {
             carry_out(inner, &attempt, Some(asked)).await?;
             return Ok(true);
         }
-        let tried = next_part(inner, IDLE, |id, stop| inner.set_current_idle(id, stop, asked)).await;
-        inner.unset_current();
+        let tried = next_part(inner, IDLE, |id, stop| inner.work.set_current_idle(id, stop, asked)).await;
+        inner.work.unset_current();
         if tried? || inner.next_own_advice(asked).await? {
             return Ok(true);
         }

@@ -41,6 +41,7 @@ mod sets;
 mod stability;
 mod store;
 pub mod suite;
+mod tasks;
 mod time_limit;
 mod visibility;
 mod workloads;

@@ -1,7 +1,6 @@
 //! Opening a service on its data folder, and closing it.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use tokio::sync::Notify;
 
@@ -19,11 +18,13 @@ use crate::machines::under_way::Orders;
 use crate::model::Status;
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;
+use crate::runs::current::Work;
 use crate::runs::dispatcher;
 use crate::runs::log::RunEvents;
 use crate::runs::priority::BACKGROUND;
 use crate::store::{Store, now_us};
 use crate::suite::Suite;
+use crate::tasks::Tasks;
 use crate::{EngineConfig, EngineError, Result, workloads};
 
 impl Engine {
@@ -45,7 +46,8 @@ impl Engine {
         let machine = Machine::observe()?.noted(config.machine_note.as_deref());
         let inner = Arc::new(Inner {
             worker: Worker::of(&lock, &machine.hardware_class)?,
-            holding: Arc::default(),
+            work: Work::default(),
+            tasks: Tasks::default(),
             objects: Objects::new(store.clone(), blobs.clone(), config.stock_dir.clone()),
             classes: Classes::of(&machine.hardware_class, &machine.cpu, config.elsewhere),
             machine,
@@ -53,9 +55,6 @@ impl Engine {
             under_way: Arc::default(),
             orders: Orders::default(),
             suite,
-            wake: Notify::new(),
-            current: Mutex::new(None),
-            asked: AtomicU64::new(0),
             sets: Cache::new(4),
             records: Cache::new(16),
             maps: Cache::new(8),
@@ -63,11 +62,8 @@ impl Engine {
             recordings: Cache::weighing(workloads::MOST_QUERIES, |recording| recording.queries.len()),
             charts: Cache::weighing(crate::charts::KEPT_POINTS, crate::charts::points),
             advices: Advices::default(),
-            closing: AtomicBool::new(false),
             house: House::default(),
             posting: Notify::new(),
-            hearing: Mutex::default(),
-            tasks: Mutex::default(),
             lock,
             config,
             store,
@@ -81,19 +77,18 @@ impl Engine {
             engine.inner.store.believe_machines().await?;
             lost::take_back(&engine.inner, Some(&engine.inner.worker)).await?;
             engine.open_house().await?;
-            engine.inner.spawn(dispatcher::work(engine.inner.clone()));
-            engine.inner.spawn(engine.clone().sweep());
-            engine.inner.spawn(engine.clone().look_after_campaigns());
-            engine.inner.spawn(engine.inner.clone().post());
+            engine.inner.tasks.spawn(dispatcher::work(engine.inner.clone()));
+            engine.inner.tasks.spawn(engine.clone().sweep());
+            engine.inner.tasks.spawn(engine.clone().look_after_campaigns());
+            engine.inner.tasks.spawn(engine.inner.clone().post());
             if let Some(jobs) = engine.inner.config.slurm.clone() {
-                engine.inner.spawn(engine.clone().supply(jobs));
+                engine.inner.tasks.spawn(engine.clone().supply(jobs));
             }
         }
-        engine.inner.spawn(beat::beat(engine.inner.clone()));
+        engine.inner.tasks.spawn(beat::beat(engine.inner.clone()));
         #[cfg(feature = "postgres")]
         if let Some(url) = engine.inner.config.postgres_url() {
-            let task = tokio::spawn(crate::runs::hear::hear(engine.inner.clone(), url.to_owned()));
-            *engine.inner.hearing.lock().unwrap_or_else(PoisonError::into_inner) = Some(task.abort_handle());
+            engine.inner.tasks.listen(crate::runs::hear::hear(engine.inner.clone(), url.to_owned()));
         }
         Ok(engine)
     }
@@ -102,19 +97,13 @@ impl Engine {
     /// engine may open the folder, even while handles of this one exist.
     #[boxed]
     pub async fn shutdown(&self) {
-        self.inner.closing.store(true, Ordering::SeqCst);
-        self.inner.stop_current(None, None);
+        self.inner.tasks.close();
+        self.inner.work.stop_current(None, None);
         self.inner.advices.stop_all();
-        self.inner.wake.notify_one();
+        self.inner.work.wake.notify_one();
         self.inner.house.close();
-        self.inner.holding.closed.notify_one();
-        if let Some(task) = self.inner.hearing.lock().unwrap_or_else(PoisonError::into_inner).take() {
-            task.abort();
-        }
-        let tasks = std::mem::take(&mut *self.inner.tasks.lock().unwrap_or_else(PoisonError::into_inner));
-        for task in tasks {
-            let _ = task.await;
-        }
+        self.inner.work.holding.closed.notify_one();
+        self.inner.tasks.ended().await;
         self.inner.house.leave().await;
         self.inner.store.close().await;
         // Closing the file does it too; at the latest then it is free.

@@ -108,7 +108,7 @@ impl Engine {
         let missing = || EngineError::Fault("The plugin was lost while it was being stored.".into());
         let kept = store.plugin_of(&account.id, &row.blob).await?.ok_or_else(missing)?;
         if new {
-            self.inner.call();
+            self.inner.work.call();
         }
         Ok((self.plugin(&kept.id, Some(account)).await?, new))
     }
@@ -267,7 +267,7 @@ impl Engine {
             ));
         }
         if action == Action::EndCheck {
-            self.inner.stop_current(Some(id), None);
+            self.inner.work.stop_current(Some(id), None);
         }
         drop(publishing);
         self.inner.post_soon();

@@ -130,7 +130,7 @@ impl Engine {
             return self.asked_before(&row, key.unwrap_or_default()).await.map(|run| (run, false));
         }
         self.inner.run_events.queue_moved();
-        self.inner.call();
+        self.inner.work.call();
         Ok((row.id, true))
     }
 
@@ -174,7 +174,7 @@ impl Engine {
             return Err(nothing());
         }
         self.inner.run_events.queue_moved();
-        self.inner.call();
+        self.inner.work.call();
         self.run(id, caller).await
     }
 
@@ -246,7 +246,7 @@ impl Engine {
                 break;
             }
             // Between the beginning and the start there is a moment in which neither works; so it is tried until it does.
-            self.inner.stop_current(Some(id), reason);
+            self.inner.work.stop_current(Some(id), reason);
             if self.inner.store.withdraw_run(id, &self.inner.worker, ended, reason).await? {
                 self.inner.run_events.ring(id);
                 self.inner.run_events.queue_moved();

@@ -130,7 +130,7 @@ impl Engine {
         };
         let new = inner.store.add_workload(&row).await?;
         if replayed {
-            inner.call();
+            inner.work.call();
         }
         Ok((self.workload(&row.id).await?, new))
     }
@@ -309,7 +309,7 @@ impl Inner {
     /// The row first: a replay that ends at this moment finds it ended.
     pub(crate) async fn end_workload(&self, id: &str, reason: Option<&str>) -> Result<()> {
         self.store.end_workload(id, State::Cancelled, reason).await?;
-        self.stop_current(Some(id), None);
+        self.work.stop_current(Some(id), None);
         self.store.withdraw(Kind::Replay, id, &self.worker).await.map(|_| ())
     }
 }

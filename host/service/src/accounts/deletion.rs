@@ -49,7 +49,7 @@ impl Engine {
         let (goes, stays) = inner.parted(account).await?;
         self.end_all(&owner, &goes).await?;
         for plugin in &goes.plugins {
-            inner.stop_current(Some(plugin), None);
+            inner.work.stop_current(Some(plugin), None);
         }
         let told = inner.preview_of(account, &goes, &stays).await?;
         // Nobody stores a file meanwhile that is about to go.

@@ -24,11 +24,11 @@ impl Inner {
         let Some(attempt) = self.store.take_up(&row.info.id, &self.worker).await? else { return Ok(false) };
         let job = self.advices.add(row.info);
         let lost = job.clone();
-        let _held = self.holding.hold(&attempt, move || lost.stop());
-        self.set_current_idle(&attempt.job, &job.stop, asked);
+        let _held = self.work.holding.hold(&attempt, move || lost.stop());
+        self.work.set_current_idle(&attempt.job, &job.stop, asked);
         let found = self.make_advice(&attempt, &job).await;
-        self.unset_current();
-        let ended = match self.closing() || (job.stop.for_now() && matches!(found, Ok(None))) {
+        self.work.unset_current();
+        let ended = match self.tasks.closing() || (job.stop.for_now() && matches!(found, Ok(None))) {
             true => self.store.put_back_advice(&attempt).await,
             false => self.end_advice(&attempt, job.info(), found).await,
         };

@@ -12,16 +12,16 @@ const BEAT: Duration = Duration::from_secs(5);
 /// Renews the leases of this process and, while it keeps house, takes back attempts of workers that are gone; until the engine
 /// closes.
 pub async fn beat(inner: Arc<Inner>) {
-    while !inner.closing() {
+    while !inner.tasks.closing() {
         tokio::select! {
             () = tokio::time::sleep(BEAT) => {}
-            () = inner.holding.look.notified() => {}
-            () = inner.holding.closed.notified() => return,
+            () = inner.work.holding.look.notified() => {}
+            () = inner.work.holding.closed.notified() => return,
         }
-        for attempt in inner.holding.ids() {
+        for attempt in inner.work.holding.ids() {
             match inner.store.beat(&attempt).await {
                 Ok(true) => {}
-                Ok(false) => inner.holding.stop(&attempt),
+                Ok(false) => inner.work.holding.stop(&attempt),
                 Err(e) => tracing::warn!("the lease of the attempt {attempt} was not renewed: {e}"),
             }
         }

@@ -20,7 +20,7 @@ pub async fn take_back(inner: &Arc<Inner>, just_started: Option<&Worker>) -> Res
     let mut advice = just_started.is_some();
     let mut checks = just_started.is_some();
     for attempt in inner.store.silent_attempts(just_started).await? {
-        if inner.holding.has(&attempt) {
+        if inner.work.holding.has(&attempt) {
             continue;
         }
         let Attempt { kind, job, number, .. } = &attempt;
@@ -36,7 +36,7 @@ pub async fn take_back(inner: &Arc<Inner>, just_started: Option<&Worker>) -> Res
             tracing::warn!("the worker of attempt {number} at {job} ({}) is gone", kind.name());
             advice |= *kind == Kind::Advise;
             checks |= *kind == Kind::Check;
-            inner.wake.notify_one();
+            inner.work.wake.notify_one();
         }
     }
     if checks {

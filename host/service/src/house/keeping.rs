@@ -14,14 +14,14 @@ impl Engine {
         let here = self.inner.house.look(&self.inner.store.locks, &self.inner.worker).await?;
         let takes_over = self.inner.house.note(here);
         if self.inner.store.locks.are_shared() {
-            self.inner.spawn(self.clone().keep_house());
+            self.inner.tasks.spawn(self.clone().keep_house());
         }
         if takes_over { self.take_over().await } else { Ok(()) }
     }
 
     async fn keep_house(self) {
         let inner = &self.inner;
-        while !inner.closing() {
+        while !inner.tasks.closing() {
             tokio::select! {
                 () = tokio::time::sleep(TICK) => {}
                 () = inner.house.closing() => return,
@@ -33,7 +33,7 @@ impl Engine {
             if inner.house.note(here) {
                 tracing::info!("this service keeps house now");
                 let engine = self.clone();
-                inner.spawn(async move {
+                inner.tasks.spawn(async move {
                     if let Err(e) = engine.take_over().await {
                         tracing::error!("what an ended service left could not be taken up: {e}");
                     }
@@ -52,8 +52,8 @@ impl Engine {
         self.catch_up_with_the_suite().await?;
         self.take_up_campaigns().await;
         // Lost attempts are looked for, and idle work.
-        inner.holding.look.notify_one();
-        inner.wake.notify_one();
+        inner.work.holding.look.notify_one();
+        inner.work.wake.notify_one();
         Ok(())
     }
 }

@@ -58,7 +58,7 @@ impl Engine {
             return Ok(NextWork::Sentinel(Box::new(algorithm)));
         }
         let (asked, worker) = (Instant::now(), worker(machine, &facts.hardware_class));
-        while !self.inner.closing() {
+        while !self.inner.tasks.closing() {
             let prepared = self.inner.orders.prepared.notified();
             if let Some(attempt) = self.inner.store.begin_prepared_run(&worker, &self.inner.classes.usual()).await? {
                 match self.begun(machine, &attempt).await? {
@@ -107,7 +107,7 @@ impl Engine {
         let row = self.inner.store.run_row(&attempt.job).await?;
         let Some(order) = order(&self.inner, attempt, &row).await? else {
             self.inner.store.prepare_again(attempt).await?;
-            self.inner.wake.notify_one();
+            self.inner.work.wake.notify_one();
             return Ok(None);
         };
         self.inner.store.keep_order(&order).await?;

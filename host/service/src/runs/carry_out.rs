@@ -23,13 +23,13 @@ pub const BACK_OFF: Duration = Duration::from_secs(2);
 /// Carries out an attempt at a run; idle work gives way when more is asked for than was.
 pub async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, idle: Option<u64>) -> Result<()> {
     let (id, stop) = (attempt.job.as_str(), Stop::default());
-    let _held = inner.hold(attempt, &stop);
+    let _held = inner.work.hold(attempt, &stop);
     match idle {
-        Some(asked) => inner.set_current_idle(id, &stop, asked),
-        None => inner.set_current(id, &stop),
+        Some(asked) => inner.work.set_current_idle(id, &stop, asked),
+        None => inner.work.set_current(id, &stop),
     }
     // A shutdown that came between the beginning and this line found nothing to stop; it is noticed here.
-    if inner.closing() {
+    if inner.tasks.closing() {
         stop.stop();
     }
     inner.run_events.queue_moved();
@@ -40,8 +40,8 @@ pub async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, idle: Option<u64>)
         Err(EngineError::Fault(_)) if stop.asked() => Ok(End::Stopped),
         how => how,
     };
-    inner.unset_current();
-    if let (Ok(End::Stopped), true) = (&how, inner.closing() || stop.for_now()) {
+    inner.work.unset_current();
+    if let (Ok(End::Stopped), true) = (&how, inner.tasks.closing() || stop.for_now()) {
         if inner.store.put_back_run(attempt).await? {
             inner.run_events.ring(id);
         }
@@ -63,7 +63,7 @@ async fn failed_here(inner: &Arc<Inner>, attempt: &Attempt, fault: &EngineError)
         match inner.store.lose_run(attempt, Some(&inner.worker)).await {
             Ok(Some(state)) => return run_was_lost(inner, &attempt.job, state).await,
             Ok(None) => return Ok(()),
-            Err(e) if inner.closing() => return Err(e),
+            Err(e) if inner.tasks.closing() => return Err(e),
             Err(e) => tracing::error!("the end of run {} cannot be recorded: {e}", attempt.job),
         }
     }
@@ -135,7 +135,7 @@ async fn accept(
     loop {
         match inner.store.accept_run(attempt, RunEnd { state, message: message.as_deref(), handed }).await {
             Ok(accepted) => return Ok(accepted),
-            Err(e) if inner.closing() => return Err(e),
+            Err(e) if inner.tasks.closing() => return Err(e),
             Err(e) => tracing::error!("the end of run {} cannot be recorded: {e}", row.id),
         }
         tokio::time::sleep(BACK_OFF).await;

@@ -1,43 +1,69 @@
 //! Work under way, and how it is stopped.
 
-use std::sync::atomic::Ordering;
-use std::sync::{MutexGuard, PoisonError};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use tokio::sync::Notify;
 
 use crate::attempts::Attempt;
-use crate::attempts::worker::Held;
-use crate::engine::{Current, Inner};
+use crate::attempts::worker::{Held, Holding};
 use crate::measure::Stop;
 
-impl Inner {
+/// The one job that the dispatcher works on.
+struct Current {
+    id: String,
+    stop: Stop,
+    /// It gives way to any request.
+    idle: bool,
+}
+
+/// What this process works on, and what calls for more work.
+#[derive(Default)]
+pub struct Work {
+    current: Mutex<Option<Current>>,
+    /// The attempts that it works on.
+    pub holding: Arc<Holding>,
+    /// Rung when the queue has something new.
+    pub wake: Notify,
+    /// Number of requests for work.
+    asked: AtomicU64,
+}
+
+impl Work {
+    /// How often more work was asked for.
+    pub fn asked(&self) -> u64 {
+        self.asked.load(Ordering::SeqCst)
+    }
+
+    /// There is new work: the dispatcher looks at the queue, and idle work gives way.
+    pub fn call(&self) {
+        self.asked.fetch_add(1, Ordering::SeqCst);
+        self.give_way();
+        self.wake.notify_one();
+    }
+
     /// Keeps this attempt, and puts its work off when another worker has the job.
-    pub(crate) fn hold(&self, attempt: &Attempt, stop: &Stop) -> Held {
+    pub fn hold(&self, attempt: &Attempt, stop: &Stop) -> Held {
         let stop = stop.clone();
         self.holding.hold(attempt, move || stop.stop_for_now())
     }
 
     /// Notes the work under way and how it is stopped.
-    pub(crate) fn set_current(&self, id: &str, stop: &Stop) {
+    pub fn set_current(&self, id: &str, stop: &Stop) {
         *self.current() = Some(Current { id: id.to_owned(), stop: stop.clone(), idle: false });
     }
 
     /// The same for idle work. A request since then found nothing that could give way.
-    pub(crate) fn set_current_idle(&self, id: &str, stop: &Stop, asked: u64) {
+    pub fn set_current_idle(&self, id: &str, stop: &Stop, asked: u64) {
         *self.current() = Some(Current { id: id.to_owned(), stop: stop.clone(), idle: true });
-        if self.asked.load(Ordering::SeqCst) != asked {
+        if self.asked() != asked {
             stop.stop_for_now();
         }
     }
 
     /// Nothing is at work.
-    pub(crate) fn unset_current(&self) {
+    pub fn unset_current(&self) {
         *self.current() = None;
-    }
-
-    /// Stops idle work for now.
-    pub fn give_way(&self) {
-        if let Some(Current { stop, idle: true, .. }) = &*self.current() {
-            stop.stop_for_now();
-        }
     }
 
     /// Stops the run at work if it is this one, or whichever it is, with a reason for its owner.
@@ -46,6 +72,13 @@ impl Inner {
             && id.is_none_or(|id| id == running)
         {
             stop.stop_because(reason.map(str::to_owned));
+        }
+    }
+
+    /// Stops idle work for now.
+    fn give_way(&self) {
+        if let Some(Current { stop, idle: true, .. }) = &*self.current() {
+            stop.stop_for_now();
         }
     }
 

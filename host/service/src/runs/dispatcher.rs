@@ -1,7 +1,6 @@
 //! The local dispatcher: one job of the queue is at work at a time, each on a thread of its own.
 
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use crate::Result;
@@ -23,8 +22,8 @@ const LONGEST_BACK_OFF: Duration = Duration::from_secs(60);
 pub async fn work(inner: Arc<Inner>) {
     let (mut faults, mut next_check) = (0, Instant::now());
     let mut filling = Filling::default();
-    while !inner.closing() {
-        let asked = inner.asked.load(Ordering::SeqCst);
+    while !inner.tasks.closing() {
+        let asked = inner.work.asked();
         // In turn, so that neither waits for all of the other.
         let mut checked = false;
         if Instant::now() >= next_check {
@@ -37,8 +36,8 @@ pub async fn work(inner: Arc<Inner>) {
                 }
             }
         }
-        let tried = next_part(&inner, INTERACTIVE, |id, stop| inner.set_current(id, stop)).await;
-        inner.unset_current();
+        let tried = next_part(&inner, INTERACTIVE, |id, stop| inner.work.set_current(id, stop)).await;
+        inner.work.unset_current();
         let tried = match tried {
             Ok(tried) => tried,
             Err(e) => {
@@ -72,7 +71,7 @@ pub async fn work(inner: Arc<Inner>) {
             Ok(None) if filling.work(&inner, asked).await => {}
             Ok(None) => {
                 let idle = if faults > 0 { next_check.saturating_duration_since(Instant::now()) } else { IDLE };
-                let _ = tokio::time::timeout(idle, inner.wake.notified()).await;
+                let _ = tokio::time::timeout(idle, inner.work.wake.notified()).await;
             }
             Err(e) => {
                 tracing::error!("reading the queue: {e}");
@@ -91,9 +90,9 @@ fn back_off(faults: u32) -> Duration {
 async fn check_next(inner: &Arc<Inner>) -> Result<bool> {
     let Some((attempt, row)) = inner.store.begin_check(&inner.worker).await? else { return Ok(false) };
     let stop = Stop::default();
-    let _held = inner.hold(&attempt, &stop);
-    inner.set_current(&row.id, &stop);
-    if inner.closing() {
+    let _held = inner.work.hold(&attempt, &stop);
+    inner.work.set_current(&row.id, &stop);
+    if inner.tasks.closing() {
         stop.stop();
     }
     // Who ended it between the beginning and this line found nothing to stop.
@@ -101,13 +100,13 @@ async fn check_next(inner: &Arc<Inner>) -> Result<bool> {
         Ok(Some(now)) if now.state.is_checking() => checks::carry_out(inner, &attempt, &row, &stop).await,
         other => other.map(|_| false),
     };
-    inner.unset_current();
+    inner.work.unset_current();
     // What was stopped, or went wrong by our fault and not the plugin's, is no attempt. A database error is retried, as below.
     while !matches!(done, Ok(true))
         && let Err(e) = inner.store.put_back_check(&attempt).await
     {
         tracing::error!("the check of plugin {} cannot be put back: {e}", row.id);
-        if inner.closing() {
+        if inner.tasks.closing() {
             break;
         }
         tokio::time::sleep(BACK_OFF).await;

@@ -90,8 +90,8 @@ async fn listen(inner: &Inner, url: &str, plugins: &Notify, seen: &mpsc::Sender<
 /// A job is in another state: the queue has moved, and what this process works on may have been cancelled.
 fn changed(inner: &Inner) {
     inner.run_events.queue_moved();
-    inner.wake.notify_one();
-    inner.holding.look.notify_one();
+    inner.work.wake.notify_one();
+    inner.work.holding.look.notify_one();
 }
 
 /// Shows what a machine told another service: the words of its notification. `elsewhere` are the attempts that are shown so.

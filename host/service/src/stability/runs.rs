@@ -68,7 +68,7 @@ impl Engine {
             finished_us: None,
         };
         let new = inner.store.add_stability_run(&row).await?;
-        inner.call();
+        inner.work.call();
         Ok((self.stability_run(&row.id).await?, new))
     }
 
@@ -168,7 +168,7 @@ impl Inner {
     /// The row first: a part that ends at this moment finds it ended.
     pub(crate) async fn end_stability(&self, id: &str, reason: Option<&str>) -> Result<()> {
         self.store.end_stability(id, State::Cancelled, reason).await?;
-        self.stop_current(Some(id), None);
+        self.work.stop_current(Some(id), None);
         self.store.withdraw(Kind::Stability, id, &self.worker).await.map(|_| ())
     }
 }

@@ -29,11 +29,11 @@ pub async fn next_part(inner: &Arc<Inner>, priority: i64, begun: impl FnOnce(&st
         return Ok(true);
     }
     let stop = Stop::default();
-    let _held = inner.hold(&attempt, &stop);
+    let _held = inner.work.hold(&attempt, &stop);
     begun(&row.id, &stop);
     // Who ended it between the beginning and the line above found nothing to stop.
     let open = inner.store.stability_run(&row.id).await?.is_some_and(|now| now.state == State::Running);
-    if inner.closing() || !open {
+    if inner.tasks.closing() || !open {
         stop.stop();
     }
     match part_in_time(inner, &attempt, &row, &stop).await {

@@ -33,15 +33,15 @@ pub async fn next_replay(inner: &Arc<Inner>) -> Result<bool> {
         return Ok(true);
     }
     let stop = Stop::default();
-    let _held = inner.hold(&attempt, &stop);
-    inner.set_current(&row.id, &stop);
+    let _held = inner.work.hold(&attempt, &stop);
+    inner.work.set_current(&row.id, &stop);
     // Who ended it between the beginning and the line above found nothing to stop.
     let open = inner.store.workload(&row.id).await?.is_some_and(|now| now.state == State::Running);
-    if inner.closing() || !open {
+    if inner.tasks.closing() || !open {
         stop.stop();
     }
     let ended = carry_out(inner, &attempt, &row, &stop).await;
-    inner.unset_current();
+    inner.work.unset_current();
     match ended {
         Ok(()) => {}
         // Its time is over.
