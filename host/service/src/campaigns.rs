@@ -337,7 +337,7 @@ impl Inner {
                 sentence(&row.reason)
             );
             let told = notice("Your public runs were measured again", &text, &format!("/campaigns/{id}"));
-            self.notify(&account, &told).await?;
+            self.outbox.notify(&account, &told).await?;
         }
         self.store.end_campaign(id).await
     }

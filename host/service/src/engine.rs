@@ -7,7 +7,6 @@ use ocb_core::configuration::ConfigurationSet;
 use ocb_core::heatmap::VertexMap;
 use ocb_core::oracle::Shape;
 use ocb_lab::recording::Recording;
-use tokio::sync::Notify;
 
 use crate::advice::work::Advices;
 use crate::attempts::worker::Worker;
@@ -18,6 +17,7 @@ use crate::columns::RecordColumns;
 use crate::house::House;
 use crate::machine::Machine;
 use crate::machines::under_way::Orders;
+use crate::mail::outbox::Outbox;
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;
 use crate::runs::current::Work;
@@ -68,8 +68,7 @@ pub struct Inner {
     pub advices: Advices,
     /// Whether this service does the work that one service does for all on the database.
     pub house: House,
-    /// Rung when there is a mail to bring.
-    pub posting: Notify,
+    pub outbox: Outbox,
     /// Held as long as this process uses the folder.
     pub lock: File,
 }

@@ -3,8 +3,9 @@
 pub mod sql;
 
 use crate::boxed;
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::mail::one_line;
+use crate::mail::outbox::Outbox;
 use crate::model::{AccountInfo, Cursor, NoticeInfo, Page, Part};
 use crate::notices::sql::NewNotice;
 use crate::store::now_us;
@@ -15,7 +16,7 @@ const MOST: usize = 500;
 const SUBJECT: usize = 160;
 const TEXT: usize = 4000;
 
-impl Inner {
+impl Outbox {
     /// Tells an account something: `account` is its id; of an account that is gone, nothing is kept.
     ///
     /// # Errors
@@ -30,14 +31,7 @@ impl Inner {
 
     /// How an account is told something in the transaction of what it is told of; `post_soon` when that is through.
     pub fn new_notice<'a>(&self, account: &'a str, notice: &'a NoticeInfo) -> NewNotice<'a> {
-        NewNotice { account, notice, most: MOST, mailing: self.config.mail.is_some() }
-    }
-
-    /// Somebody was told something: there may be a mail to bring. PostgreSQL tells the other services.
-    pub fn post_soon(&self) {
-        if self.config.mail.is_some() {
-            self.posting.notify_one();
-        }
+        NewNotice { account, notice, most: MOST, mailing: self.server.is_some() }
     }
 }
 

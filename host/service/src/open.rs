@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use tokio::sync::Notify;
-
 use crate::advice::work::Advices;
 use crate::attempts::worker::Worker;
 use crate::attempts::{beat, lost};
@@ -15,6 +13,7 @@ use crate::engine::{Engine, Inner};
 use crate::house::House;
 use crate::machine::{Machine, lock_data_folder};
 use crate::machines::under_way::Orders;
+use crate::mail::outbox::Outbox;
 use crate::model::Status;
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;
@@ -63,7 +62,7 @@ impl Engine {
             charts: Cache::weighing(crate::charts::KEPT_POINTS, crate::charts::points),
             advices: Advices::default(),
             house: House::default(),
-            posting: Notify::new(),
+            outbox: Outbox::new(store.clone(), config.mail.clone()),
             lock,
             config,
             store,
@@ -80,7 +79,8 @@ impl Engine {
             engine.inner.tasks.spawn(dispatcher::work(engine.inner.clone()));
             engine.inner.tasks.spawn(engine.clone().sweep());
             engine.inner.tasks.spawn(engine.clone().look_after_campaigns());
-            engine.inner.tasks.spawn(engine.inner.clone().post());
+            let inner = engine.inner.clone();
+            engine.inner.tasks.spawn(async move { inner.outbox.post(&inner.house).await });
             if let Some(jobs) = engine.inner.config.slurm.clone() {
                 engine.inner.tasks.spawn(engine.clone().supply(jobs));
             }

@@ -258,7 +258,7 @@ impl Engine {
         // A check goes on while its end is asked for.
         let from = if action == Action::EndCheck { step.from } else { &[row.state] };
         for from in from {
-            let new_notice = notice.as_ref().map(|notice| self.inner.new_notice(&row.account, notice));
+            let new_notice = notice.as_ref().map(|notice| self.inner.outbox.new_notice(&row.account, notice));
             moved = moved || store.move_plugin(id, *from, step.to, &reason, new_notice, Some(note)).await?;
         }
         if !moved {
@@ -270,7 +270,7 @@ impl Engine {
             self.inner.work.stop_current(Some(id), None);
         }
         drop(publishing);
-        self.inner.post_soon();
+        self.inner.outbox.post_soon();
         // The decision is stored, so a failure from here on is logged, not answered; the next start reads the registry again.
         if let Err(e) = self.follow_decision(&row, step.to).await {
             tracing::error!("plugin {id}: the decision is stored, but applying it failed: {e}");

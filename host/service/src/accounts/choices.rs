@@ -44,7 +44,7 @@ impl Engine {
         let note = Note { actor: &account.name, action: "address added", subject: &subject, detail: "" };
         self.inner.store.set_address(&account.id, &to, asking, note).await?;
         if asking {
-            self.inner.posting.notify_one();
+            self.inner.outbox.post_soon();
         }
         self.choices(account).await
     }

@@ -39,11 +39,11 @@ impl Inner {
         let note = Note { actor: THE_SERVICE, action: "excluded", subject: id, detail: report };
         let told = "It is no longer measured on this hardware class until a curator reinstates it; its results on other classes stay.";
         let notice = to_author(plugin, &format!("is excluded on the hardware class {class}"), told, report);
-        let new_notice = self.new_notice(&plugin.account, &notice);
+        let new_notice = self.outbox.new_notice(&plugin.account, &notice);
         if !self.store.exclude_plugin(id, class, failed_us, Some(new_notice), note).await? {
             return Ok(());
         }
-        self.post_soon();
+        self.outbox.post_soon();
         self.registry.renew().await?;
         self.forget_waiting().await
     }

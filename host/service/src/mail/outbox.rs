@@ -2,29 +2,49 @@
 //! keeps house brings them, one after the other, in the background. While it tries one, no other service takes that. A restart loses no mail. The text is written when the mail is sent, so
 //! that an account that has turned mails off receives none that were waiting.
 
-use std::sync::Arc;
 use std::time::Duration;
 
+use tokio::sync::Notify;
+
 use crate::Result;
-use crate::engine::Inner;
+use crate::house::House;
 use crate::mail::sql::{MailLink, WaitingMail};
 use crate::mail::{Letter, MailServer, Refused, deliver};
 use crate::runs::draw;
 use crate::sha256_hex;
-use crate::store::now_us;
+use crate::store::{Store, now_us};
 
 /// The waiting mails are looked at this often even if nothing rings.
 const IDLE: Duration = Duration::from_secs(600);
 /// After a fault of the database.
 const BACK_OFF: Duration = Duration::from_secs(10);
 
-impl Inner {
+/// The mails that wait, and the server that takes them.
+pub struct Outbox {
+    pub(crate) store: Store,
+    /// Without one, nothing is mailed.
+    pub(crate) server: Option<MailServer>,
+    /// Rung when there is a mail to bring.
+    ring: Notify,
+}
+
+impl Outbox {
+    /// The mails of this database, for this server.
+    pub fn new(store: Store, server: Option<MailServer>) -> Self {
+        Self { store, server, ring: Notify::new() }
+    }
+
+    /// Somebody was told something: there may be a mail to bring. PostgreSQL tells the other services.
+    pub fn post_soon(&self) {
+        self.ring.notify_one();
+    }
+
     /// Brings mails to the server while this service keeps house, until the engine closes; without a server, nothing.
-    pub(crate) async fn post(self: Arc<Self>) {
-        let Some(server) = self.config.mail.clone() else { return };
+    pub async fn post(&self, house: &House) {
+        let Some(server) = &self.server else { return };
         tracing::info!("mails are sent through {}", server.named());
-        while self.house.here().await {
-            let wait = match self.post_due(&server).await {
+        while house.here().await {
+            let wait = match self.post_due(server, house).await {
                 Ok(wait) => wait.min(IDLE),
                 Err(e) => {
                     tracing::error!("mails could not be read: {e}");
@@ -33,15 +53,15 @@ impl Inner {
             };
             tokio::select! {
                 () = tokio::time::sleep(wait) => {}
-                () = self.posting.notified() => {}
-                () = self.house.gone() => {}
+                () = self.ring.notified() => {}
+                () = house.gone() => {}
             }
         }
     }
 
     /// Brings what is due, and gives how long the next one waits.
-    async fn post_due(&self, server: &MailServer) -> Result<Duration> {
-        while self.house.is_here()
+    async fn post_due(&self, server: &MailServer, house: &House) -> Result<Duration> {
+        while house.is_here()
             && let Some(mail) = self.store.due_mail(now_us()).await?
         {
             if !mail.wanted {
@@ -57,7 +77,7 @@ impl Inner {
             let brought = tokio::select! {
                 brought = bring(server, &letter, &mail.id) => brought,
                 // It waits for the next start, and the server may have it already: then it gets it twice, under one id.
-                () = self.house.closing() => {
+                () = house.closing() => {
                     self.store.hold_mail(&mail.id, over, mail.due_us).await?;
                     return Ok(Duration::ZERO);
                 }

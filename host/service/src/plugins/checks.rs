@@ -88,10 +88,10 @@ async fn settle(inner: &Inner, attempt: &Attempt, row: &PluginRow, report: Plugi
         None => (PluginState::Validated, format!("Passed on hardware class {class}.")),
     };
     let notice = of_check(row, state, &reason);
-    let new_notice = inner.new_notice(&row.account, &notice);
+    let new_notice = inner.outbox.new_notice(&row.account, &notice);
     let end = CheckEnd { algorithms: &described.algorithms, class, state, new_notice, note: note(row, state, &reason) };
     if inner.store.accept_check(attempt, end).await? {
-        inner.post_soon();
+        inner.outbox.post_soon();
     } else {
         tracing::warn!("plugin {}: the report of attempt {} comes too late and is not kept", row.id, attempt.number);
     }
@@ -110,10 +110,10 @@ pub async fn give_up(inner: &Inner) -> Result<()> {
         let reason =
             format!("The service ended {MOST_LOST} times in the middle of this check, so it is not tried again.");
         let notice = of_check(&row, to, &reason);
-        let new_notice = Some(inner.new_notice(&row.account, &notice));
+        let new_notice = Some(inner.outbox.new_notice(&row.account, &notice));
         let note = Some(note(&row, to, &reason));
         if inner.store.move_plugin(&row.id, from, to, &reason, new_notice, note).await? {
-            inner.post_soon();
+            inner.outbox.post_soon();
         }
     }
     Ok(())

@@ -80,7 +80,7 @@ async fn listen(inner: &Inner, url: &str, plugins: &Notify, seen: &mpsc::Sender<
                 plugins.notify_one();
                 changed(inner);
             }
-            (MAILS, _) => inner.posting.notify_one(),
+            (MAILS, _) => inner.outbox.post_soon(),
             (SEEN, told) => drop(seen.try_send(told.to_owned())),
             _ => {}
         }
@@ -126,6 +126,6 @@ impl Store {
 
 fn everything(inner: &Inner, plugins: &Notify) {
     plugins.notify_one();
-    inner.posting.notify_one();
+    inner.outbox.post_soon();
     changed(inner);
 }
