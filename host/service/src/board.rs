@@ -14,6 +14,7 @@ mod frontier;
 mod keys;
 mod picture;
 mod row;
+pub mod runs;
 mod suite;
 
 use ocb_chart::Chart;

@@ -19,26 +19,47 @@ use std::sync::Arc;
 use ocb_chart::{Chart, Series};
 use ocb_core::statistics::bootstrap_interval;
 
+use crate::board::runs::{measured_of, measured_so_far};
 use crate::board::{Measured, of_run};
-use crate::engine::Inner;
+use crate::cache::Cache;
+use crate::machine::Machine;
 use crate::model::{AlgorithmResult, ChartKind, ChartRequest, State};
+use crate::objects::Objects;
+use crate::results::Results;
 use crate::runs::sql::RunRow;
-use crate::{EngineError, Result};
+use crate::store::Store;
+use crate::{EngineError, Profile, Result};
 
 /// Points of the charts in memory, in all: about 40 MB.
-pub const KEPT_POINTS: usize = 200_000;
+const KEPT_POINTS: usize = 200_000;
 
-impl Inner {
+/// The charts of all runs.
+pub struct Charts {
+    store: Store,
+    objects: Arc<Objects>,
+    results: Arc<Results>,
+    /// The machine and the jail in which runs are measured here.
+    machine: Machine,
+    profile: Profile,
+    drawn: Cache<Chart>,
+}
+
+impl Charts {
+    /// Those of these results.
+    pub fn new(store: Store, objects: Arc<Objects>, results: Arc<Results>, machine: Machine, profile: Profile) -> Self {
+        Self { store, objects, results, machine, profile, drawn: Cache::weighing(KEPT_POINTS, points) }
+    }
+
     /// One chart of a run, from memory when it was drawn lately.
     pub async fn chart(&self, run: &str, request: ChartRequest, viewer: Option<&str>) -> Result<Chart> {
         let row = self.store.run_row(run).await?;
         let runs = self.charted_runs(&row, request.kind, viewer).await?;
         let Some(key) = key(&request, &row, &runs) else { return self.draw(&row, &runs, request).await };
-        if let Some(chart) = self.charts.get(&key) {
+        if let Some(chart) = self.drawn.get(&key) {
             return Ok((*chart).clone());
         }
         let chart = self.draw(&row, &runs, request).await?;
-        Ok((*self.charts.put(&key, chart)).clone())
+        Ok((*self.drawn.put(&key, chart)).clone())
     }
 
     /// The runs that a chart is made of: this one alone, or with others that the asker may see.
@@ -54,7 +75,7 @@ impl Inner {
 
     async fn draw(&self, row: &RunRow, runs: &[RunRow], request: ChartRequest) -> Result<Chart> {
         let run = &row.id;
-        let mut results = self.results_so_far(run).await?;
+        let mut results = self.results.results_so_far(run).await?;
         results.retain(|result| result.n > 0);
         let preliminary = results.iter().any(|result| result.preliminary);
         if results.is_empty() {
@@ -64,8 +85,8 @@ impl Inner {
         let mut chart = match request.kind {
             ChartKind::Accuracy => {
                 let measured: Vec<Measured> = match preliminary {
-                    true => self.measured_so_far(row, &results),
-                    false => self.measured_of(row).await?,
+                    true => measured_so_far(&self.machine, self.profile, row, &results),
+                    false => measured_of(&self.store, row).await?,
                 };
                 of_run(&measured, request.accuracy)
             }
@@ -111,7 +132,7 @@ impl Inner {
         }
         let only = if let [one] = results { one.algorithm.as_str() } else { "" };
         let algorithm = request.algorithm.as_deref().unwrap_or(only);
-        Ok(Some(self.chosen(&row.id, algorithm, selection).await?))
+        Ok(Some(self.results.chosen(&row.id, algorithm, selection).await?))
     }
 }
 
@@ -126,7 +147,7 @@ fn key(request: &ChartRequest, row: &RunRow, runs: &[RunRow]) -> Option<String> 
 }
 
 /// How much of the memory for charts one takes.
-pub fn points(chart: &Chart) -> usize {
+fn points(chart: &Chart) -> usize {
     1 + chart.series.iter().map(|series| series.points.len()).sum::<usize>()
 }
 

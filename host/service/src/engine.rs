@@ -3,26 +3,25 @@
 use std::fs::File;
 use std::sync::Arc;
 
-use ocb_core::configuration::ConfigurationSet;
-use ocb_core::heatmap::VertexMap;
-use ocb_core::oracle::Shape;
 use ocb_lab::recording::Recording;
 
 use crate::advice::work::Advices;
 use crate::attempts::worker::Worker;
 use crate::blobs::Blobs;
 use crate::cache::Cache;
+use crate::charts::Charts;
 use crate::classes::Classes;
-use crate::columns::RecordColumns;
 use crate::house::House;
 use crate::machine::Machine;
 use crate::machines::under_way::Orders;
 use crate::mail::outbox::Outbox;
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;
+use crate::results::Results;
 use crate::runs::current::Work;
 use crate::runs::log::RunEvents;
 use crate::runs::preliminary::UnderWay;
+use crate::sets::stored::Sets;
 use crate::store::Store;
 use crate::suite::Suite;
 use crate::tasks::Tasks;
@@ -43,7 +42,7 @@ pub struct Inner {
     pub config: EngineConfig,
     pub store: Store,
     pub blobs: Blobs,
-    pub objects: Objects,
+    pub objects: Arc<Objects>,
     pub registry: Registry,
     pub machine: Machine,
     /// The hardware classes on which runs are measured.
@@ -59,12 +58,10 @@ pub struct Inner {
     pub worker: Worker,
     pub work: Work,
     pub tasks: Tasks,
-    pub sets: Cache<ConfigurationSet>,
-    pub records: Cache<RecordColumns>,
-    pub maps: Cache<VertexMap>,
-    pub shapes: Cache<Shape>,
+    pub sets: Arc<Sets>,
+    pub results: Arc<Results>,
+    pub charts: Charts,
     pub recordings: Cache<Recording>,
-    pub charts: Cache<ocb_chart::Chart>,
     pub advices: Advices,
     /// Whether this service does the work that one service does for all on the database.
     pub house: House,

@@ -8,6 +8,7 @@ use crate::attempts::{beat, lost};
 use crate::blobs::Blobs;
 use crate::boxed;
 use crate::cache::Cache;
+use crate::charts::Charts;
 use crate::classes::Classes;
 use crate::engine::{Engine, Inner};
 use crate::house::House;
@@ -17,10 +18,13 @@ use crate::mail::outbox::Outbox;
 use crate::model::Status;
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;
+use crate::results::Results;
 use crate::runs::current::Work;
 use crate::runs::dispatcher;
 use crate::runs::log::RunEvents;
+use crate::runs::preliminary::UnderWay;
 use crate::runs::priority::BACKGROUND;
+use crate::sets::stored::Sets;
 use crate::store::{Store, now_us};
 use crate::suite::Suite;
 use crate::tasks::Tasks;
@@ -43,28 +47,31 @@ impl Engine {
         let registry = Registry::open(&config, &store, &blobs).await?;
         let suite = Suite::open(config.suite.as_deref())?;
         let machine = Machine::observe()?.noted(config.machine_note.as_deref());
+        let objects = Arc::new(Objects::new(store.clone(), blobs.clone(), config.stock_dir.clone()));
+        let sets = Arc::new(Sets::new(store.clone(), blobs.clone()));
+        let under_way: Arc<UnderWay> = Arc::default();
+        let results = Results::new(store.clone(), blobs.clone(), objects.clone(), sets.clone(), under_way.clone());
+        let results = Arc::new(results);
         let inner = Arc::new(Inner {
             worker: Worker::of(&lock, &machine.hardware_class)?,
             work: Work::default(),
             tasks: Tasks::default(),
-            objects: Objects::new(store.clone(), blobs.clone(), config.stock_dir.clone()),
+            charts: Charts::new(store.clone(), objects.clone(), results.clone(), machine.clone(), registry.profile()),
             classes: Classes::of(&machine.hardware_class, &machine.cpu, config.elsewhere),
             machine,
             run_events: RunEvents::new(),
-            under_way: Arc::default(),
             orders: Orders::default(),
             suite,
-            sets: Cache::new(4),
-            records: Cache::new(16),
-            maps: Cache::new(8),
-            shapes: Cache::new(4),
             recordings: Cache::weighing(workloads::MOST_QUERIES, |recording| recording.queries.len()),
-            charts: Cache::weighing(crate::charts::KEPT_POINTS, crate::charts::points),
             advices: Advices::default(),
             house: House::default(),
             outbox: Outbox::new(store.clone(), config.mail.clone()),
             lock,
             config,
+            objects,
+            sets,
+            results,
+            under_way,
             store,
             blobs,
             registry,

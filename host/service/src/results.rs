@@ -13,29 +13,56 @@ use ocb_core::configuration::ConfigurationSet;
 use ocb_core::export::{Legend, glb, ply};
 use ocb_core::heatmap::{VertexMap, VertexValues};
 use ocb_core::mesh::Mesh;
+use ocb_core::oracle::Shape;
 use ocb_core::selection::{Column, Columns};
 use ocb_core::statistics;
 
+use crate::blobs::Blobs;
 use crate::blocking::blocking;
+use crate::cache::Cache;
 use crate::columns::{self, RecordColumns};
-use crate::engine::Inner;
 use crate::model::{AlgorithmResult, Ecdf, Heatmap, HeatmapRequest, Measure, Side};
+use crate::objects::Objects;
 use crate::results::sql::StoredResult;
+use crate::runs::preliminary::UnderWay;
 use crate::runs::sql::RunRow;
+use crate::sets::stored::Sets;
+use crate::store::Store;
 use crate::{EngineError, Result};
 
 /// Points of a distribution's curve at most.
 const ECDF_POINTS: usize = 512;
 
-impl Inner {
-    /// A stored set, from memory when it was used lately.
-    pub async fn set(&self, blob: &str) -> Result<Arc<ConfigurationSet>> {
-        if let Some(set) = self.sets.get(blob) {
-            return Ok(set);
+/// Records and maps that stay in memory, and what the oracle needs of meshes.
+const RECENT_RECORDS: usize = 16;
+const RECENT_MAPS: usize = 8;
+const RECENT_SHAPES: usize = 4;
+
+/// The results of all runs, also of those under way.
+pub struct Results {
+    store: Store,
+    blobs: Blobs,
+    objects: Arc<Objects>,
+    sets: Arc<Sets>,
+    under_way: Arc<UnderWay>,
+    records: Cache<RecordColumns>,
+    maps: Cache<VertexMap>,
+    shapes: Cache<Shape>,
+}
+
+impl Results {
+    /// Those of this store, and what the runs under way can show.
+    pub fn new(store: Store, blobs: Blobs, objects: Arc<Objects>, sets: Arc<Sets>, under_way: Arc<UnderWay>) -> Self {
+        Self {
+            store,
+            blobs,
+            objects,
+            sets,
+            under_way,
+            records: Cache::new(RECENT_RECORDS),
+            maps: Cache::new(RECENT_MAPS),
+            shapes: Cache::new(RECENT_SHAPES),
         }
-        let bytes = self.blobs.get(blob).await?;
-        let set = blocking(move || Ok(columns::read_set(&bytes)?)).await?;
-        Ok(self.sets.put(blob, set))
     }
 
     /// Values on the vertices of one object.
@@ -146,7 +173,7 @@ impl Inner {
     /// The run's configurations, or the beginning of them while the others are still being found.
     pub async fn set_so_far(&self, row: &RunRow) -> Result<Arc<ConfigurationSet>> {
         match &row.set_blob {
-            Some(blob) => self.set(blob).await,
+            Some(blob) => self.sets.get(blob).await,
             None => self.under_way.beginning(&row.id).ok_or_else(|| not_yet(&row.id)),
         }
     }

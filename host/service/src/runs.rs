@@ -277,7 +277,7 @@ impl Engine {
             let open = |stage: &&mut Stage| matches!(stage.state, State::Queued | State::Running);
             stages.iter_mut().filter(open).for_each(|stage| stage.state = State::Cancelled);
         }
-        let mut results = self.inner.results_so_far(&row.id).await?;
+        let mut results = self.inner.results.results_so_far(&row.id).await?;
         let mut seconds_left = self.inner.under_way.seconds_left(&row.id);
         // Ended at another service, or it waits again, since its machine was heard from here.
         if row.state != State::Running {

@@ -3,6 +3,7 @@
 pub mod saved;
 mod saved_sql;
 pub mod sql;
+pub mod stored;
 
 use std::sync::Arc;
 
@@ -13,9 +14,8 @@ use ocb_lab::pairing::Pairing;
 use crate::Result;
 use crate::blocking::blocking;
 use crate::boxed;
-use crate::columns::{SetOf, set_parquet};
-use crate::configurations::{Gauge, describe, make, read_file, set_key};
-use crate::engine::{Engine, Inner};
+use crate::configurations::{Gauge, make, read_file, set_key};
+use crate::engine::Engine;
 use crate::model::{RunSpec, SetInfo};
 use crate::runs::spec;
 
@@ -80,33 +80,12 @@ impl Engine {
     #[boxed]
     pub async fn keep_set(&self, job: &SetJob, set: &ConfigurationSet, seconds: f64) -> Result<SetInfo> {
         let _keeping = self.inner.store.locks.keeping().await?;
-        self.inner.keep_set(&job.key, job.meshes.each_ref().map(AsRef::as_ref), set, seconds).await
+        self.inner.sets.keep(&job.key, job.meshes.each_ref().map(AsRef::as_ref), set, seconds).await
     }
 
     /// A kept set with its truth as Parquet.
     #[boxed]
     pub async fn set_parquet(&self, info: &SetInfo) -> Result<Vec<u8>> {
         self.inner.blobs.get(&info.sha256).await
-    }
-}
-
-impl Inner {
-    /// Keeps a new set under its key, while `Blobs::keeping` is held.
-    #[boxed]
-    pub async fn keep_set(
-        &self,
-        key: &str,
-        [a, b]: [&Mesh; 2],
-        set: &ConfigurationSet,
-        seconds: f64,
-    ) -> Result<SetInfo> {
-        let bytes = set_parquet(&SetOf { mesh_a: &a.sha256(), mesh_b: &b.sha256() }, set)?;
-        let length = bytes.len();
-        let blob = self.blobs.put(bytes).await?;
-        let triangles = [a.triangles().len(), b.triangles().len()];
-        let info = describe(set, &blob, triangles);
-        self.store.add_blob(&blob, length, "application/vnd.apache.parquet").await?;
-        self.store.keep_set(key, &info, &blob, triangles.iter().sum::<usize>() as u64, seconds).await?;
-        Ok(info)
     }
 }

@@ -13,7 +13,7 @@ impl Engine {
     /// One chart of a run. Others of its kind are taken from the runs that the viewer may see.
     #[boxed]
     pub async fn chart(&self, run: &str, request: ChartRequest, viewer: Option<&str>) -> Result<Chart> {
-        self.inner.chart(run, request, viewer).await
+        self.inner.charts.chart(run, request, viewer).await
     }
 }
 

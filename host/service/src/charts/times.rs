@@ -6,11 +6,11 @@ use ocb_chart::{Axis, Chart, Form, Point, Scale, Series};
 use ocb_core::configuration::{ConfigurationSet, Placed, Separation};
 use ocb_core::statistics::{Statistic, maximum_interval};
 
-use super::{mean, series};
+use super::{Charts, mean, series};
 use crate::blocking::blocking;
+use crate::board::runs::{measured_of, visible_runs};
 use crate::board::{Measured, Named};
 use crate::columns::RecordColumns;
-use crate::engine::Inner;
 use crate::model::{AlgorithmResult, ObjectId};
 use crate::runs::sql::RunRow;
 use crate::{EngineError, Result};
@@ -18,7 +18,7 @@ use crate::{EngineError, Result};
 /// Other runs beside this one, at most.
 const OTHERS: usize = 24;
 
-impl Inner {
+impl Charts {
     /// This run and those of the same pair of objects at other distances.
     pub(super) async fn at_other_distances(&self, row: &RunRow, viewer: Option<&str>) -> Result<Vec<RunRow>> {
         self.alike(row, viewer, |m| &m.scene, |m| &m.distance).await
@@ -80,11 +80,11 @@ impl Inner {
         same: fn(&Measured) -> &Named,
         differs: fn(&Measured) -> &Named,
     ) -> Result<Vec<RunRow>> {
-        let own = self.measured_of(row).await?;
+        let own = measured_of(&self.store, row).await?;
         let Some(first) = own.first() else { return Ok(Vec::new()) };
         let (mut seen, mut runs) = (vec![differs(first).clone()], vec![row.clone()]);
-        for other in self.visible_runs(viewer).await? {
-            let of_other = self.measured_of(&other).await?;
+        for other in visible_runs(&self.store, &self.objects, viewer).await? {
+            let of_other = measured_of(&self.store, &other).await?;
             let Some(m) = of_other.first().filter(|_| other.id != row.id) else { continue };
             let alike = same(m) == same(first) && m.question == first.question && m.hardware == first.hardware;
             if alike && !seen.contains(differs(m)) && runs.len() <= OTHERS {
@@ -101,8 +101,8 @@ impl Inner {
         run: &RunRow,
         algorithm: &str,
     ) -> Result<Option<(std::sync::Arc<ConfigurationSet>, std::sync::Arc<RecordColumns>)>> {
-        match self.records_so_far(&run.id, algorithm).await {
-            Ok((_, records)) => Ok(Some((self.set_so_far(run).await?, records))),
+        match self.results.records_so_far(&run.id, algorithm).await {
+            Ok((_, records)) => Ok(Some((self.results.set_so_far(run).await?, records))),
             Err(EngineError::NotFound(_)) => Ok(None),
             Err(e) => Err(e),
         }

@@ -6,17 +6,16 @@ use std::sync::Arc;
 use ocb_chart::{Axis, Chart, Form, Point, Scale};
 use rayon::prelude::*;
 
-use super::{mean, series};
+use super::{Charts, mean, series};
 use crate::Result;
 use crate::blocking::blocking;
-use crate::engine::Inner;
 use crate::model::{AlgorithmResult, ChartKind};
 use crate::runs::sql::RunRow;
 
 /// Steps of a power of ten into which tests are sorted.
 const STEPS: f64 = 4.0;
 
-impl Inner {
+impl Charts {
     /// The distribution of the time per query.
     pub(super) async fn times_spread(
         &self,
@@ -26,7 +25,7 @@ impl Inner {
     ) -> Result<Chart> {
         let mut all = Vec::new();
         for (place, result) in results.iter().enumerate() {
-            let curve = self.ecdf_of(&row.id, &result.algorithm, chosen).await?;
+            let curve = self.results.ecdf_of(&row.id, &result.algorithm, chosen).await?;
             let points = curve.time_ns.iter().zip(&curve.share);
             let points = points.map(|(ns, share)| Point::at(*ns, *share, u64::from(curve.n))).collect();
             all.push(series(&result.name, place, Form::Steps, points));
@@ -53,7 +52,7 @@ impl Inner {
     ) -> Result<Chart> {
         let mut all = Vec::new();
         for (place, result) in results.iter().enumerate() {
-            let (_, records) = self.records_so_far(&row.id, &result.algorithm).await?;
+            let (_, records) = self.results.records_so_far(&row.id, &result.algorithm).await?;
             let chosen = chosen.clone();
             let points = blocking(move || {
                 let tests = if kind == ChartKind::BvTests { &records.bv_tests } else { &records.primitive_tests };

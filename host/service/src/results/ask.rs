@@ -11,7 +11,7 @@ impl Engine {
     /// Values on the vertices of one object of the run.
     #[boxed]
     pub async fn heatmap(&self, run: &str, request: &HeatmapRequest) -> Result<Heatmap> {
-        self.inner.heatmap(run, request).await
+        self.inner.results.heatmap(run, request).await
     }
 
     /// The coloured object as glTF binary, with the raw values.
@@ -23,7 +23,7 @@ impl Engine {
         map: Colormap,
         scale: Scale,
     ) -> Result<Vec<u8>> {
-        self.inner.export(run, request, map, scale, Format::Glb).await
+        self.inner.results.export(run, request, map, scale, Format::Glb).await
     }
 
     /// The coloured object as PLY, with the raw values.
@@ -35,36 +35,36 @@ impl Engine {
         map: Colormap,
         scale: Scale,
     ) -> Result<Vec<u8>> {
-        self.inner.export(run, request, map, scale, Format::Ply).await
+        self.inner.results.export(run, request, map, scale, Format::Ply).await
     }
 
     /// Distribution of the time per query of one algorithm, over all configurations or those that a selection holds.
     #[boxed]
     pub async fn ecdf(&self, run: &str, algorithm: &str, selection: Option<&str>) -> Result<Ecdf> {
-        self.inner.ecdf(run, algorithm, selection).await
+        self.inner.results.ecdf(run, algorithm, selection).await
     }
 
     /// The records of one algorithm as Parquet.
     #[boxed]
     pub async fn records_parquet(&self, run: &str, algorithm: &str) -> Result<Vec<u8>> {
-        self.inner.records_parquet(run, algorithm).await
+        self.inner.results.records_parquet(run, algorithm).await
     }
 
     /// The records of one algorithm as CSV with a header line.
     #[boxed]
     pub async fn records_csv(&self, run: &str, algorithm: &str) -> Result<Vec<u8>> {
-        self.inner.records_csv(run, algorithm).await
+        self.inner.results.records_csv(run, algorithm).await
     }
 
     /// In how many primitive tests of one algorithm each triangle took part, as Parquet.
     #[boxed]
     pub async fn triangle_tests_parquet(&self, run: &str, algorithm: &str) -> Result<Vec<u8>> {
-        self.inner.triangle_tests_parquet(run, algorithm).await
+        self.inner.results.triangle_tests_parquet(run, algorithm).await
     }
 
     /// The run's configuration set with its truth as Parquet.
     #[boxed]
     pub async fn configurations_parquet(&self, run: &str) -> Result<Vec<u8>> {
-        self.inner.configurations_parquet(run).await
+        self.inner.results.configurations_parquet(run).await
     }
 }

@@ -7,9 +7,9 @@ use ocb_core::oracle::{Pair, Shape};
 use ocb_core::selection::Selection;
 use ocb_core::validation::Precision;
 
+use super::Results;
 use crate::blocking::blocking;
 use crate::columns::{self, Numbers};
-use crate::engine::Inner;
 use crate::model::{Meeting, Selected, WorstCase, WorstRequest};
 use crate::{EngineError, Result};
 
@@ -18,7 +18,7 @@ const MOST_CASES: u32 = 1_000;
 /// Longest list of pairs.
 const MOST_PAIRS: usize = 100_000;
 
-impl Inner {
+impl Results {
     /// How many configurations a selection holds, and what they cost each algorithm.
     pub async fn selected(&self, run: &str, algorithm: &str, selection: &str) -> Result<Selected> {
         let selection = read(selection)?;
@@ -56,7 +56,7 @@ impl Inner {
     /// precision, or as they are.
     pub async fn meeting(&self, run: &str, configuration: u32, rounded: bool) -> Result<Meeting> {
         let row = self.store.run_row(run).await?;
-        let set = self.set(row.set_blob.as_deref().ok_or_else(|| super::not_yet(run))?).await?;
+        let set = self.sets.get(row.set_blob.as_deref().ok_or_else(|| super::not_yet(run))?).await?;
         let Some(placed) = set.placed.get(configuration as usize).copied() else {
             let n = set.placed.len();
             return Err(EngineError::NotFound(format!(

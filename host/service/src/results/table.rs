@@ -7,12 +7,11 @@ use ocb_core::mesh::Mesh;
 use ocb_core::selection::{Column, Selection};
 use ocb_lab::table::{Entry, RecordTable};
 
-use super::{not_yet, still_measured};
+use super::{Results, not_yet, still_measured};
 use crate::Result;
-use crate::engine::Inner;
 use crate::runs::sql::RunRow;
 
-impl Inner {
+impl Results {
     /// The numbers of a run: of the algorithm that is looked at (when one is), of those that a selection names, or of all.
     pub async fn table(
         &self,
@@ -22,7 +21,7 @@ impl Inner {
         all: bool,
     ) -> Result<RecordTable> {
         let row = self.store.run_row(run).await?;
-        let set = self.set(row.set_blob.as_deref().ok_or_else(|| not_yet(run))?).await?;
+        let set = self.sets.get(row.set_blob.as_deref().ok_or_else(|| not_yet(run))?).await?;
         let table = self.table_so_far(&row, set, looked_at, selection, all).await?;
         if table.preliminary { Err(still_measured()) } else { Ok(table) }
     }

@@ -116,7 +116,7 @@ impl<'a> Bench<'a> {
         if let Some(stored) = self.log.wait(store.set(&key))? {
             let n = u64::from(stored.info.configurations);
             self.log.start(CONFIGURATIONS, n)?;
-            let set = self.log.wait(self.inner.set(&stored.blob))?;
+            let set = self.log.wait(self.inner.sets.get(&stored.blob))?;
             self.log.kept(store.set_of_run(self.attempt, &stored.info, &stored.blob))?;
             self.log.progress(CONFIGURATIONS, n, n)?;
             let again = Some("Saved positions were reused.".to_owned());
@@ -129,13 +129,13 @@ impl<'a> Bench<'a> {
         let Some(set) = self.find(pairing, looking, poses.as_deref())? else { return Ok(None) };
         let seconds = started.elapsed().as_secs_f64();
         let _keeping = self.log.wait(self.inner.store.locks.keeping())?;
-        let info = self.log.wait(self.inner.keep_set(&key, [a, b], &set, seconds))?;
+        let info = self.log.wait(self.inner.sets.keep(&key, [a, b], &set, seconds))?;
         let blob = info.sha256.clone();
         self.log.kept(store.set_of_run(self.attempt, &info, &blob))?;
         let missed = (info.missed_rays > 0)
             .then(|| format!("On {} rays the requested separation was not reached.", info.missed_rays));
         self.log.end(CONFIGURATIONS, State::Done, sentences([missed, straightened]))?;
-        Ok(Some((self.inner.sets.put(&blob, set), info)))
+        Ok(Some((self.inner.sets.remember(&blob, set), info)))
     }
 
     /// The run's configuration file, if it has one.

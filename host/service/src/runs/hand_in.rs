@@ -96,9 +96,9 @@ fn heatmaps(inner: &Inner, log: &mut RunLog, row: &RunRow, handed: &Handed) -> R
     let records: Vec<&String> = handed.results.iter().filter_map(|(_, stored)| stored.records.as_ref()).collect();
     let total = records.len() as u64;
     log.start(stage, total)?;
-    log.wait(inner.prepare_maps(&row))?;
+    log.wait(inner.results.prepare_maps(&row))?;
     for (done, records) in (1..).zip(records) {
-        log.wait(inner.records_of(records))?;
+        log.wait(inner.results.records_of(records))?;
         log.progress(stage, done, total)?;
     }
     log.end(stage, State::Done, None)
