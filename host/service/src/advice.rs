@@ -61,7 +61,7 @@ impl Engine {
         }
         let info = waiting(id, spec, names);
         // Two that come at once under one key: the first stands.
-        let Some(attempt) = inner.store.add_advice(&info, owner, &turn, &inner.worker).await? else {
+        let Some(attempt) = inner.store.add_advice(&info, owner, &turn, &inner.work.worker).await? else {
             return Ok((self.advice(&info.id).await?, false));
         };
         inner.clone().begin_advice(attempt, inner.advices.add(info.clone()));
@@ -73,7 +73,7 @@ impl Engine {
     pub(crate) async fn take_up_advice(&self) -> Result<()> {
         let inner = &self.inner;
         for AdviceRow { mut info, attempts, .. } in inner.store.open_advice().await? {
-            let Some(attempt) = inner.store.take_up(&info.id, &inner.worker).await? else { continue };
+            let Some(attempt) = inner.store.take_up(&info.id, &inner.work.worker).await? else { continue };
             if attempts >= MOST_LOST {
                 info.state = State::Failed;
                 info.message =
@@ -108,7 +108,7 @@ impl Engine {
         }
         // Another service may work on it.
         let ended = AdviceInfo { state: State::Cancelled, ..row.info };
-        self.inner.store.withdraw_advice(&ended, &self.inner.worker).await?;
+        self.inner.store.withdraw_advice(&ended, &self.inner.work.worker).await?;
         Ok(self.inner.advice_row(id).await?.info)
     }
 

@@ -3,12 +3,8 @@
 use std::fs::File;
 use std::sync::Arc;
 
-use ocb_lab::recording::Recording;
-
 use crate::advice::work::Advices;
-use crate::attempts::worker::Worker;
 use crate::blobs::Blobs;
-use crate::cache::Cache;
 use crate::charts::Charts;
 use crate::classes::Classes;
 use crate::house::House;
@@ -25,6 +21,7 @@ use crate::sets::stored::Sets;
 use crate::store::Store;
 use crate::suite::Suite;
 use crate::tasks::Tasks;
+use crate::workloads::recordings::Recordings;
 use crate::{EngineConfig, EngineError, Result};
 
 /// Runs, objects, algorithms and results behind one cheap-to-clone handle.
@@ -54,14 +51,12 @@ pub struct Inner {
     pub orders: Orders,
     /// What public plugins are measured on.
     pub suite: Suite,
-    /// Who this process is to others on the same database.
-    pub worker: Worker,
     pub work: Work,
     pub tasks: Tasks,
     pub sets: Arc<Sets>,
     pub results: Arc<Results>,
     pub charts: Charts,
-    pub recordings: Cache<Recording>,
+    pub recordings: Recordings,
     pub advices: Advices,
     /// Whether this service does the work that one service does for all on the database.
     pub house: House,

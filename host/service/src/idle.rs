@@ -51,8 +51,8 @@ impl Filling {
     async fn go_on(&mut self, inner: &Arc<Inner>, asked: u64) -> Result<bool> {
         // What was queued last, or gave way before.
         let next = match inner.config.elsewhere {
-            false => inner.store.begin_idle_run(&inner.worker).await?,
-            true => inner.store.begin_preparing_idle(&inner.worker).await?,
+            false => inner.store.begin_idle_run(&inner.work.worker).await?,
+            true => inner.store.begin_preparing_idle(&inner.work.worker).await?,
         };
         if let Some(attempt) = next {
             carry_out(inner, &attempt, Some(asked)).await?;

@@ -7,7 +7,6 @@ use crate::attempts::worker::Worker;
 use crate::attempts::{beat, lost};
 use crate::blobs::Blobs;
 use crate::boxed;
-use crate::cache::Cache;
 use crate::charts::Charts;
 use crate::classes::Classes;
 use crate::engine::{Engine, Inner};
@@ -28,7 +27,8 @@ use crate::sets::stored::Sets;
 use crate::store::{Store, now_us};
 use crate::suite::Suite;
 use crate::tasks::Tasks;
-use crate::{EngineConfig, EngineError, Result, workloads};
+use crate::workloads::recordings::Recordings;
+use crate::{EngineConfig, EngineError, Result};
 
 impl Engine {
     /// Opens the data folder, migrates the database, puts the work of its dead predecessor back into the queue and begins to work on it.
@@ -53,8 +53,7 @@ impl Engine {
         let results = Results::new(store.clone(), blobs.clone(), objects.clone(), sets.clone(), under_way.clone());
         let results = Arc::new(results);
         let inner = Arc::new(Inner {
-            worker: Worker::of(&lock, &machine.hardware_class)?,
-            work: Work::default(),
+            work: Work::of(Worker::of(&lock, &machine.hardware_class)?),
             tasks: Tasks::default(),
             charts: Charts::new(store.clone(), objects.clone(), results.clone(), machine.clone(), registry.profile()),
             classes: Classes::of(&machine.hardware_class, &machine.cpu, config.elsewhere),
@@ -62,7 +61,7 @@ impl Engine {
             run_events: RunEvents::new(),
             orders: Orders::default(),
             suite,
-            recordings: Cache::weighing(workloads::MOST_QUERIES, |recording| recording.queries.len()),
+            recordings: Recordings::new(blobs.clone(), config.data.clone()),
             advices: Advices::default(),
             house: House::default(),
             outbox: Outbox::new(store.clone(), config.mail.clone()),
@@ -81,7 +80,7 @@ impl Engine {
         engine.inner.classes.learn_from(&engine.inner.store).await?;
         if engine.inner.config.dispatch {
             engine.inner.store.believe_machines().await?;
-            lost::take_back(&engine.inner, Some(&engine.inner.worker)).await?;
+            lost::take_back(&engine.inner, Some(&engine.inner.work.worker)).await?;
             engine.open_house().await?;
             engine.inner.tasks.spawn(dispatcher::work(engine.inner.clone()));
             engine.inner.tasks.spawn(engine.clone().sweep());

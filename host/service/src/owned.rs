@@ -83,10 +83,10 @@ impl Engine {
             }
         }
         for run in &what.stability {
-            self.inner.end_stability(run, None).await?;
+            self.inner.work.end_stability(&self.inner.store, run, None).await?;
         }
         for workload in &what.workloads {
-            self.inner.end_workload(workload, None).await?;
+            self.inner.work.end_workload(&self.inner.store, workload, None).await?;
         }
         for advice in &what.advice {
             self.cancel_advice(advice, Some(owner)).await?;

@@ -280,7 +280,7 @@ impl Engine {
 
     async fn follow_decision(&self, row: &PluginRow, now: PluginState) -> Result<()> {
         if now == PluginState::Failed {
-            self.inner.store.withdraw(Kind::Check, &row.id, &self.inner.worker).await?;
+            self.inner.store.withdraw(Kind::Check, &row.id, &self.inner.work.worker).await?;
         }
         self.inner.registry.renew().await?;
         if now == PluginState::Public {

@@ -247,7 +247,7 @@ impl Engine {
             }
             // Between the beginning and the start there is a moment in which neither works; so it is tried until it does.
             self.inner.work.stop_current(Some(id), reason);
-            if self.inner.store.withdraw_run(id, &self.inner.worker, ended, reason).await? {
+            if self.inner.store.withdraw_run(id, &self.inner.work.worker, ended, reason).await? {
                 self.inner.run_events.ring(id);
                 self.inner.run_events.queue_moved();
                 break;

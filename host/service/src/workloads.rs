@@ -1,6 +1,7 @@
 //! Recordings that visitors bring: asking for a replay, looking at it, ending it.
 
 mod heatmaps;
+pub mod recordings;
 mod reduce;
 mod replay;
 pub mod sql;
@@ -13,7 +14,7 @@ use ocb_core::mesh::Mesh;
 use crate::attempts::Kind;
 use crate::blocking::blocking;
 use crate::boxed;
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::locks::Lock;
 use crate::model::{
     AccountInfo, Cursor, Page, Part, PosedGroup, PosedScene, RecordingInfo, Role, State, Stretch, StretchResult,
@@ -21,8 +22,10 @@ use crate::model::{
 };
 use crate::quotas::{Visitor, turn};
 use crate::requests::Made;
-use crate::store::now_us;
+use crate::runs::current::Work;
+use crate::store::{Store, now_us};
 use crate::{EngineError, Recording, Result, sha256_hex};
+use recordings::parsed;
 use sql::WorkloadRow;
 
 /// So many of one account, or of the guests of one address, may be queued or running, and so many in all.
@@ -30,8 +33,6 @@ const MOST_OPEN: i64 = 3;
 const MOST_IN_ALL: i64 = 200;
 /// When to ask again: a replay takes minutes.
 const RETRY_SECONDS: u32 = 120;
-/// Queries of an uploaded recording at most, and of all that are kept in memory, some 300 bytes each.
-pub(crate) const MOST_QUERIES: usize = 2_000_000;
 
 impl Engine {
     /// Keeps an uploaded recording and queues its replay; of a scene without queries nothing is replayed. True when it is new: the
@@ -69,8 +70,8 @@ impl Engine {
         visitor: &Visitor,
         key: Option<&str>,
     ) -> Result<(WorkloadInfo, bool)> {
-        self.inner.own_workload(id, Some(&visitor.owner), "repeat").await?;
-        let (told, recording) = self.inner.recording(id).await?;
+        self.inner.store.own_workload(id, Some(&visitor.owner), "repeat").await?;
+        let (told, recording) = self.recording(id).await?;
         if recording.queries.is_empty() {
             return Err(EngineError::Invalid(format!(
                 "{:?} has no queries, so there is nothing to replay.",
@@ -78,6 +79,13 @@ impl Engine {
             )));
         }
         self.queue_workload(told, None, &recording, spec, visitor, key).await
+    }
+
+    /// The recording of a workload, and what is told of it.
+    async fn recording(&self, id: &str) -> Result<(RecordingInfo, Arc<Recording>)> {
+        let told = self.inner.store.workload_row(id).await?.recording;
+        let recording = self.inner.recordings.get(&told).await?;
+        Ok((told, recording))
     }
 
     async fn queue_workload(
@@ -143,7 +151,7 @@ impl Engine {
         let part = Part::of(rows, limit, |row: &WorkloadRow| Cursor::behind(row.created_us, &row.id));
         let mut entries = Vec::new();
         for row in part.entries {
-            entries.push(self.inner.workload_info(row).await?);
+            entries.push(self.inner.store.workload_info(row).await?);
         }
         Ok(Part { entries, next: part.next })
     }
@@ -151,9 +159,9 @@ impl Engine {
     /// How far it is, with what was found when it is done.
     #[boxed]
     pub async fn workload(&self, id: &str) -> Result<WorkloadInfo> {
-        let row = self.inner.workload_row(id).await?;
+        let row = self.inner.store.workload_row(id).await?;
         let result = self.inner.store.workload_result(id).await?;
-        Ok(WorkloadInfo { result, ..self.inner.workload_info(row).await? })
+        Ok(WorkloadInfo { result, ..self.inner.store.workload_info(row).await? })
     }
 
     /// What each algorithm does within a stretch of the recording.
@@ -172,7 +180,7 @@ impl Engine {
     /// `NotFound` before the end.
     #[boxed]
     pub async fn workload_queries(&self, id: &str) -> Result<Vec<u8>> {
-        self.inner.workload_row(id).await?;
+        self.inner.store.workload_row(id).await?;
         let blob = self.inner.store.workload_table(id).await?;
         let none = || EngineError::NotFound("This recording has not been replayed to its end.".to_owned());
         self.inner.blobs.get(&blob.ok_or_else(none)?).await
@@ -184,7 +192,7 @@ impl Engine {
     /// `NotFound` where no reduced scene was asked for, and before the end.
     #[boxed]
     pub async fn reduced_recording(&self, id: &str) -> Result<(Vec<u8>, String)> {
-        let told = self.inner.workload_row(id).await?.recording;
+        let told = self.inner.store.workload_row(id).await?.recording;
         let blob = self.inner.store.reduced_recording(id).await?;
         let none = || EngineError::NotFound("This replay has no reduced scene.".to_owned());
         let name = format!("{}-reduced.ocbrec", told.file.trim_end_matches(".ocbrec"));
@@ -194,36 +202,36 @@ impl Engine {
     /// The recording and the name of its file.
     #[boxed]
     pub async fn workload_recording(&self, id: &str) -> Result<(Vec<u8>, String)> {
-        let told = self.inner.workload_row(id).await?.recording;
+        let told = self.inner.store.workload_row(id).await?.recording;
         Ok((self.inner.blobs.get(&told.sha256).await?, told.file))
     }
 
     /// A group as it stands in space.
     #[boxed]
     pub async fn workload_group(&self, id: &str, which: WhichGroup) -> Result<PosedGroup> {
-        let (_, recording) = self.inner.recording(id).await?;
+        let (_, recording) = self.recording(id).await?;
         Ok(ocb_lab::workload::posed_group(&recording, which)?)
     }
 
     /// The scene with all its objects, and its pairs.
     #[boxed]
     pub async fn workload_scene(&self, id: &str) -> Result<PosedScene> {
-        let (_, recording) = self.inner.recording(id).await?;
+        let (_, recording) = self.recording(id).await?;
         blocking(move || Ok(ocb_lab::workload::posed_scene(&recording)?)).await
     }
 
     /// The triangles of an object of the scene, as algorithms get them.
     #[boxed]
     pub async fn workload_mesh(&self, id: &str, object: usize) -> Result<Arc<Mesh>> {
-        let (_, recording) = self.inner.recording(id).await?;
+        let (_, recording) = self.recording(id).await?;
         blocking(move || Ok(ocb_lab::workload::mesh_of(&recording, object)?)).await
     }
 
     /// Ends it; only its owner may.
     #[boxed]
     pub async fn cancel_workload(&self, id: &str, caller: Option<&str>) -> Result<WorkloadInfo> {
-        self.inner.own_workload(id, caller, "cancel").await?;
-        self.inner.end_workload(id, None).await?;
+        self.inner.store.own_workload(id, caller, "cancel").await?;
+        self.inner.work.end_workload(&self.inner.store, id, None).await?;
         self.workload(id).await
     }
 
@@ -237,14 +245,14 @@ impl Engine {
             let told = "Only the owner of this replay or a curator may cancel it.";
             return Err(EngineError::Forbidden(told.into()));
         }
-        self.inner.workload_row(id).await?;
-        self.inner.end_workload(id, Some("Cancelled by a curator.")).await
+        self.inner.store.workload_row(id).await?;
+        self.inner.work.end_workload(&self.inner.store, id, Some("Cancelled by a curator.")).await
     }
 
     /// Takes it away with its recording; only its owner may.
     #[boxed]
     pub async fn remove_workload(&self, id: &str, caller: Option<&str>) -> Result<()> {
-        let row = self.inner.own_workload(id, caller, "delete").await?;
+        let row = self.inner.store.own_workload(id, caller, "delete").await?;
         let what = crate::owned::sql::OwnedIds { workloads: vec![row.id], ..Default::default() };
         self.remove(caller.unwrap_or_default(), what).await.map(|_| ())
     }
@@ -260,27 +268,14 @@ impl Engine {
     }
 }
 
-impl Inner {
-    async fn workload_row(&self, id: &str) -> Result<WorkloadRow> {
-        self.store.workload(id).await?.ok_or_else(|| no_workload(id))
-    }
-
-    /// The recording of a workload, read.
-    async fn recording(&self, id: &str) -> Result<(RecordingInfo, Arc<Recording>)> {
-        let told = self.workload_row(id).await?.recording;
-        if let Some(recording) = self.recordings.get(&told.sha256) {
-            return Ok((told, recording));
-        }
-        let bytes = self.blobs.get(&told.sha256).await?;
-        let (name, folder) = (told.file.clone(), self.config.data.clone());
-        let recording = blocking(move || parsed(&name, &bytes, &folder)).await?;
-        let recording = self.recordings.put(&told.sha256, recording);
-        Ok((told, recording))
+impl Store {
+    pub(super) async fn workload_row(&self, id: &str) -> Result<WorkloadRow> {
+        self.workload(id).await?.ok_or_else(|| no_workload(id))
     }
 
     async fn workload_info(&self, row: WorkloadRow) -> Result<WorkloadInfo> {
         let waits = row.state == State::Queued;
-        let runs_ahead = if waits { self.store.workloads_before(&row).await? } else { 0 };
+        let runs_ahead = if waits { self.workloads_before(&row).await? } else { 0 };
         let WorkloadRow { id, spec, recording, state, done, message, created_us, finished_us, .. } = row;
         let total = recording.queries;
         Ok(WorkloadInfo {
@@ -305,28 +300,15 @@ impl Inner {
         }
         Err(EngineError::Forbidden(format!("Only the owner of this recording may {may} it.")))
     }
-
-    /// The row first: a replay that ends at this moment finds it ended.
-    pub(crate) async fn end_workload(&self, id: &str, reason: Option<&str>) -> Result<()> {
-        self.store.end_workload(id, State::Cancelled, reason).await?;
-        self.work.stop_current(Some(id), None);
-        self.store.withdraw(Kind::Replay, id, &self.worker).await.map(|_| ())
-    }
 }
 
-/// Reads an uploaded recording; archives are read from a file.
-fn parsed(name: &str, bytes: &[u8], folder: &std::path::Path) -> Result<Recording> {
-    let fault = |e: std::io::Error| EngineError::fault("Keeping the recording while it is read failed", e);
-    let file = tempfile::NamedTempFile::new_in(folder).map_err(fault)?;
-    std::fs::write(file.path(), bytes).map_err(fault)?;
-    let recording = Recording::or_scene(file.path(), name)?;
-    if recording.queries.len() > MOST_QUERIES {
-        return Err(EngineError::Invalid(format!(
-            "{name:?} has {} queries; at most {MOST_QUERIES} can be replayed here. Record fewer groups, or use `ocb bench --workload`.",
-            recording.queries.len()
-        )));
+impl Work {
+    /// The row first: a replay that ends at this moment finds it ended.
+    pub(crate) async fn end_workload(&self, store: &Store, id: &str, reason: Option<&str>) -> Result<()> {
+        store.end_workload(id, State::Cancelled, reason).await?;
+        self.stop_current(Some(id), None);
+        store.withdraw(Kind::Replay, id, &self.worker).await.map(|_| ())
     }
-    Ok(recording)
 }
 
 fn describe(name: &str, bytes: &[u8], recording: &Recording) -> RecordingInfo {

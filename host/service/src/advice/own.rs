@@ -21,7 +21,7 @@ impl Inner {
         let Ok(_turn) = self.advices.turn.try_acquire() else { return Ok(false) };
         let Some(row) = self.store.open_own_advice().await?.into_iter().next() else { return Ok(false) };
         // Another service may be quicker.
-        let Some(attempt) = self.store.take_up(&row.info.id, &self.worker).await? else { return Ok(false) };
+        let Some(attempt) = self.store.take_up(&row.info.id, &self.work.worker).await? else { return Ok(false) };
         let job = self.advices.add(row.info);
         let lost = job.clone();
         let _held = self.work.holding.hold(&attempt, move || lost.stop());

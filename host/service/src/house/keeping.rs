@@ -11,7 +11,7 @@ const TICK: Duration = Duration::from_secs(1);
 impl Engine {
     /// Keeps house from now on if no other service does, and otherwise when that one is gone.
     pub(crate) async fn open_house(&self) -> Result<()> {
-        let here = self.inner.house.look(&self.inner.store.locks, &self.inner.worker).await?;
+        let here = self.inner.house.look(&self.inner.store.locks, &self.inner.work.worker).await?;
         let takes_over = self.inner.house.note(here);
         if self.inner.store.locks.are_shared() {
             self.inner.tasks.spawn(self.clone().keep_house());
@@ -26,7 +26,7 @@ impl Engine {
                 () = tokio::time::sleep(TICK) => {}
                 () = inner.house.closing() => return,
             }
-            let here = inner.house.look(&inner.store.locks, &inner.worker).await.unwrap_or_else(|e| {
+            let here = inner.house.look(&inner.store.locks, &inner.work.worker).await.unwrap_or_else(|e| {
                 tracing::warn!("it is not known which service keeps house: {e}");
                 false
             });

@@ -23,7 +23,7 @@ impl Engine {
         let inner = &self.inner;
         // Two services may use one cluster, and each must know its own jobs. Everybody on the cluster sees the name.
         let database = inner.config.database_url.as_deref().and_then(without_password);
-        let database = database.as_deref().unwrap_or(&inner.worker.machine);
+        let database = database.as_deref().unwrap_or(&inner.work.worker.machine);
         let name = format!("ocb-{}", &sha256_hex(database.as_bytes())[..12]);
         let mut partitions = Vec::new();
         for partition in jobs.partitions {

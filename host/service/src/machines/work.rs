@@ -189,7 +189,7 @@ impl Engine {
         // Ranks are given here, at the end.
         let result = AlgorithmResult { preliminary: true, rank: None, place_so_far: None, ..result };
         let seen = Seen { place, preliminary: Preliminary { result, records, seconds } };
-        self.inner.store.keep_seen(&attempt, &seen, &self.inner.worker).await?;
+        self.inner.store.keep_seen(&attempt, &seen, &self.inner.work.worker).await?;
         self.inner.under_way.show(&order.run, place, seen.preliminary);
         self.inner.run_events.ring(&order.run);
         Ok(true)

@@ -60,7 +60,7 @@ async fn failed_here(inner: &Arc<Inner>, attempt: &Attempt, fault: &EngineError)
     tracing::error!("run {}, attempt {}: {fault}", attempt.job, attempt.number);
     loop {
         tokio::time::sleep(BACK_OFF).await;
-        match inner.store.lose_run(attempt, Some(&inner.worker)).await {
+        match inner.store.lose_run(attempt, Some(&inner.work.worker)).await {
             Ok(Some(state)) => return run_was_lost(inner, &attempt.job, state).await,
             Ok(None) => return Ok(()),
             Err(e) if inner.tasks.closing() => return Err(e),

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tokio::sync::Notify;
 
 use crate::attempts::Attempt;
-use crate::attempts::worker::{Held, Holding};
+use crate::attempts::worker::{Held, Holding, Worker};
 use crate::measure::Stop;
 
 /// The one job that the dispatcher works on.
@@ -18,8 +18,9 @@ struct Current {
 }
 
 /// What this process works on, and what calls for more work.
-#[derive(Default)]
 pub struct Work {
+    /// Who this process is to others on the same database.
+    pub worker: Worker,
     current: Mutex<Option<Current>>,
     /// The attempts that it works on.
     pub holding: Arc<Holding>,
@@ -30,6 +31,17 @@ pub struct Work {
 }
 
 impl Work {
+    /// Nothing is at work yet.
+    pub fn of(worker: Worker) -> Self {
+        Self {
+            worker,
+            current: Mutex::default(),
+            holding: Arc::default(),
+            wake: Notify::new(),
+            asked: AtomicU64::new(0),
+        }
+    }
+
     /// How often more work was asked for.
     pub fn asked(&self) -> u64 {
         self.asked.load(Ordering::SeqCst)

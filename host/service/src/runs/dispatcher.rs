@@ -57,8 +57,8 @@ pub async fn work(inner: Arc<Inner>) {
             }
         };
         let next = match inner.config.elsewhere {
-            false => inner.store.begin_run(&inner.worker).await,
-            true => inner.store.begin_preparing(&inner.worker).await,
+            false => inner.store.begin_run(&inner.work.worker).await,
+            true => inner.store.begin_preparing(&inner.work.worker).await,
         };
         match next {
             Ok(Some(attempt)) => {
@@ -88,7 +88,7 @@ fn back_off(faults: u32) -> Duration {
 
 /// Checks the plugin whose turn it is; false when none waits.
 async fn check_next(inner: &Arc<Inner>) -> Result<bool> {
-    let Some((attempt, row)) = inner.store.begin_check(&inner.worker).await? else { return Ok(false) };
+    let Some((attempt, row)) = inner.store.begin_check(&inner.work.worker).await? else { return Ok(false) };
     let stop = Stop::default();
     let _held = inner.work.hold(&attempt, &stop);
     inner.work.set_current(&row.id, &stop);

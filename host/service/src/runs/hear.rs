@@ -99,7 +99,7 @@ async fn show(inner: &Inner, elsewhere: &mut HashMap<String, Shown>, told: &str)
     let words: Vec<&str> = told.splitn(4, ' ').collect();
     let &[run, place, attempt, service] = &words[..] else { return Ok(()) };
     let Ok(place) = place.parse() else { return Ok(()) };
-    if service == inner.worker.machine {
+    if service == inner.work.worker.machine {
         return Ok(());
     }
     let Some(Seen { place, preliminary }) = inner.store.seen(run, place, attempt).await? else { return Ok(()) };

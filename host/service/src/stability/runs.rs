@@ -5,13 +5,14 @@ use ocb_lab::stability::{self, Selection};
 use super::runs_sql::StabilityRow;
 use crate::attempts::Kind;
 use crate::boxed;
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::locks::Lock;
 use crate::model::{AccountInfo, Cursor, Page, Part, Role, StabilityRunInfo, StabilitySpec, State};
 use crate::quotas::{Visitor, turn};
 use crate::requests::Made;
+use crate::runs::current::Work;
 use crate::runs::priority::INTERACTIVE;
-use crate::store::now_us;
+use crate::store::{Store, now_us};
 use crate::{EngineError, Result};
 
 /// So many of one account, or of the guests of one address, may be queued or running, and so many in all.
@@ -80,7 +81,7 @@ impl Engine {
         let part = Part::of(rows, limit, |row: &StabilityRow| Cursor::behind(row.created_us, &row.id));
         let mut entries = Vec::new();
         for row in part.entries {
-            entries.push(self.inner.stability_info(row).await?);
+            entries.push(self.inner.store.stability_info(row).await?);
         }
         Ok(Part { entries, next: part.next })
     }
@@ -88,16 +89,16 @@ impl Engine {
     /// How far it is, with what it found so far.
     #[boxed]
     pub async fn stability_run(&self, id: &str) -> Result<StabilityRunInfo> {
-        let row = self.inner.stability_row(id).await?;
+        let row = self.inner.store.stability_row(id).await?;
         let result = self.inner.store.stability_found(id).await?;
-        Ok(StabilityRunInfo { result, ..self.inner.stability_info(row).await? })
+        Ok(StabilityRunInfo { result, ..self.inner.store.stability_info(row).await? })
     }
 
     /// Ends it and keeps what it found; only its owner may.
     #[boxed]
     pub async fn cancel_stability(&self, id: &str, caller: Option<&str>) -> Result<StabilityRunInfo> {
-        self.inner.own_stability(id, caller, "cancel").await?;
-        self.inner.end_stability(id, None).await?;
+        self.inner.store.own_stability(id, caller, "cancel").await?;
+        self.inner.work.end_stability(&self.inner.store, id, None).await?;
         self.stability_run(id).await
     }
 
@@ -110,7 +111,7 @@ impl Engine {
         curates(curator)?;
         let mut all = Vec::new();
         for row in self.inner.store.open_stability_runs().await? {
-            all.push(self.inner.stability_info(row).await?);
+            all.push(self.inner.store.stability_info(row).await?);
         }
         Ok(all)
     }
@@ -122,16 +123,16 @@ impl Engine {
     #[boxed]
     pub async fn cancel_stability_of_others(&self, id: &str, curator: &AccountInfo) -> Result<StabilityRunInfo> {
         curates(curator)?;
-        self.inner.stability_row(id).await?;
-        self.inner.end_stability(id, Some("Cancelled by a curator.")).await?;
-        self.inner.stability_info(self.inner.stability_row(id).await?).await
+        self.inner.store.stability_row(id).await?;
+        self.inner.work.end_stability(&self.inner.store, id, Some("Cancelled by a curator.")).await?;
+        self.inner.store.stability_info(self.inner.store.stability_row(id).await?).await
     }
 
     /// Takes it away; only its owner may.
     #[boxed]
     pub async fn remove_stability(&self, id: &str, caller: Option<&str>) -> Result<()> {
-        self.inner.own_stability(id, caller, "delete").await?;
-        self.inner.end_stability(id, None).await?;
+        self.inner.store.own_stability(id, caller, "delete").await?;
+        self.inner.work.end_stability(&self.inner.store, id, None).await?;
         self.inner.store.remove_stability(id).await
     }
 
@@ -146,14 +147,14 @@ impl Engine {
     }
 }
 
-impl Inner {
+impl Store {
     async fn stability_row(&self, id: &str) -> Result<StabilityRow> {
-        self.store.stability_run(id).await?.ok_or_else(|| no_run(id))
+        self.stability_run(id).await?.ok_or_else(|| no_run(id))
     }
 
     async fn stability_info(&self, row: StabilityRow) -> Result<StabilityRunInfo> {
         let waits = row.state == State::Queued;
-        let runs_ahead = if waits { self.store.stability_before(&row).await? } else { 0 };
+        let runs_ahead = if waits { self.stability_before(&row).await? } else { 0 };
         Ok(info(row, runs_ahead))
     }
 
@@ -164,12 +165,14 @@ impl Inner {
         }
         Err(EngineError::Forbidden(format!("Only the owner of this stability run may {may} it.")))
     }
+}
 
+impl Work {
     /// The row first: a part that ends at this moment finds it ended.
-    pub(crate) async fn end_stability(&self, id: &str, reason: Option<&str>) -> Result<()> {
-        self.store.end_stability(id, State::Cancelled, reason).await?;
-        self.work.stop_current(Some(id), None);
-        self.store.withdraw(Kind::Stability, id, &self.worker).await.map(|_| ())
+    pub(crate) async fn end_stability(&self, store: &Store, id: &str, reason: Option<&str>) -> Result<()> {
+        store.end_stability(id, State::Cancelled, reason).await?;
+        self.stop_current(Some(id), None);
+        store.withdraw(Kind::Stability, id, &self.worker).await.map(|_| ())
     }
 }
 

@@ -20,7 +20,7 @@ use crate::{EngineError, Result};
 
 /// Tries the next part of the run of this priority whose turn it is, which `begun` hears; false when none waits.
 pub async fn next_part(inner: &Arc<Inner>, priority: i64, begun: impl FnOnce(&str, &Stop)) -> Result<bool> {
-    let Some((attempt, row)) = inner.store.begin_part(priority, &inner.worker).await? else { return Ok(false) };
+    let Some((attempt, row)) = inner.store.begin_part(priority, &inner.work.worker).await? else { return Ok(false) };
     if row.attempts > MOST_LOST {
         let message = format!(
             "This run failed {MOST_LOST} times in the same part and is not tried again; the service's log says why."

@@ -37,7 +37,7 @@ impl Engine {
         colours: (Colormap, Scale),
         format: HeatmapFormat,
     ) -> Result<Vec<u8>> {
-        let recording = self.inner.workload_row(id).await?.recording.file;
+        let recording = self.inner.store.workload_row(id).await?.recording.file;
         let (heatmap, mesh) = self.heatmap_with_mesh(id, object, request).await?;
         let (colormap, scale) = colours;
         blocking(move || {

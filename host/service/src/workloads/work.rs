@@ -24,7 +24,7 @@ const NOTE: Duration = Duration::from_secs(1);
 
 /// Replays the recording whose turn it is; false when none waits.
 pub async fn next_replay(inner: &Arc<Inner>) -> Result<bool> {
-    let Some((attempt, row)) = inner.store.begin_replay(&inner.worker).await? else { return Ok(false) };
+    let Some((attempt, row)) = inner.store.begin_replay(&inner.work.worker).await? else { return Ok(false) };
     if row.attempts > MOST_LOST {
         let message = format!(
             "The service ended {MOST_LOST} times in the middle of this replay, so it is not tried again; its log says why."
@@ -64,7 +64,8 @@ pub async fn next_replay(inner: &Arc<Inner>) -> Result<bool> {
 }
 
 async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, row: &WorkloadRow, stop: &Stop) -> Result<()> {
-    let (_, recording) = inner.recording(&row.id).await?;
+    let told = inner.store.workload_row(&row.id).await?.recording;
+    let recording = inner.recordings.get(&told).await?;
     let algorithms = algorithms_for(&inner.registry, &recording, &row.spec.algorithms, row.owner.as_deref())?;
     let done = Arc::new(AtomicU64::new(0));
     let doing = Arc::new(Doing::default());

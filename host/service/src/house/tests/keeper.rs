@@ -74,7 +74,7 @@ async fn one_service_sends_a_mail_and_another_takes_over() {
     assert_eq!(mailed(second, "ada", &got).await, ["<ada@example.org>"]);
 
     // The connection of the first is terminated again and again, so that the second is quicker.
-    let name = format!("ocb {}", first.inner.worker.machine);
+    let name = format!("ocb {}", first.inner.work.worker.machine);
     until("the second did not take over", async || {
         pair.terminate("", &name).await;
         keeps_house(second)
@@ -97,7 +97,7 @@ async fn a_silent_housekeeper_loses_its_lock() {
     let pair = Pair::open().await;
     let door = async |engine: &Engine| {
         let session = engine.inner.store.locks.session().await.unwrap().unwrap();
-        Door::of(session, &engine.inner.worker).await.unwrap()
+        Door::of(session, &engine.inner.work.worker).await.unwrap()
     };
     let (mut silent, mut waiting) = (door(&pair.first).await, door(&pair.second).await);
     sqlx::query("SET idle_session_timeout = '100ms'").execute(&mut silent.session).await.unwrap();
