@@ -16,7 +16,7 @@ use ocb_lab::algorithm::plugin_hash;
 
 use crate::blocking::blocking;
 use crate::boxed;
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::model::{MachineFacts, MachineInfo};
 use crate::runs::draw;
 use crate::store::now_us;
@@ -65,7 +65,7 @@ impl Engine {
             )));
         }
         self.inner.store.forget_readings(name.trim()).await?;
-        self.inner.put_back_runs_of(name.trim()).await
+        self.put_back_runs_of(name.trim()).await
     }
 
     /// The machine of a token that was not revoked.
@@ -120,16 +120,15 @@ impl Engine {
             ))),
         }
     }
-}
 
-impl Inner {
     /// The runs that a machine has wait again; it hears of that with its next beat.
     pub(crate) async fn put_back_runs_of(&self, machine: &str) -> Result<()> {
-        for attempt in self.store.attempts_of(machine).await? {
-            self.store.put_back_run(&attempt).await?;
-            self.orders.forget(&attempt.id);
-            self.run_events.ring(&attempt.job);
-            self.orders.prepared.notify_waiters();
+        let inner = &self.inner;
+        for attempt in inner.store.attempts_of(machine).await? {
+            inner.store.put_back_run(&attempt).await?;
+            inner.orders.forget(&attempt.id);
+            inner.run_events.ring(&attempt.job);
+            inner.orders.prepared.notify_waiters();
         }
         Ok(())
     }

@@ -7,8 +7,9 @@ use ocb_core::statistics::select_quantile;
 
 use super::orders::ordered;
 use crate::boxed;
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::model::{MachineFacts, OrderedAlgorithm, Sentinel};
+use crate::plugins::registry::Registry;
 use crate::store::{Store, now_us};
 use crate::{EngineError, Result};
 
@@ -94,17 +95,22 @@ fn drifted(ratio: f64) -> String {
     )
 }
 
-impl Inner {
-    /// The algorithm with which a machine has to measure the sentinel before it gets a run; nothing when it has done so lately.
-    pub(super) async fn sentinel_due(&self, machine: &str, facts: &MachineFacts) -> Result<Option<OrderedAlgorithm>> {
-        let readings = self.store.readings(&facts.hardware_class).await?;
-        let last = readings.iter().find(|it| it.machine == machine);
-        let lately = last.is_some_and(|it| now_us() - it.at_us < EVERY.as_micros() as i64);
-        if lately && off(&readings, machine, self.config.most_drift).is_empty() {
-            return Ok(None);
-        }
-        Ok(self.registry.algorithm(ALGORITHM).filter(|it| it.trusted).map(|it| ordered(&it)))
+/// The algorithm with which a machine has to measure the sentinel before it gets a run; nothing when it has done so lately and is off
+/// by no more than `most`.
+pub async fn sentinel_due(
+    store: &Store,
+    registry: &Registry,
+    most: f64,
+    machine: &str,
+    facts: &MachineFacts,
+) -> Result<Option<OrderedAlgorithm>> {
+    let readings = store.readings(&facts.hardware_class).await?;
+    let last = readings.iter().find(|it| it.machine == machine);
+    let lately = last.is_some_and(|it| now_us() - it.at_us < EVERY.as_micros() as i64);
+    if lately && off(&readings, machine, most).is_empty() {
+        return Ok(None);
     }
+    Ok(registry.algorithm(ALGORITHM).filter(|it| it.trusted).map(|it| ordered(&it)))
 }
 
 /// The last reading of a machine divided by what is usual on its class; nothing while there are few.

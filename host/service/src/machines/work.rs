@@ -9,6 +9,7 @@ use tokio::runtime::Handle;
 use tokio::time::Instant;
 
 use super::orders::order;
+use super::sentinel::sentinel_due;
 use super::sql::worker;
 use super::under_way::Working;
 use crate::attempts::Attempt;
@@ -25,6 +26,7 @@ use crate::model::{
 use crate::runs::accept::End;
 use crate::runs::carry_out::{ended, too_long};
 use crate::runs::log::RunLog;
+use crate::runs::looking::show;
 use crate::runs::sql::RunRow;
 use crate::runs::{draw, hand_in, spec};
 use crate::{EngineError, Result};
@@ -53,8 +55,10 @@ impl Engine {
         if !self.inner.config.elsewhere {
             return Err(EngineError::Busy("This service measures by itself; start it with --internal.".into()));
         }
-        self.inner.put_back_runs_of(machine).await?;
-        if let Some(algorithm) = self.inner.sentinel_due(machine, facts).await? {
+        self.put_back_runs_of(machine).await?;
+        if let Some(algorithm) =
+            sentinel_due(&self.inner.store, &self.inner.registry, self.inner.config.most_drift, machine, facts).await?
+        {
             return Ok(NextWork::Sentinel(Box::new(algorithm)));
         }
         let (asked, worker) = (Instant::now(), worker(machine, &facts.hardware_class));
@@ -116,7 +120,7 @@ impl Engine {
         let told = (inner.store.clone(), inner.run_events.clone(), inner.under_way.clone());
         blocking(move || {
             let log = || RunLog::go_on(&attempt, &row.spec.algorithms, told, Handle::current());
-            inner.orders.working(&attempt.id, log, || inner.show(&row)).map(|_| ())
+            inner.orders.working(&attempt.id, log, || show(&inner.under_way, &inner.registry, &row)).map(|_| ())
         })
         .await?;
         Ok(Some(order))
@@ -143,7 +147,7 @@ impl Engine {
             return Ok(false);
         }
         if self.inner.store.gives_way(&attempt.job, &self.inner.classes.usual()).await? {
-            self.inner.put_back_runs_of(machine).await?;
+            self.put_back_runs_of(machine).await?;
             return Ok(false);
         }
         if steps.is_empty() && self.inner.orders.heard(&attempt.id) {
@@ -152,7 +156,7 @@ impl Engine {
         let row = self.inner.store.run_row(&attempt.job).await?;
         let inner = self.inner.clone();
         let telling = blocking(move || {
-            let working = inner.working(&attempt, &row)?;
+            let working = working(&inner, &attempt, &row)?;
             let mut log = working.log.lock().unwrap_or_else(PoisonError::into_inner);
             let reference = spec::reference(&row.spec, &inner.registry);
             let name = reference.as_ref().map_or("", |reference| reference.info.name.as_str());
@@ -184,7 +188,7 @@ impl Engine {
             let row = self.inner.store.run_row(&attempt.job).await?;
             let inner = self.inner.clone();
             let current = attempt.clone();
-            blocking(move || inner.working(&current, &row).map(|_| ())).await?;
+            blocking(move || working(&inner, &current, &row).map(|_| ())).await?;
         }
         // Ranks are given here, at the end.
         let result = AlgorithmResult { preliminary: true, rank: None, place_so_far: None, ..result };
@@ -237,7 +241,7 @@ impl Engine {
                 let results = self.results(row, order, algorithms, (environment, preview), files)?;
                 let (here, of) = (self.inner.clone(), (attempt.clone(), row.clone()));
                 let end = blocking(move || {
-                    let working = here.working(&of.0, &of.1)?;
+                    let working = working(&here, &of.0, &of.1)?;
                     let mut log = working.log.lock().unwrap_or_else(PoisonError::into_inner);
                     hand_in::keep(&here, &mut log, &of.1, results)
                 });
@@ -246,7 +250,7 @@ impl Engine {
             Ended::TooLong => {
                 let (here, of) = (self.inner.clone(), (attempt.clone(), row.clone()));
                 let closing = blocking(move || {
-                    let working = here.working(&of.0, &of.1)?;
+                    let working = working(&here, &of.0, &of.1)?;
                     working.log.lock().unwrap_or_else(PoisonError::into_inner).end_open(State::Cancelled, None)
                 });
                 closing.await?;
@@ -292,13 +296,11 @@ impl Engine {
     }
 }
 
-impl Inner {
-    /// An attempt that has begun, and was heard from just now; blocks.
-    fn working(&self, attempt: &Attempt, row: &RunRow) -> Result<Arc<Working>> {
-        let told = (self.store.clone(), self.run_events.clone(), self.under_way.clone());
-        let log = || RunLog::resume(attempt, told, Handle::current());
-        self.orders.working(&attempt.id, log, || self.show(row))
-    }
+/// An attempt that has begun, and was heard from just now; blocks.
+fn working(inner: &Inner, attempt: &Attempt, row: &RunRow) -> Result<Arc<Working>> {
+    let told = (inner.store.clone(), inner.run_events.clone(), inner.under_way.clone());
+    let log = || RunLog::resume(attempt, told, Handle::current());
+    inner.orders.working(&attempt.id, log, || show(&inner.under_way, &inner.registry, row))
 }
 
 /// Why nothing was measured, if that is the fault of the machine and not of the algorithms.

@@ -12,6 +12,7 @@ use crate::measure::Stop;
 use crate::model::State;
 use crate::runs::accept::{End, RunEnd};
 use crate::runs::benchmark;
+use crate::runs::looking::show;
 use crate::runs::preliminary::Shown;
 use crate::runs::sql::RunRow;
 use crate::time_limit::in_time;
@@ -34,7 +35,7 @@ pub async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, idle: Option<u64>)
     }
     inner.run_events.queue_moved();
     let row = inner.store.run_row(id).await?;
-    let shown = inner.show(&row);
+    let shown = show(&inner.under_way, &inner.registry, &row);
     let how = match run_in_time(inner, attempt, &row, &stop).await {
         // Whoever stopped it need not wait for another attempt.
         Err(EngineError::Fault(_)) if stop.asked() => Ok(End::Stopped),

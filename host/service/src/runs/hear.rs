@@ -11,6 +11,7 @@ use tokio::sync::{Notify, mpsc};
 
 use crate::Result;
 use crate::engine::Inner;
+use crate::runs::looking;
 use crate::runs::preliminary::Shown;
 use crate::store::{Store, from_json};
 
@@ -107,7 +108,10 @@ async fn show(inner: &Inner, elsewhere: &mut HashMap<String, Shown>, told: &str)
     if !inner.orders.heard(attempt) {
         let row = inner.store.run_row(run).await?;
         elsewhere.retain(|_, shown| shown.is_heard());
-        elsewhere.entry(attempt.to_owned()).or_insert_with(|| inner.show(&row)).heard(SHOWN);
+        elsewhere
+            .entry(attempt.to_owned())
+            .or_insert_with(|| looking::show(&inner.under_way, &inner.registry, &row))
+            .heard(SHOWN);
     }
     inner.under_way.show(run, place, preliminary);
     inner.run_events.ring(run);

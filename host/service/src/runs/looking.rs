@@ -12,8 +12,9 @@ use crate::engine::Inner;
 use crate::machine::MeasuringRight;
 use crate::measure::{self, Part, Preliminary, Stop, Task};
 use crate::model::RunSpec;
+use crate::plugins::registry::Registry;
 use crate::runs::draw;
-use crate::runs::preliminary::Shown;
+use crate::runs::preliminary::{Shown, UnderWay};
 use crate::runs::spec::reference;
 use crate::runs::sql::RunRow;
 
@@ -37,14 +38,12 @@ pub fn seed(row: &RunRow, algorithms: &[Arc<Algorithm>]) -> Option<u64> {
     watched.then(|| draw::seed(row, "first look", algorithms))
 }
 
-impl Inner {
-    /// This run is under way now and may show something.
-    pub(crate) fn show(&self, row: &RunRow) -> Shown {
-        // Where the reference is none of the algorithms, it takes turns, too.
-        let apart = reference(&row.spec, &self.registry).filter(|apart| !row.spec.algorithms.contains(&apart.info.id));
-        let algorithms = row.spec.algorithms.len() + usize::from(apart.is_some());
-        self.under_way.begin(&row.id, self.registry.profile(), algorithms, row.expected_seconds)
-    }
+/// This run is under way now and may show something.
+pub fn show(under_way: &Arc<UnderWay>, registry: &Registry, row: &RunRow) -> Shown {
+    // Where the reference is none of the algorithms, it takes turns, too.
+    let apart = reference(&row.spec, registry).filter(|apart| !row.spec.algorithms.contains(&apart.info.id));
+    let algorithms = row.spec.algorithms.len() + usize::from(apart.is_some());
+    under_way.begin(&row.id, registry.profile(), algorithms, row.expected_seconds)
 }
 
 impl<'a> Looking<'a> {
