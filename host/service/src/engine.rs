@@ -12,6 +12,7 @@ use crate::machine::Machine;
 use crate::machines::under_way::Orders;
 use crate::mail::outbox::Outbox;
 use crate::objects::Objects;
+use crate::owned::items::Owned;
 use crate::plugins::registry::Registry;
 use crate::results::Results;
 use crate::runs::current::Work;
@@ -61,6 +62,7 @@ pub struct Inner {
     /// Whether this service does the work that one service does for all on the database.
     pub house: House,
     pub outbox: Outbox,
+    pub owned: Owned,
     /// Held as long as this process uses the folder.
     pub lock: File,
 }

@@ -16,6 +16,7 @@ use crate::machines::under_way::Orders;
 use crate::mail::outbox::Outbox;
 use crate::model::Status;
 use crate::objects::Objects;
+use crate::owned::items::Owned;
 use crate::plugins::registry::Registry;
 use crate::results::Results;
 use crate::runs::current::Work;
@@ -65,6 +66,12 @@ impl Engine {
             advices: Advices::default(),
             house: House::default(),
             outbox: Outbox::new(store.clone(), config.mail.clone()),
+            owned: Owned {
+                store: store.clone(),
+                blobs: blobs.clone(),
+                objects: objects.clone(),
+                guest_days: config.guest_days,
+            },
             lock,
             config,
             objects,

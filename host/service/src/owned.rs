@@ -1,13 +1,14 @@
 //! What somebody has made: how long it stays, what goes with it, and taking it away.
 
 pub mod archive;
+pub mod items;
 pub mod sql;
 pub mod unused;
 
 use std::time::Duration;
 
 use crate::boxed;
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::model::{OwnedItems, Owner, State};
 use crate::owned::sql::OwnedIds;
 use crate::store::now_us;
@@ -15,28 +16,27 @@ use crate::{EngineError, Result};
 
 /// How often it is looked whose time is over.
 const LOOK: Duration = Duration::from_secs(3600);
-const DAY_US: i64 = 24 * 3600 * 1_000_000;
 
 impl Engine {
     /// Everything that this owner has, which is what `delete_all` takes away.
     #[boxed]
     pub async fn owned_items(&self, owner: &str) -> Result<OwnedItems> {
         let all = self.inner.store.owned_ids(owner, None).await?;
-        self.inner.told(owner, all).await
+        self.inner.owned.told(owner, all).await
     }
 
     /// What goes with one of the owner's runs.
     #[boxed]
     pub async fn deletion_preview_of_run(&self, id: &str, owner: &str) -> Result<OwnedItems> {
-        let run = self.inner.own_run(id, owner).await?;
-        self.inner.told(owner, run).await
+        let run = self.inner.owned.own_run(id, owner).await?;
+        self.inner.owned.told(owner, run).await
     }
 
     /// What goes with one of the owner's objects: it, and their runs and advice with it.
     #[boxed]
     pub async fn deletion_preview_of_object(&self, id: &str, owner: &str) -> Result<OwnedItems> {
-        let object = self.inner.own_object(id, owner).await?;
-        self.inner.told(owner, object).await
+        let object = self.inner.owned.own_object(id, owner).await?;
+        self.inner.owned.told(owner, object).await
     }
 
     /// Takes away everything that this owner has, and tells what it was. Plugins stay: results belong to them.
@@ -49,14 +49,14 @@ impl Engine {
     /// Takes away a run of this owner.
     #[boxed]
     pub async fn remove_run(&self, id: &str, owner: &str) -> Result<OwnedItems> {
-        let run = self.inner.own_run(id, owner).await?;
+        let run = self.inner.owned.own_run(id, owner).await?;
         self.remove(owner, run).await
     }
 
     /// Takes away an object of this owner, and their runs and advice with it.
     #[boxed]
     pub async fn remove_object(&self, id: &str, owner: &str) -> Result<OwnedItems> {
-        let object = self.inner.own_object(id, owner).await?;
+        let object = self.inner.owned.own_object(id, owner).await?;
         self.remove(owner, object).await
     }
 
@@ -69,8 +69,8 @@ impl Engine {
 
     pub(crate) async fn remove(&self, owner: &str, what: OwnedIds) -> Result<OwnedItems> {
         self.end_all(owner, &what).await?;
-        let told = self.inner.told(owner, what.clone()).await?;
-        self.inner.take_away(&what).await?;
+        let told = self.inner.owned.told(owner, what.clone()).await?;
+        self.inner.owned.take_away(&what).await?;
         Ok(told)
     }
 
@@ -122,7 +122,7 @@ impl Engine {
             let over = match Owner::of(&owner) {
                 Owner::Account(account) => self.inner.store.is_former(account).await?,
                 Owner::Guest(_) | Owner::Operator(_) => {
-                    self.inner.kept_until(&owner).await?.is_some_and(|until| until < now_us)
+                    self.inner.owned.kept_until(&owner).await?.is_some_and(|until| until < now_us)
                 }
             };
             if over {
@@ -131,59 +131,5 @@ impl Engine {
             }
         }
         Ok(swept)
-    }
-}
-
-impl Inner {
-    async fn own_run(&self, id: &str, owner: &str) -> Result<OwnedIds> {
-        let row = self.store.run_row(id).await?;
-        if row.owner.as_deref() != Some(owner) {
-            return Err(EngineError::Forbidden("Only the owner of this run may delete it.".to_owned()));
-        }
-        let all = self.store.owned_ids(owner, None).await?;
-        let runs = all.runs.into_iter().filter(|run| run.id == id).collect();
-        Ok(OwnedIds { runs, ..OwnedIds::default() })
-    }
-
-    async fn own_object(&self, id: &str, owner: &str) -> Result<OwnedIds> {
-        if !self.objects.info_for(id, Some(owner)).await?.mine {
-            return Err(EngineError::Forbidden("Only the owner of this object may delete it.".to_owned()));
-        }
-        self.store.owned_ids(owner, Some(id)).await
-    }
-
-    pub(crate) async fn told(&self, owner: &str, what: OwnedIds) -> Result<OwnedItems> {
-        let bytes = self.store.unused_without(&what).await?.iter().map(|file| file.bytes).sum();
-        let kept_until_us = self.kept_until(owner).await?;
-        Ok(OwnedItems {
-            runs: what.runs,
-            objects: what.objects,
-            configurations: what.configurations,
-            advice: what.advice.len() as u32,
-            stability: what.stability.len() as u32,
-            workloads: what.workloads.len() as u32,
-            bytes,
-            kept_until_us,
-        })
-    }
-
-    /// When the things of this owner go by themselves: only guests', and only if they have any. All of them expire together,
-    /// counted from the newest: there is one date to show and to extend, and nothing goes that a newer link still needs.
-    async fn kept_until(&self, owner: &str) -> Result<Option<i64>> {
-        if !matches!(Owner::of(owner), Owner::Guest(_)) {
-            return Ok(None);
-        }
-        let last = self.store.last_wanted(owner).await?;
-        Ok(last.map(|last| last + i64::from(self.config.guest_days) * DAY_US))
-    }
-
-    /// The rows first, then the files: what the database speaks of is always there.
-    async fn take_away(&self, what: &OwnedIds) -> Result<()> {
-        // Nobody stores a file meanwhile that is about to go.
-        let _alone = self.store.locks.removing().await?;
-        for file in self.store.take_away(what).await? {
-            self.blobs.remove(&file.sha256).await?;
-        }
-        Ok(())
     }
 }

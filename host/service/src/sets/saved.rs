@@ -69,7 +69,7 @@ impl Engine {
     #[boxed]
     pub async fn deletion_preview_of_saved(&self, id: &str, owner: &str) -> Result<OwnedItems> {
         let saved = self.inner.store.own_saved(id, owner).await?;
-        self.inner.told(owner, alone(saved)).await
+        self.inner.owned.told(owner, alone(saved)).await
     }
 
     /// Takes them away; runs that were measured on them keep the file.
