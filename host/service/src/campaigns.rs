@@ -88,7 +88,7 @@ impl Engine {
                     .into(),
             ));
         }
-        inner.keep_suite().await?;
+        inner.suite_runs.keep_suite().await?;
         let row = CampaignRow {
             id,
             reason,

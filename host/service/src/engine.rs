@@ -21,6 +21,7 @@ use crate::runs::preliminary::UnderWay;
 use crate::sets::stored::Sets;
 use crate::store::Store;
 use crate::suite::Suite;
+use crate::suite::known::SuiteRuns;
 use crate::tasks::Tasks;
 use crate::workloads::recordings::Recordings;
 use crate::{EngineConfig, EngineError, Result};
@@ -44,14 +45,15 @@ pub struct Inner {
     pub registry: Registry,
     pub machine: Machine,
     /// The hardware classes on which runs are measured.
-    pub classes: Classes,
+    pub classes: Arc<Classes>,
     pub run_events: RunEvents,
     /// What the run at work can show.
     pub under_way: Arc<UnderWay>,
     /// The runs that machines measure for this service.
     pub orders: Orders,
     /// What public plugins are measured on.
-    pub suite: Suite,
+    pub suite: Arc<Suite>,
+    pub suite_runs: SuiteRuns,
     pub work: Work,
     pub tasks: Tasks,
     pub sets: Arc<Sets>,

@@ -5,8 +5,10 @@ use std::sync::LazyLock;
 use crate::boxed;
 use crate::engine::{Engine, Inner};
 use crate::idle::sql::{Tried, TriedSet};
+use crate::machine::Machine;
 use crate::model::{Example, ExampleInfo, ExampleWork};
-use crate::{EngineError, Result};
+use crate::plugins::registry::Registry;
+use crate::{EngineConfig, EngineError, Result};
 
 static EXAMPLES: LazyLock<Vec<Example>> =
     LazyLock::new(|| serde_json::from_str(include_str!("examples/examples.json")).expect("examples.json is tested"));
@@ -15,9 +17,10 @@ impl Engine {
     /// The examples that this service has measured or will measure, each with its run where there is one.
     #[boxed]
     pub async fn examples(&self) -> Result<Vec<ExampleInfo>> {
+        let Inner { store, registry, config, machine, .. } = &*self.inner;
         let mut all = Vec::new();
-        for example in self.inner.possible_examples() {
-            match self.inner.store.run_that_tried(&self.inner.as_tried(&example)).await? {
+        for example in possible_examples(registry, config) {
+            match store.run_that_tried(&as_tried(machine, &example)).await? {
                 Some(id) => match self.found(example, &id).await {
                     Ok(found) => all.push(found),
                     // It could not be queued, or was deleted.
@@ -25,7 +28,7 @@ impl Engine {
                     Err(e) => return Err(e),
                 },
                 // Without idle work it never comes.
-                None if !self.inner.config.idle => {}
+                None if !config.idle => {}
                 None => all.push(ExampleInfo { example, run: None, advice: None }),
             }
         }
@@ -42,31 +45,34 @@ impl Engine {
     }
 }
 
-impl Inner {
-    /// The next example that was not tried on this machine, and its entry in the list of tried work. Advice takes longer than
-    /// runs, and comes after them.
-    pub(crate) fn next_example(&self, tried: &TriedSet) -> Option<(ExampleWork, Tried)> {
-        let all = self.possible_examples().into_iter().map(|example| (self.as_tried(&example), example.work));
-        let (runs, advice): (Vec<_>, Vec<_>) = all
-            .filter(|(entry, _)| !tried.contains(entry))
-            .partition(|(_, work)| matches!(work, ExampleWork::Run { .. }));
-        runs.into_iter().chain(advice).next().map(|(entry, work)| (work, entry))
-    }
+/// The next example that was not tried on this machine, and its entry in the list of tried work. Advice takes longer than
+/// runs, and comes after them.
+pub fn next_example(
+    registry: &Registry,
+    config: &EngineConfig,
+    machine: &Machine,
+    tried: &TriedSet,
+) -> Option<(ExampleWork, Tried)> {
+    let all =
+        possible_examples(registry, config).into_iter().map(|example| (as_tried(machine, &example), example.work));
+    let (runs, advice): (Vec<_>, Vec<_>) =
+        all.filter(|(entry, _)| !tried.contains(entry)).partition(|(_, work)| matches!(work, ExampleWork::Run { .. }));
+    runs.into_iter().chain(advice).next().map(|(entry, work)| (work, entry))
+}
 
-    /// Those whose algorithms are installed, or the advisor.
-    fn possible_examples(&self) -> Vec<Example> {
-        let installed = self.registry.installed();
-        let has = |id: &String| installed.iter().any(|algorithm| algorithm.id == *id);
-        let possible = |example: &&Example| match &example.work {
-            ExampleWork::Run { spec, .. } => spec.algorithms.iter().all(has),
-            ExampleWork::Advice { .. } => self.config.advisor.exists(),
-        };
-        EXAMPLES.iter().filter(possible).cloned().collect()
-    }
+/// Those whose algorithms are installed, or the advisor.
+fn possible_examples(registry: &Registry, config: &EngineConfig) -> Vec<Example> {
+    let installed = registry.installed();
+    let has = |id: &String| installed.iter().any(|algorithm| algorithm.id == *id);
+    let possible = |example: &&Example| match &example.work {
+        ExampleWork::Run { spec, .. } => spec.algorithms.iter().all(has),
+        ExampleWork::Advice { .. } => config.advisor.exists(),
+    };
+    EXAMPLES.iter().filter(possible).cloned().collect()
+}
 
-    fn as_tried(&self, example: &Example) -> Tried {
-        Tried::apart(&format!("example {}, class {}", example.id, self.machine.hardware_class))
-    }
+fn as_tried(machine: &Machine, example: &Example) -> Tried {
+    Tried::apart(&format!("example {}, class {}", example.id, machine.hardware_class))
 }
 
 #[cfg(test)]

@@ -10,16 +10,19 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::engine::{Engine, Inner};
+use crate::examples::next_example;
 use crate::idle::sql::{Tried, TriedSet};
 use crate::locks::Lock;
 use crate::model::{AlgorithmInfo, ExampleWork, RunSpec, StabilitySpec, State};
+use crate::plugins::registry::Registry;
 use crate::runs::RunContext;
 use crate::runs::carry_out::carry_out;
 use crate::runs::priority::IDLE;
 use crate::stability::runs_sql::StabilityRow;
 use crate::stability::work::next_part;
-use crate::store::now_us;
-use crate::suite::planning::{AT_ONCE, scenario};
+use crate::store::{Store, now_us};
+use crate::suite::known::SuiteRuns;
+use crate::suite::planning::AT_ONCE;
 use crate::{EngineError, Result};
 
 /// When nothing was missing, or something failed, the next look is after so long.
@@ -81,24 +84,24 @@ async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
     // Another planner queues work, and then the service is not idle any more.
     let Some(_alone) = inner.store.locks.try_alone(Lock::Planning).await? else { return Ok(false) };
     let tried = inner.store.tried().await?;
-    if let Some((work, what)) = inner.next_example(&tried) {
+    if let Some((work, what)) = next_example(&inner.registry, &inner.config, &inner.machine, &tried) {
         match work {
             ExampleWork::Run { spec, .. } => queue_run(inner, *spec, &[what], None).await?,
-            ExampleWork::Advice { spec } => note(inner, inner.ask_own_advice(spec).await, &[what]).await?,
+            ExampleWork::Advice { spec } => note(&inner.store, inner.ask_own_advice(spec).await, &[what]).await?,
         }
         return Ok(true);
     }
-    if let Some(spec) = inner.next_of_the_suite(&tried).await? {
-        inner.keep_suite().await?;
-        let what = inner.of_the_suite(&spec, &inner.classes.waiting_for(&spec).class)?;
+    if let Some(spec) = inner.suite_runs.next_missing(&inner.registry.public(), &tried).await? {
+        inner.suite_runs.keep_suite().await?;
+        let what = inner.suite_runs.of_the_suite(&spec, &inner.classes.waiting_for(&spec).class)?;
         let algorithms =
             inner.registry.public().into_iter().filter(|algorithm| spec.algorithms.contains(&algorithm.id));
         let tried: Vec<Tried> = algorithms.map(|algorithm| Tried::of(&what, &algorithm)).collect();
         queue_run(inner, spec, &tried, Some(&inner.suite.sha256)).await?;
         return Ok(true);
     }
-    match inner.next_for_stability(&tried).await? {
-        Some(algorithm) => queue_stability(inner, algorithm).await.map(|()| true),
+    match next_for_stability(&inner.store, &inner.registry, &tried).await? {
+        Some(algorithm) => queue_stability(&inner.store, algorithm).await.map(|()| true),
         None => Ok(false),
     }
 }
@@ -106,11 +109,11 @@ async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
 async fn queue_run(inner: &Arc<Inner>, spec: RunSpec, tried: &[Tried], suite: Option<&str>) -> Result<()> {
     let engine = Engine { inner: inner.clone() };
     let context = RunContext { priority: IDLE, suite, ..RunContext::default() };
-    note(inner, engine.enqueue(spec, context).await.map(|(run, _)| run), tried).await
+    note(&inner.store, engine.enqueue(spec, context).await.map(|(run, _)| run), tried).await
 }
 
 /// Notes what was tried and in which run or advice. What cannot be asked for is not asked for again.
-async fn note(inner: &Inner, queued: Result<String>, tried: &[Tried]) -> Result<()> {
+async fn note(store: &Store, queued: Result<String>, tried: &[Tried]) -> Result<()> {
     let id = match queued {
         Ok(id) => id,
         Err(e @ EngineError::Fault(_)) => return Err(e),
@@ -120,12 +123,12 @@ async fn note(inner: &Inner, queued: Result<String>, tried: &[Tried]) -> Result<
         }
     };
     for what in tried {
-        inner.store.note_tried(what, &id).await?;
+        store.note_tried(what, &id).await?;
     }
     Ok(())
 }
 
-async fn queue_stability(inner: &Inner, algorithm: AlgorithmInfo) -> Result<()> {
+async fn queue_stability(store: &Store, algorithm: AlgorithmInfo) -> Result<()> {
     let tried = Tried::of(STABILITY, &algorithm);
     let row = StabilityRow {
         id: uuid::Uuid::now_v7().to_string(),
@@ -142,28 +145,21 @@ async fn queue_stability(inner: &Inner, algorithm: AlgorithmInfo) -> Result<()> 
         created_us: now_us(),
         finished_us: None,
     };
-    inner.store.add_stability_run(&row).await?;
-    inner.store.note_tried(&tried, &row.id).await
+    store.add_stability_run(&row).await?;
+    store.note_tried(&tried, &row.id).await
 }
 
 /// Ends runs of the suite that wait for an idle service, where none comes: they are missing again.
-pub async fn end_waiting(inner: &Inner) -> Result<()> {
-    for run in inner.store.end_idle_runs("Filling the suite while idle was turned off.").await? {
-        inner.store.forget_tried(&run).await?;
+pub async fn end_waiting(store: &Store) -> Result<()> {
+    for run in store.end_idle_runs("Filling the suite while idle was turned off.").await? {
+        store.forget_tried(&run).await?;
     }
     Ok(())
 }
 
-impl Inner {
-    /// A scenario of the suite on this class, judged by this oracle, in a jail like this.
-    pub(crate) fn of_the_suite(&self, spec: &RunSpec, class: &str) -> Result<String> {
-        let profile = self.registry.profile();
-        let (suite, oracle, scenario) = (&self.suite.sha256, ocb_core::oracle::VERSION, scenario(spec)?);
-        Ok(format!("suite {suite}, class {class}, {}, oracle {oracle}: {scenario}", profile.as_str()))
-    }
-
-    async fn next_of_the_suite(&self, tried: &TriedSet) -> Result<Option<RunSpec>> {
-        let public = self.registry.public();
+impl SuiteRuns {
+    /// The next scenario with public algorithms that were not measured in it, and for which that was not tried.
+    async fn next_missing(&self, public: &[AlgorithmInfo], tried: &TriedSet) -> Result<Option<RunSpec>> {
         for class in self.classes.names() {
             let known = self.known(&class).await?;
             for spec in self.suite.scenarios() {
@@ -181,16 +177,15 @@ impl Inner {
         }
         Ok(None)
     }
+}
 
-    async fn next_for_stability(&self, tried: &TriedSet) -> Result<Option<AlgorithmInfo>> {
-        let found = self.store.stability().await?;
-        let known = |algorithm: &AlgorithmInfo| {
-            found.iter().any(|found| {
-                found.complete && (&found.algorithm, &found.plugin_sha256) == (&algorithm.id, &algorithm.plugin_sha256)
-            })
-        };
-        let missing =
-            |algorithm: &AlgorithmInfo| !known(algorithm) && !tried.contains(&Tried::of(STABILITY, algorithm));
-        Ok(self.registry.installed().into_iter().find(missing))
-    }
+async fn next_for_stability(store: &Store, registry: &Registry, tried: &TriedSet) -> Result<Option<AlgorithmInfo>> {
+    let found = store.stability().await?;
+    let known = |algorithm: &AlgorithmInfo| {
+        found.iter().any(|found| {
+            found.complete && (&found.algorithm, &found.plugin_sha256) == (&algorithm.id, &algorithm.plugin_sha256)
+        })
+    };
+    let missing = |algorithm: &AlgorithmInfo| !known(algorithm) && !tried.contains(&Tried::of(STABILITY, algorithm));
+    Ok(registry.installed().into_iter().find(missing))
 }

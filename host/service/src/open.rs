@@ -27,6 +27,7 @@ use crate::runs::priority::BACKGROUND;
 use crate::sets::stored::Sets;
 use crate::store::{Store, now_us};
 use crate::suite::Suite;
+use crate::suite::known::SuiteRuns;
 use crate::tasks::Tasks;
 use crate::workloads::recordings::Recordings;
 use crate::{EngineConfig, EngineError, Result};
@@ -46,18 +47,25 @@ impl Engine {
         let store = Store::open(&config.data, config.database_url.as_deref()).await?;
         let blobs = Blobs::open(&config.data, config.blob_url.as_deref())?;
         let registry = Registry::open(&config, &store, &blobs).await?;
-        let suite = Suite::open(config.suite.as_deref())?;
+        let suite = Arc::new(Suite::open(config.suite.as_deref())?);
         let machine = Machine::observe()?.noted(config.machine_note.as_deref());
         let objects = Arc::new(Objects::new(store.clone(), blobs.clone(), config.stock_dir.clone()));
         let sets = Arc::new(Sets::new(store.clone(), blobs.clone()));
         let under_way: Arc<UnderWay> = Arc::default();
         let results = Results::new(store.clone(), blobs.clone(), objects.clone(), sets.clone(), under_way.clone());
         let results = Arc::new(results);
+        let classes = Arc::new(Classes::of(&machine.hardware_class, &machine.cpu, config.elsewhere));
         let inner = Arc::new(Inner {
             work: Work::of(Worker::of(&lock, &machine.hardware_class)?),
             tasks: Tasks::default(),
             charts: Charts::new(store.clone(), objects.clone(), results.clone(), machine.clone(), registry.profile()),
-            classes: Classes::of(&machine.hardware_class, &machine.cpu, config.elsewhere),
+            suite_runs: SuiteRuns {
+                store: store.clone(),
+                suite: suite.clone(),
+                classes: classes.clone(),
+                profile: registry.profile(),
+            },
+            classes,
             machine,
             run_events: RunEvents::new(),
             orders: Orders::default(),

@@ -1,5 +1,6 @@
 //! The public benchmark as data: which scenes, how far apart and what is asked, under a version and a hash.
 
+pub(crate) mod known;
 pub mod planning;
 pub mod sql;
 

@@ -5,7 +5,8 @@ use std::collections::{HashMap, HashSet};
 use crate::engine::{Engine, Inner};
 use crate::model::{RunSpec, State, Visibility};
 use crate::runs::sql::RunRow;
-use crate::suite::planning::{AT_ONCE, Known, scenario};
+use crate::suite::known::{Known, scenario};
+use crate::suite::planning::AT_ONCE;
 use crate::{EngineError, Result};
 
 /// A run to come.
@@ -64,7 +65,7 @@ impl Inner {
 
     /// Algorithms that were measured together are measured together again, so that old and new runs stand in pairs.
     async fn due_of_the_suite(&self, class: &str, own: &[RunRow]) -> Result<Vec<Due>> {
-        let mut known = self.known(class).await?;
+        let mut known = self.suite_runs.known(class).await?;
         for row in own.iter().filter(|row| row.suite.is_some()) {
             for algorithm in &row.spec.algorithms {
                 known.add(&row.spec, algorithm, None, Known::Waiting)?;
@@ -105,7 +106,7 @@ impl Inner {
     async fn due_of_people(&self, class: &str, own: &[RunRow]) -> Result<Vec<Due>> {
         let mut due = Vec::new();
         let stored = self.store.runs_of_the_agreeing().await?;
-        for newest in newest_of_families(&stored, own, |row| self.is_of_now(row, class)) {
+        for newest in newest_of_families(&stored, own, |row| self.suite_runs.is_of_now(row, class)) {
             if self.objects.visibility_of(newest).await? != Visibility::Public {
                 continue;
             }

@@ -46,7 +46,7 @@ impl Engine {
     async fn take_over(&self) -> Result<()> {
         let inner = &self.inner;
         if !inner.config.idle {
-            idle::end_waiting(inner).await?;
+            idle::end_waiting(&inner.store).await?;
         }
         self.feature_a_run().await?;
         self.catch_up_with_the_suite().await?;

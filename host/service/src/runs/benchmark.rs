@@ -75,7 +75,7 @@ impl<'a> Bench<'a> {
 
     /// For a suite without a seed: draws this run's configurations, from a secret that was fixed together with its plugins.
     fn draw_configurations(&mut self) -> Result<()> {
-        let Suite { document, sha256, .. } = &self.inner.suite;
+        let Suite { document, sha256, .. } = &*self.inner.suite;
         if document.seed.is_some() || self.row.suite.as_ref() != Some(sha256) {
             return Ok(());
         }

@@ -128,7 +128,7 @@ async fn a_campaign_that_a_service_left_is_completed_once() {
     pair.plugin("p", "x", PluginState::Public).await;
     until("the plugin is not offered", async || offers(first, "x") && offers(second, "x")).await;
     let inner = &first.inner;
-    inner.keep_suite().await.unwrap();
+    inner.suite_runs.keep_suite().await.unwrap();
     let row = |id: &str, class: &str| CampaignRow {
         id: id.into(),
         reason: "another kernel".into(),
