@@ -6,6 +6,7 @@
 
 pub mod columns;
 mod compare;
+pub mod course;
 mod failures;
 mod plan;
 pub mod sql;
@@ -17,6 +18,7 @@ use crate::accounts::{NAME_OF_OPERATOR, said};
 use crate::audit::Note;
 use crate::boxed;
 use crate::campaigns::compare::side_by_side;
+use crate::campaigns::course::Campaigns;
 use crate::campaigns::sql::CampaignRow;
 use crate::engine::{Engine, Inner};
 use crate::locks::Lock;
@@ -45,7 +47,7 @@ impl Engine {
     pub async fn preview_campaign(&self, suite: bool, people: bool, class: Option<&str>) -> Result<CampaignPreview> {
         let inner = &self.inner;
         let class = inner.classes.measures_on(class)?;
-        let due = inner.due(suite, people, &class, &[]).await?;
+        let due = inner.campaigns.due(suite, people, &class, &[]).await?;
         let of_suite = || due.iter().filter(|due| due.of_suite);
         Ok(CampaignPreview {
             suite_runs: of_suite().count() as u32,
@@ -81,7 +83,7 @@ impl Engine {
         if inner.store.campaign(&id).await?.is_some() {
             return Ok((self.campaign(&id, viewer.as_deref()).await?, false));
         }
-        if inner.due(asked.suite, asked.people, &class, &[]).await?.is_empty() {
+        if inner.campaigns.due(asked.suite, asked.people, &class, &[]).await?.is_empty() {
             return Err(EngineError::Busy(
                 "There is nothing to measure again: everything is queued or was measured on this hardware class with \
                  this oracle."
@@ -127,7 +129,7 @@ impl Engine {
         let part = Part::of(rows, limit, |row: &CampaignRow| Cursor::behind(row.created_us, &row.id));
         let mut entries = Vec::new();
         for row in part.entries {
-            entries.push(self.inner.campaign_info(row).await?);
+            entries.push(self.inner.campaigns.campaign_info(row).await?);
         }
         Ok(Part { entries, next: part.next })
     }
@@ -136,7 +138,7 @@ impl Engine {
     #[boxed]
     pub async fn campaign(&self, id: &str, viewer: Option<&str>) -> Result<CampaignInfo> {
         // The state before the results: where it is the end, they are all of them.
-        let info = self.inner.campaign_info(self.inner.campaign_row(id).await?).await?;
+        let info = self.inner.campaigns.campaign_info(self.inner.campaigns.campaign_row(id).await?).await?;
         let Inner { store, objects, .. } = &*self.inner;
         let results = side_by_side(store, objects, &store.campaign_runs(id).await?, viewer).await?;
         Ok(CampaignInfo { results, ..info })
@@ -145,9 +147,9 @@ impl Engine {
     /// Ends what waits of a campaign; the run at work comes to its end. One that has ended stays as it is.
     #[boxed]
     pub async fn cancel_campaign(&self, by: Option<&AccountInfo>, id: &str) -> Result<CampaignInfo> {
-        self.inner.campaign_row(id).await?;
+        self.inner.campaigns.campaign_row(id).await?;
         let actor = by.map_or(NAME_OF_OPERATOR, |by| by.name.as_str());
-        self.inner.cancel_campaign(id, actor, "").await?;
+        self.inner.campaigns.cancel_campaign(id, actor, "").await?;
         self.campaign(id, by.map(AccountInfo::owner).as_deref()).await
     }
 
@@ -157,13 +159,13 @@ impl Engine {
         let inner = &self.inner;
         {
             let _alone = inner.store.locks.alone(Lock::Planning).await?;
-            let row = inner.campaign_row(id).await?;
+            let row = inner.campaigns.campaign_row(id).await?;
             let own = inner.store.campaign_runs(id).await?;
-            for due in inner.due(row.of_suite, row.of_people, &row.hardware_class, &own).await? {
+            for due in inner.campaigns.due(row.of_suite, row.of_people, &row.hardware_class, &own).await? {
                 if inner.tasks.closing() {
                     return Ok(());
                 }
-                if inner.campaign_row(id).await?.cancelled_us.is_some() {
+                if inner.campaigns.campaign_row(id).await?.cancelled_us.is_some() {
                     break;
                 }
                 let asking = RunContext {
@@ -183,10 +185,10 @@ impl Engine {
             }
         }
         inner.store.campaign_is_queued(id).await?;
-        if inner.campaign_row(id).await?.cancelled_us.is_some() {
-            inner.end_waiting_of(id).await?;
+        if inner.campaigns.campaign_row(id).await?.cancelled_us.is_some() {
+            inner.campaigns.end_waiting_of(id).await?;
         }
-        inner.end_campaign_when_through(id).await
+        inner.campaigns.end_campaign_when_through(id).await
     }
 
     /// Takes up what an ended process left: what is half queued is completed, what is for another machine, suite or oracle ends. A
@@ -222,8 +224,8 @@ impl Engine {
         let inner = &self.inner;
         for row in inner.store.open_campaigns().await? {
             if row.queued_us.is_some() || row.cancelled_us.is_some() {
-                inner.end_campaign_when_through(&row.id).await?;
-            } else if inner.is_for_now(&row) {
+                inner.campaigns.end_campaign_when_through(&row.id).await?;
+            } else if inner.campaigns.is_for_now(&row) {
                 self.fill_campaign(&row.id).await?;
             }
         }
@@ -233,26 +235,26 @@ impl Engine {
     async fn take_up(&self, row: &CampaignRow) -> Result<()> {
         let inner = &self.inner;
         for run in inner.store.campaign_runs(&row.id).await? {
-            inner.take_out_failing(row, &run).await?;
+            inner.campaigns.take_out_failing(row, &run).await?;
         }
         if row.cancelled_us.is_some() {
-            inner.end_waiting_of(&row.id).await?;
-        } else if !inner.is_for_now(row) {
+            inner.campaigns.end_waiting_of(&row.id).await?;
+        } else if !inner.campaigns.is_for_now(row) {
             let told = "The hardware classes, the suite or the oracle of the service have changed.";
-            return inner.cancel_campaign(&row.id, THE_SERVICE, told).await;
+            return inner.campaigns.cancel_campaign(&row.id, THE_SERVICE, told).await;
         } else if row.queued_us.is_none() {
             return self.fill_campaign(&row.id).await;
         }
-        inner.end_campaign_when_through(&row.id).await
+        inner.campaigns.end_campaign_when_through(&row.id).await
     }
 }
 
-impl Inner {
+impl Campaigns {
     /// For a class on which runs are measured here, this oracle and this suite.
     fn is_for_now(&self, row: &CampaignRow) -> bool {
-        self.classes.names().contains(&row.hardware_class)
+        self.suite_runs.classes.names().contains(&row.hardware_class)
             && row.oracle == ocb_core::oracle::VERSION
-            && row.suite == self.suite.sha256
+            && row.suite == self.suite_runs.suite.sha256
     }
 
     pub(crate) async fn campaign_row(&self, id: &str) -> Result<CampaignRow> {

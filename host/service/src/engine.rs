@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::advice::work::Advices;
 use crate::blobs::Blobs;
+use crate::campaigns::course::Campaigns;
 use crate::charts::Charts;
 use crate::classes::Classes;
 use crate::house::House;
@@ -42,7 +43,7 @@ pub struct Inner {
     pub store: Store,
     pub blobs: Blobs,
     pub objects: Arc<Objects>,
-    pub registry: Registry,
+    pub registry: Arc<Registry>,
     pub machine: Machine,
     /// The hardware classes on which runs are measured.
     pub classes: Arc<Classes>,
@@ -53,7 +54,8 @@ pub struct Inner {
     pub orders: Orders,
     /// What public plugins are measured on.
     pub suite: Arc<Suite>,
-    pub suite_runs: SuiteRuns,
+    pub suite_runs: Arc<SuiteRuns>,
+    pub campaigns: Campaigns,
     pub work: Work,
     pub tasks: Tasks,
     pub sets: Arc<Sets>,
@@ -63,7 +65,7 @@ pub struct Inner {
     pub advices: Advices,
     /// Whether this service does the work that one service does for all on the database.
     pub house: House,
-    pub outbox: Outbox,
+    pub outbox: Arc<Outbox>,
     pub owned: Owned,
     /// Held as long as this process uses the folder.
     pub lock: File,

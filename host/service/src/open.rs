@@ -7,6 +7,7 @@ use crate::attempts::worker::Worker;
 use crate::attempts::{beat, lost};
 use crate::blobs::Blobs;
 use crate::boxed;
+use crate::campaigns::course::Campaigns;
 use crate::charts::Charts;
 use crate::classes::Classes;
 use crate::engine::{Engine, Inner};
@@ -46,7 +47,7 @@ impl Engine {
         let lock = lock_data_folder(&config.data)?;
         let store = Store::open(&config.data, config.database_url.as_deref()).await?;
         let blobs = Blobs::open(&config.data, config.blob_url.as_deref())?;
-        let registry = Registry::open(&config, &store, &blobs).await?;
+        let registry = Arc::new(Registry::open(&config, &store, &blobs).await?);
         let suite = Arc::new(Suite::open(config.suite.as_deref())?);
         let machine = Machine::observe()?.noted(config.machine_note.as_deref());
         let objects = Arc::new(Objects::new(store.clone(), blobs.clone(), config.stock_dir.clone()));
@@ -55,25 +56,36 @@ impl Engine {
         let results = Results::new(store.clone(), blobs.clone(), objects.clone(), sets.clone(), under_way.clone());
         let results = Arc::new(results);
         let classes = Arc::new(Classes::of(&machine.hardware_class, &machine.cpu, config.elsewhere));
+        let suite_runs = Arc::new(SuiteRuns {
+            store: store.clone(),
+            suite: suite.clone(),
+            classes: classes.clone(),
+            profile: registry.profile(),
+        });
+        let outbox = Arc::new(Outbox::new(store.clone(), config.mail.clone()));
+        let run_events = RunEvents::new();
         let inner = Arc::new(Inner {
             work: Work::of(Worker::of(&lock, &machine.hardware_class)?),
             tasks: Tasks::default(),
             charts: Charts::new(store.clone(), objects.clone(), results.clone(), machine.clone(), registry.profile()),
-            suite_runs: SuiteRuns {
+            campaigns: Campaigns {
                 store: store.clone(),
-                suite: suite.clone(),
-                classes: classes.clone(),
-                profile: registry.profile(),
+                objects: objects.clone(),
+                registry: registry.clone(),
+                suite_runs: suite_runs.clone(),
+                outbox: outbox.clone(),
+                run_events: run_events.clone(),
             },
+            suite_runs,
+            outbox,
+            run_events,
             classes,
             machine,
-            run_events: RunEvents::new(),
             orders: Orders::default(),
             suite,
             recordings: Recordings::new(blobs.clone(), config.data.clone()),
             advices: Advices::default(),
             house: House::default(),
-            outbox: Outbox::new(store.clone(), config.mail.clone()),
             owned: Owned {
                 store: store.clone(),
                 blobs: blobs.clone(),

@@ -286,7 +286,7 @@ impl Engine {
         if now == PluginState::Public {
             self.measure_submitted(row.algorithms.iter()).await?;
         } else if row.state == PluginState::Public {
-            self.inner.forget_waiting().await?;
+            self.inner.campaigns.forget_waiting().await?;
         }
         Ok(())
     }

@@ -260,7 +260,7 @@ impl Engine {
         }
         self.inner.under_way.forget(id);
         if let Some(campaign) = &row.campaign {
-            self.inner.end_campaign_when_through(campaign).await?;
+            self.inner.campaigns.end_campaign_when_through(campaign).await?;
         }
         Ok(())
     }

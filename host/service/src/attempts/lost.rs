@@ -52,7 +52,7 @@ pub async fn take_back(inner: &Arc<Inner>, just_started: Option<&Worker>) -> Res
 pub async fn run_was_lost(inner: &Arc<Inner>, run: &str, now: State) -> Result<()> {
     inner.run_events.ring(run);
     inner.run_events.queue_moved();
-    if now == State::Queued { Ok(()) } else { inner.run_of_campaign_ended(run).await }
+    if now == State::Queued { Ok(()) } else { inner.campaigns.run_of_campaign_ended(run).await }
 }
 
 impl Store {

@@ -5,15 +5,15 @@ use nix::sys::signal::Signal;
 use crate::Result;
 use crate::audit::Note;
 use crate::board;
+use crate::campaigns::course::Campaigns;
 use crate::campaigns::sql::CampaignRow;
-use crate::engine::Inner;
 use crate::model::{AlgorithmResult, OutcomeName, PluginState, RunSpec, State};
 use crate::plugins::notices::to_author;
 use crate::plugins::sql::{PluginRow, THE_SERVICE};
 use crate::runs::log::{fresh_stages, plain_event};
 use crate::runs::sql::RunRow;
 
-impl Inner {
+impl Campaigns {
     /// Looks at what a run of a campaign found out of submitted plugins. Looked at again after a restart, it finds the
     /// same, except where a curator has decided since.
     pub(crate) async fn take_out_failing(&self, campaign: &CampaignRow, run: &RunRow) -> Result<()> {

@@ -2,7 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::engine::{Engine, Inner};
+use crate::campaigns::course::Campaigns;
+use crate::engine::Engine;
 use crate::model::{RunSpec, State, Visibility};
 use crate::runs::sql::RunRow;
 use crate::suite::known::{Known, scenario};
@@ -53,7 +54,7 @@ impl Engine {
     }
 }
 
-impl Inner {
+impl Campaigns {
     /// What is to be queued besides a campaign's own runs, whatever became of these.
     pub(crate) async fn due(&self, suite: bool, people: bool, class: &str, own: &[RunRow]) -> Result<Vec<Due>> {
         let mut due = if suite { self.due_of_the_suite(class, own).await? } else { Vec::new() };
@@ -80,7 +81,7 @@ impl Inner {
             }
         }
         let (public, mut due) = (self.registry.public(), Vec::new());
-        for spec in self.suite.scenarios() {
+        for spec in self.suite_runs.suite.scenarios() {
             let name = scenario(&spec)?;
             let mut groups: Vec<(Option<&RunRow>, Vec<String>)> = Vec::new();
             let missing = public.iter().filter(|a| a.queries.contains(&spec.query) && known.of(a, &spec).is_none());
@@ -95,7 +96,7 @@ impl Inner {
                 }
             }
             due.extend(groups.into_iter().map(|(old, algorithms)| Due {
-                spec: RunSpec { algorithms, hardware_class: self.classes.named(class), ..spec.clone() },
+                spec: RunSpec { algorithms, hardware_class: self.suite_runs.classes.named(class), ..spec.clone() },
                 repeats: old.cloned(),
                 of_suite: true,
             }));
@@ -110,7 +111,7 @@ impl Inner {
             if self.objects.visibility_of(newest).await? != Visibility::Public {
                 continue;
             }
-            let mut spec = RunSpec { hardware_class: self.classes.named(class), ..newest.spec.clone() };
+            let mut spec = RunSpec { hardware_class: self.suite_runs.classes.named(class), ..newest.spec.clone() };
             // Of what was withdrawn since, nothing is measured.
             spec.algorithms.retain(|name| self.registry.choose(name, None).is_ok_and(|found| found.is_some()));
             if !spec.algorithms.is_empty() {

@@ -93,7 +93,7 @@ pub async fn ended(
         return Ok(false);
     }
     inner.run_events.ring(&row.id);
-    if let Err(e) = inner.run_of_campaign_ended(&row.id).await {
+    if let Err(e) = inner.campaigns.run_of_campaign_ended(&row.id).await {
         tracing::error!("run {}: its end could not be recorded in its campaign: {e}", row.id);
     }
     inner.run_events.queue_moved();
