@@ -13,14 +13,15 @@ use ocb_core::mesh::{Mesh, obj};
 
 use crate::advice::jailed::{Advisor, SHELF};
 use crate::advice::sql::{AdviceRow, StoredPaper};
-use crate::advice::work::{Found, Job, extent};
+use crate::advice::work::{Advices, Found, Job, extent};
 use crate::attempts::{Attempt, MOST_LOST, superseded};
 use crate::boxed;
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::locks::Lock;
 use crate::model::{AdviceInfo, AdviceSpec, Asked, Side, State};
 use crate::quotas::{Visitor, turn};
 use crate::requests::Made;
+use crate::store::Store;
 use crate::{EngineError, Result};
 
 /// So many requests of one account, or of the guests of one address, may wait or be at work, and so many in all.
@@ -45,7 +46,7 @@ impl Engine {
         let owner = visitor.owner.as_str();
         check(spec.question)?;
         let inner = &self.inner;
-        let names = inner.objects_of(&spec, Some(owner)).await?;
+        let names = inner.advices.objects_of(&spec, Some(owner)).await?;
         let id = self.id_of_request(owner, Made::Advice, key, &spec).await?;
         if inner.store.advice(&id).await?.is_some() {
             return Ok((self.advice(&id).await?, false));
@@ -64,7 +65,7 @@ impl Engine {
         let Some(attempt) = inner.store.add_advice(&info, owner, &turn, &inner.work.worker).await? else {
             return Ok((self.advice(&info.id).await?, false));
         };
-        inner.clone().begin_advice(attempt, inner.advices.add(info.clone()));
+        self.begin_advice(attempt, inner.advices.add(info.clone()));
         inner.work.call();
         Ok((info, true))
     }
@@ -81,7 +82,7 @@ impl Engine {
                 inner.store.end_advice(&attempt, &info, &Default::default()).await?;
                 continue;
             }
-            inner.clone().begin_advice(attempt, inner.advices.add(info));
+            self.begin_advice(attempt, inner.advices.add(info));
         }
         Ok(())
     }
@@ -91,14 +92,14 @@ impl Engine {
     pub async fn advice(&self, id: &str) -> Result<AdviceInfo> {
         match self.inner.advices.find(id) {
             Some(job) => Ok(job.info()),
-            None => Ok(self.inner.advice_row(id).await?.info),
+            None => Ok(self.inner.store.advice_row(id).await?.info),
         }
     }
 
     /// Ends it; only its owner may.
     #[boxed]
     pub async fn cancel_advice(&self, id: &str, caller: Option<&str>) -> Result<AdviceInfo> {
-        let row = self.inner.advice_row(id).await?;
+        let row = self.inner.store.advice_row(id).await?;
         if row.owner.as_deref() != caller {
             return Err(EngineError::Forbidden("Only the owner of the advice may cancel it.".to_owned()));
         }
@@ -109,53 +110,35 @@ impl Engine {
         // Another service may work on it.
         let ended = AdviceInfo { state: State::Cancelled, ..row.info };
         self.inner.store.withdraw_advice(&ended, &self.inner.work.worker).await?;
-        Ok(self.inner.advice_row(id).await?.info)
+        Ok(self.inner.store.advice_row(id).await?.info)
     }
 
     /// A reduced object as OBJ, and the name of its file; `stage` counts from the coarsest.
     #[boxed]
     pub async fn reduced(&self, id: &str, side: Side, stage: usize) -> Result<(Vec<u8>, String)> {
-        let paper = self.inner.paper(id, side, stage).await?;
+        let paper = self.inner.store.paper(id, side, stage).await?;
         Ok((self.inner.blobs.get(&paper.mesh).await?, paper.file))
     }
 
     /// The certificate of a reduced object as JSON, and the name of its file.
     #[boxed]
     pub async fn certificate(&self, id: &str, side: Side, stage: usize) -> Result<(Vec<u8>, String)> {
-        let paper = self.inner.paper(id, side, stage).await?;
+        let paper = self.inner.store.paper(id, side, stage).await?;
         Ok((self.inner.blobs.get(&paper.certificate).await?, paper.file.replace(".obj", ".certificate.json")))
     }
-}
 
-impl Inner {
-    /// Names of both objects.
-    async fn objects_of(&self, spec: &AdviceSpec, viewer: Option<&str>) -> Result<[String; 2]> {
-        let b = spec.object_b.as_deref().unwrap_or(&spec.object_a);
-        let (a, b) = (self.objects.info_for(&spec.object_a, viewer).await?, self.objects.info_for(b, viewer).await?);
-        Ok([a.name, b.name])
-    }
-
-    async fn advice_row(&self, id: &str) -> Result<AdviceRow> {
-        self.store.advice(id).await?.ok_or_else(|| no_advice(id))
-    }
-
-    async fn paper(&self, id: &str, side: Side, stage: usize) -> Result<StoredPaper> {
-        let row = self.advice_row(id).await?;
-        let none = || EngineError::NotFound("This advice has no such reduced object.".to_owned());
-        row.papers[side as usize].get(stage).cloned().ok_or_else(none)
-    }
-
-    fn begin_advice(self: Arc<Self>, attempt: Attempt, job: Arc<Job>) {
-        let inner = self.clone();
-        self.tasks.spawn(async move {
+    /// Works on it in the background when its turn comes.
+    fn begin_advice(&self, attempt: Attempt, job: Arc<Job>) {
+        let inner = self.inner.clone();
+        self.inner.tasks.spawn(async move {
             let id = attempt.job.as_str();
             let lost = job.clone();
             let _held = inner.work.holding.hold(&attempt, move || lost.stop());
-            let found = inner.work_on_advice(&attempt, &job).await;
+            let found = inner.advices.work_on(&attempt, &job).await;
             // What closing interrupted stays open, and is begun again.
             let ended = match inner.tasks.closing() {
                 true => inner.store.put_back_advice(&attempt).await,
-                false => inner.end_advice(&attempt, job.info(), found).await,
+                false => inner.advices.end(&attempt, job.info(), found).await,
             };
             if let Err(e) = ended {
                 tracing::error!("advice {id}: {e}");
@@ -165,36 +148,58 @@ impl Inner {
             inner.work.wake.notify_one();
         });
     }
+}
 
-    async fn work_on_advice(&self, attempt: &Attempt, job: &Arc<Job>) -> Result<Option<Found>> {
+impl Store {
+    async fn advice_row(&self, id: &str) -> Result<AdviceRow> {
+        self.advice(id).await?.ok_or_else(|| no_advice(id))
+    }
+
+    async fn paper(&self, id: &str, side: Side, stage: usize) -> Result<StoredPaper> {
+        let row = self.advice_row(id).await?;
+        let none = || EngineError::NotFound("This advice has no such reduced object.".to_owned());
+        row.papers[side as usize].get(stage).cloned().ok_or_else(none)
+    }
+}
+
+impl Advices {
+    /// Names of both objects.
+    async fn objects_of(&self, spec: &AdviceSpec, viewer: Option<&str>) -> Result<[String; 2]> {
+        let b = spec.object_b.as_deref().unwrap_or(&spec.object_a);
+        let (a, b) =
+            (self.from.objects.info_for(&spec.object_a, viewer).await?, self.from.objects.info_for(b, viewer).await?);
+        Ok([a.name, b.name])
+    }
+
+    async fn work_on(&self, attempt: &Attempt, job: &Arc<Job>) -> Result<Option<Found>> {
         let _turn = tokio::select! {
-            Ok(turn) = self.advices.turn.acquire() => turn,
+            Ok(turn) = self.turn.acquire() => turn,
             () = job.ended() => return Ok(None),
         };
-        self.make_advice(attempt, job).await
+        self.make(attempt, job).await
     }
 
     /// `None` when it was stopped.
-    async fn make_advice(&self, attempt: &Attempt, job: &Arc<Job>) -> Result<Option<Found>> {
+    async fn make(&self, attempt: &Attempt, job: &Arc<Job>) -> Result<Option<Found>> {
         let AdviceInfo { spec, names, .. } = job.info();
-        if !self.store.begin_advice(attempt).await? {
+        if !self.from.store.begin_advice(attempt).await? {
             return Err(superseded());
         }
-        let a = self.objects.mesh(&spec.object_a).await?;
+        let a = self.from.objects.mesh(&spec.object_a).await?;
         let b = match &spec.object_b {
-            Some(b) if *b != spec.object_a => self.objects.mesh(b).await?,
+            Some(b) if *b != spec.object_a => self.from.objects.mesh(b).await?,
             _ => a.clone(),
         };
-        let advisor = Advisor::new(&self.config.advisor, &self.machine, &self.config.data.join(SHELF));
+        let advisor = Advisor::new(&self.from.program, &self.from.machine, &self.from.data.join(SHELF));
         let (job, advisor) = (job.clone(), advisor.waiting_for_the_right());
-        let extent = extent(self.config.quick_advice);
+        let extent = extent(self.from.quick);
         let work = tokio::task::spawn_blocking(move || job.work(&names, [a, b], &advisor, extent));
         work.await.unwrap_or_else(|_| Err(EngineError::Fault("Work on advice panicked; see the log.".to_owned())))
     }
 
-    async fn end_advice(&self, attempt: &Attempt, mut info: AdviceInfo, found: Result<Option<Found>>) -> Result<()> {
+    async fn end(&self, attempt: &Attempt, mut info: AdviceInfo, found: Result<Option<Found>>) -> Result<()> {
         let mut papers: [Vec<StoredPaper>; 2] = Default::default();
-        let _keeping = self.store.locks.keeping().await?;
+        let _keeping = self.from.store.locks.keeping().await?;
         (info.state, info.message) = match found {
             Ok(Some((advice, found))) => {
                 for (side, all) in found.iter().enumerate() {
@@ -208,7 +213,7 @@ impl Inner {
             Ok(None) => (State::Cancelled, None),
             Err(e) => (State::Failed, Some(e.for_visitors().to_string())),
         };
-        if !self.store.end_advice(attempt, &info, &papers).await? {
+        if !self.from.store.end_advice(attempt, &info, &papers).await? {
             tracing::warn!(
                 "advice {}: the result of attempt {} comes too late and is not kept",
                 info.id,
@@ -223,8 +228,8 @@ impl Inner {
         let mut kept = Vec::new();
         for (bytes, media_type) in [(obj::write(mesh).into_bytes(), "model/obj"), (json, "application/json")] {
             let length = bytes.len();
-            let sha256 = self.blobs.put(bytes).await?;
-            self.store.add_blob(&sha256, length, media_type).await?;
+            let sha256 = self.from.blobs.put(bytes).await?;
+            self.from.store.add_blob(&sha256, length, media_type).await?;
             kept.push(sha256);
         }
         let [mesh, certificate] = kept.try_into().expect("two blobs");

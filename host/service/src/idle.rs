@@ -63,7 +63,7 @@ impl Filling {
         }
         let tried = next_part(inner, IDLE, |id, stop| inner.work.set_current_idle(id, stop, asked)).await;
         inner.work.unset_current();
-        if tried? || inner.next_own_advice(asked).await? {
+        if tried? || inner.advices.next_own(&inner.work, &inner.tasks, asked).await? {
             return Ok(true);
         }
         // Enough for every machine until the next look.
@@ -87,7 +87,7 @@ async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
     if let Some((work, what)) = next_example(&inner.registry, &inner.config, &inner.machine, &tried) {
         match work {
             ExampleWork::Run { spec, .. } => queue_run(inner, *spec, &[what], None).await?,
-            ExampleWork::Advice { spec } => note(&inner.store, inner.ask_own_advice(spec).await, &[what]).await?,
+            ExampleWork::Advice { spec } => note(&inner.store, inner.advices.ask_own(spec).await, &[what]).await?,
         }
         return Ok(true);
     }

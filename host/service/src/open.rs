@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::advice::work::Advices;
+use crate::advice::work::{Advices, Sources};
 use crate::attempts::worker::Worker;
 use crate::attempts::{beat, lost};
 use crate::blobs::Blobs;
@@ -80,11 +80,18 @@ impl Engine {
             outbox,
             run_events,
             classes,
-            machine,
             orders: Orders::default(),
             suite,
             recordings: Recordings::new(blobs.clone(), config.data.clone()),
-            advices: Advices::default(),
+            advices: Advices::new(Sources {
+                store: store.clone(),
+                blobs: blobs.clone(),
+                objects: objects.clone(),
+                machine: machine.clone(),
+                program: config.advisor.clone(),
+                data: config.data.clone(),
+                quick: config.quick_advice,
+            }),
             house: House::default(),
             owned: Owned {
                 store: store.clone(),
@@ -94,6 +101,7 @@ impl Engine {
             },
             lock,
             config,
+            machine,
             objects,
             sets,
             results,

@@ -4,35 +4,37 @@
 
 use super::waiting;
 use crate::Result;
-use crate::engine::Inner;
+use crate::advice::work::Advices;
 use crate::model::AdviceSpec;
+use crate::runs::current::Work;
+use crate::tasks::Tasks;
 
-impl Inner {
+impl Advices {
     /// Asks for it, and gives its id; the work begins when the service is idle.
-    pub(crate) async fn ask_own_advice(&self, spec: AdviceSpec) -> Result<String> {
+    pub(crate) async fn ask_own(&self, spec: AdviceSpec) -> Result<String> {
         let names = self.objects_of(&spec, None).await?;
         let info = waiting(uuid::Uuid::now_v7().to_string(), spec, names);
-        self.store.add_own_advice(&info).await?;
+        self.from.store.add_own_advice(&info).await?;
         Ok(info.id)
     }
 
     /// Works on the oldest that has no end; false when none waits, or visitors' advice is at work.
-    pub(crate) async fn next_own_advice(&self, asked: u64) -> Result<bool> {
-        let Ok(_turn) = self.advices.turn.try_acquire() else { return Ok(false) };
-        let Some(row) = self.store.open_own_advice().await?.into_iter().next() else { return Ok(false) };
+    pub(crate) async fn next_own(&self, work: &Work, tasks: &Tasks, asked: u64) -> Result<bool> {
+        let Ok(_turn) = self.turn.try_acquire() else { return Ok(false) };
+        let Some(row) = self.from.store.open_own_advice().await?.into_iter().next() else { return Ok(false) };
         // Another service may be quicker.
-        let Some(attempt) = self.store.take_up(&row.info.id, &self.work.worker).await? else { return Ok(false) };
-        let job = self.advices.add(row.info);
+        let Some(attempt) = self.from.store.take_up(&row.info.id, &work.worker).await? else { return Ok(false) };
+        let job = self.add(row.info);
         let lost = job.clone();
-        let _held = self.work.holding.hold(&attempt, move || lost.stop());
-        self.work.set_current_idle(&attempt.job, &job.stop, asked);
-        let found = self.make_advice(&attempt, &job).await;
-        self.work.unset_current();
-        let ended = match self.tasks.closing() || (job.stop.for_now() && matches!(found, Ok(None))) {
-            true => self.store.put_back_advice(&attempt).await,
-            false => self.end_advice(&attempt, job.info(), found).await,
+        let _held = work.holding.hold(&attempt, move || lost.stop());
+        work.set_current_idle(&attempt.job, &job.stop, asked);
+        let found = self.make(&attempt, &job).await;
+        work.unset_current();
+        let ended = match tasks.closing() || (job.stop.for_now() && matches!(found, Ok(None))) {
+            true => self.from.store.put_back_advice(&attempt).await,
+            false => self.end(&attempt, job.info(), found).await,
         };
-        self.advices.remove(&attempt.job);
+        self.remove(&attempt.job);
         ended.map(|()| true)
     }
 }

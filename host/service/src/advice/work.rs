@@ -5,6 +5,7 @@
 //! process are. The work itself is done in the jail: `jailed.rs`.
 
 use std::collections::HashMap;
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use ocb_advice::{Advice, CONFIGURATIONS, HELD_OUT, Paper, Question, Watch, usual_distances};
@@ -13,20 +14,33 @@ use tokio::sync::{Notify, Semaphore};
 
 use super::jailed::{Advised, Advisor, Level, Request};
 use crate::Result;
+use crate::blobs::Blobs;
+use crate::machine::Machine;
 use crate::measure::Stop;
 use crate::model::{AdviceInfo, Asked, State};
+use crate::objects::Objects;
+use crate::store::Store;
+
+/// What advice is made from.
+pub struct Sources {
+    pub store: Store,
+    pub blobs: Blobs,
+    pub objects: Arc<Objects>,
+    pub machine: Machine,
+    /// The advisor's program.
+    pub program: PathBuf,
+    /// The data folder.
+    pub data: PathBuf,
+    /// Advice is to be quick: see [`extent`].
+    pub quick: bool,
+}
 
 /// The requests that wait or are at work, by id.
 pub struct Advices {
+    pub from: Sources,
     jobs: Mutex<HashMap<String, Arc<Job>>>,
     /// Whose turn it is, first come, first served.
     pub turn: Semaphore,
-}
-
-impl Default for Advices {
-    fn default() -> Self {
-        Self { jobs: Mutex::default(), turn: Semaphore::new(1) }
-    }
 }
 
 /// One request under way.
@@ -47,6 +61,11 @@ pub fn extent(quick: bool) -> [u32; 2] {
 pub type Found = (Advice, [Vec<(Paper, Arc<Mesh>)>; 2]);
 
 impl Advices {
+    /// Nothing waits yet.
+    pub fn new(from: Sources) -> Self {
+        Self { from, jobs: Mutex::default(), turn: Semaphore::new(1) }
+    }
+
     /// A request that waits from now on.
     pub fn add(&self, info: AdviceInfo) -> Arc<Job> {
         let id = info.id.clone();
