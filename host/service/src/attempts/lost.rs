@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::worker::Worker;
 use super::{Attempt, Kind, MOST_LOST, sql};
 use crate::Result;
+use crate::campaigns::course::Campaigns;
 use crate::engine::{Engine, Inner};
 use crate::model::State;
 use crate::plugins::checks;
@@ -26,7 +27,7 @@ pub async fn take_back(inner: &Arc<Inner>, just_started: Option<&Worker>) -> Res
         let Attempt { kind, job, number, .. } = &attempt;
         let lost = match kind {
             Kind::Prepare | Kind::Measure => match inner.store.lose_run(&attempt, just_started).await? {
-                Some(state) => run_was_lost(inner, job, state).await.map(|()| true)?,
+                Some(state) => run_was_lost(&inner.campaigns, job, state).await.map(|()| true)?,
                 None => false,
             },
             Kind::Check => inner.store.lose_check(&attempt, just_started).await?,
@@ -40,7 +41,7 @@ pub async fn take_back(inner: &Arc<Inner>, just_started: Option<&Worker>) -> Res
         }
     }
     if checks {
-        checks::give_up(inner).await?;
+        checks::give_up(&inner.store, &inner.outbox).await?;
     }
     if advice {
         Engine { inner: inner.clone() }.take_up_advice().await?;
@@ -49,10 +50,10 @@ pub async fn take_back(inner: &Arc<Inner>, just_started: Option<&Worker>) -> Res
 }
 
 /// What follows from a lost attempt at a run.
-pub async fn run_was_lost(inner: &Arc<Inner>, run: &str, now: State) -> Result<()> {
-    inner.run_events.ring(run);
-    inner.run_events.queue_moved();
-    if now == State::Queued { Ok(()) } else { inner.campaigns.run_of_campaign_ended(run).await }
+pub async fn run_was_lost(campaigns: &Campaigns, run: &str, now: State) -> Result<()> {
+    campaigns.run_events.ring(run);
+    campaigns.run_events.queue_moved();
+    if now == State::Queued { Ok(()) } else { campaigns.run_of_campaign_ended(run).await }
 }
 
 impl Store {

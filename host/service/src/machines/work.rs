@@ -102,7 +102,7 @@ impl Engine {
     async fn lose(&self, machine: &str, attempt: &Attempt) -> Result<Option<State>> {
         let state = self.inner.store.lose_run(attempt, Some(&worker(machine, ""))).await?;
         if let Some(state) = state {
-            run_was_lost(&self.inner, &attempt.job, state).await?;
+            run_was_lost(&self.inner.campaigns, &attempt.job, state).await?;
         }
         Ok(state)
     }

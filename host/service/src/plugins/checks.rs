@@ -9,6 +9,7 @@ use tokio::runtime::Handle;
 use crate::attempts::{Attempt, MOST_LOST, superseded};
 use crate::audit::Note;
 use crate::engine::Inner;
+use crate::mail::outbox::Outbox;
 use crate::measure::Stop;
 use crate::model::{CheckVerdict, PluginReport, PluginState};
 use crate::plugins::checks_sql::CheckEnd;
@@ -16,6 +17,7 @@ use crate::plugins::conflict;
 use crate::plugins::notices::of_check;
 use crate::plugins::registry::submitted;
 use crate::plugins::sql::{PluginRow, THE_SERVICE};
+use crate::store::Store;
 use crate::{EngineError, Result};
 
 /// Carries out an attempt at a check and notes where the plugin stands then; false when it was stopped.
@@ -104,16 +106,16 @@ fn note<'a>(row: &'a PluginRow, state: PluginState, reason: &'a str) -> Note<'a>
 }
 
 /// Checks that were lost too often fail, and their authors are told, once.
-pub async fn give_up(inner: &Inner) -> Result<()> {
+pub async fn give_up(store: &Store, outbox: &Outbox) -> Result<()> {
     let (from, to) = (PluginState::Uploaded, PluginState::Failed);
-    for row in inner.store.checks_to_give_up().await? {
+    for row in store.checks_to_give_up().await? {
         let reason =
             format!("The service ended {MOST_LOST} times in the middle of this check, so it is not tried again.");
         let notice = of_check(&row, to, &reason);
-        let new_notice = Some(inner.outbox.new_notice(&row.account, &notice));
+        let new_notice = Some(outbox.new_notice(&row.account, &notice));
         let note = Some(note(&row, to, &reason));
-        if inner.store.move_plugin(&row.id, from, to, &reason, new_notice, note).await? {
-            inner.outbox.post_soon();
+        if store.move_plugin(&row.id, from, to, &reason, new_notice, note).await? {
+            outbox.post_soon();
         }
     }
     Ok(())

@@ -62,7 +62,7 @@ async fn failed_here(inner: &Arc<Inner>, attempt: &Attempt, fault: &EngineError)
     loop {
         tokio::time::sleep(BACK_OFF).await;
         match inner.store.lose_run(attempt, Some(&inner.work.worker)).await {
-            Ok(Some(state)) => return run_was_lost(inner, &attempt.job, state).await,
+            Ok(Some(state)) => return run_was_lost(&inner.campaigns, &attempt.job, state).await,
             Ok(None) => return Ok(()),
             Err(e) if inner.tasks.closing() => return Err(e),
             Err(e) => tracing::error!("the end of run {} cannot be recorded: {e}", attempt.job),

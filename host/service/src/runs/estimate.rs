@@ -2,13 +2,14 @@
 
 use ocb_lab::algorithm::Algorithm;
 
+use crate::classes::Classes;
 use crate::configurations::set_key;
 use crate::engine::{Engine, Inner};
 use crate::measure::{self, Cost};
 use crate::model::{AlgorithmSeconds, Estimate, RunSpec};
 use crate::runs::spec;
 use crate::runs::spec::Checked;
-use crate::store::now_us;
+use crate::store::{Store, now_us};
 use crate::{EngineError, Result, boxed};
 
 /// Seconds per configuration before anything was found on this machine.
@@ -45,8 +46,8 @@ impl Engine {
 }
 
 /// Expected numbers of a checked request, and of what would be before it in the queue.
-pub async fn estimate(inner: &Inner, checked: &Checked) -> Result<Estimate> {
-    let (runs_ahead, wait_seconds) = queue_ahead(inner, &checked.spec).await?;
+async fn estimate(inner: &Inner, checked: &Checked) -> Result<Estimate> {
+    let (runs_ahead, wait_seconds) = queue_ahead(&inner.store, &inner.classes, &checked.spec).await?;
     Ok(Estimate { runs_ahead, wait_seconds, ..estimate_alone(inner, checked).await? })
 }
 
@@ -96,10 +97,10 @@ pub async fn estimate_alone(inner: &Inner, checked: &Checked) -> Result<Estimate
 }
 
 /// Runs ahead of such an interactive one that is asked for now, and the seconds until they are done.
-async fn queue_ahead(inner: &Inner, spec: &RunSpec) -> Result<(u32, f64)> {
-    let class = inner.classes.waiting_for(spec);
-    let running = inner.store.running(&class).await?;
-    let (ahead, seconds) = inner.store.waiting(crate::runs::priority::INTERACTIVE, &class).await?;
+async fn queue_ahead(store: &Store, classes: &Classes, spec: &RunSpec) -> Result<(u32, f64)> {
+    let class = classes.waiting_for(spec);
+    let running = store.running(&class).await?;
+    let (ahead, seconds) = store.waiting(crate::runs::priority::INTERACTIVE, &class).await?;
     let left = |(started_us, expected): &(i64, f64)| (expected - (now_us() - started_us) as f64 / 1e6).max(1.0);
     Ok((running.len() as u32 + ahead, running.iter().map(left).sum::<f64>() + seconds))
 }

@@ -3,13 +3,15 @@
 use ocb_lab::job::{Found, Results, Step};
 
 use crate::Result;
+use crate::blobs::Blobs;
 use crate::engine::Inner;
 use crate::locks::Keeping;
 use crate::model::{AlgorithmResult, State};
-use crate::results::sql::StoredResult;
+use crate::results::{self, sql::StoredResult};
 use crate::runs::accept::{End, Handed};
 use crate::runs::log::{FIRST_MEASURING, RunLog};
 use crate::runs::sql::RunRow;
+use crate::store::Store;
 
 /// Notes a step in the run's log; `reference` is the name of the reference algorithm.
 pub fn tell(log: &mut RunLog, step: &Step, reference: &str) -> Result<()> {
@@ -41,7 +43,7 @@ pub fn keep(inner: &Inner, log: &mut RunLog, row: &RunRow, results: Results) -> 
     let Results { algorithms, environment, preview } = results;
     let (mut nothing, mut any, mut kept) = (None, false, Vec::new());
     for (place, found) in algorithms.into_iter().enumerate() {
-        let stored = keep_files(inner, log, found)?;
+        let stored = keep_files(&inner.store, &inner.blobs, log, found)?;
         any |= stored.result.n > 0;
         nothing.get_or_insert_with(|| stored.result.outcome.message.clone());
         end_stage(log, FIRST_MEASURING + place, &stored.result)?;
@@ -55,17 +57,17 @@ pub fn keep(inner: &Inner, log: &mut RunLog, row: &RunRow, results: Results) -> 
     }
     let handed = Handed { results: kept, triangles, query: row.spec.query, environment, preview, failed };
     if handed.failed.is_none() {
-        heatmaps(inner, log, row, &handed)?;
+        heatmaps(&inner.store, &inner.results, log, row, &handed)?;
     }
     Ok(End::Done { handed: Box::new(handed), _keeping: keeping })
 }
 
 /// Stores records and tests per triangle of one algorithm.
-fn keep_files(inner: &Inner, log: &RunLog, found: Found) -> Result<StoredResult> {
+fn keep_files(store: &Store, blobs: &Blobs, log: &RunLog, found: Found) -> Result<StoredResult> {
     let keep = |bytes: Vec<u8>| -> Result<String> {
         let length = bytes.len();
-        let blob = log.wait(inner.blobs.put(bytes))?;
-        log.wait(inner.store.add_blob(&blob, length, "application/vnd.apache.parquet"))?;
+        let blob = log.wait(blobs.put(bytes))?;
+        log.wait(store.add_blob(&blob, length, "application/vnd.apache.parquet"))?;
         Ok(blob)
     };
     Ok(StoredResult {
@@ -90,15 +92,15 @@ fn end_stage(log: &mut RunLog, stage: usize, result: &AlgorithmResult) -> Result
     log.end(stage, state, message)
 }
 
-fn heatmaps(inner: &Inner, log: &mut RunLog, row: &RunRow, handed: &Handed) -> Result<()> {
+fn heatmaps(store: &Store, results: &results::Results, log: &mut RunLog, row: &RunRow, handed: &Handed) -> Result<()> {
     let stage = FIRST_MEASURING + row.spec.algorithms.len();
-    let row = log.wait(inner.store.run_row(&row.id))?;
+    let row = log.wait(store.run_row(&row.id))?;
     let records: Vec<&String> = handed.results.iter().filter_map(|(_, stored)| stored.records.as_ref()).collect();
     let total = records.len() as u64;
     log.start(stage, total)?;
-    log.wait(inner.results.prepare_maps(&row))?;
+    log.wait(results.prepare_maps(&row))?;
     for (done, records) in (1..).zip(records) {
-        log.wait(inner.results.records_of(records))?;
+        log.wait(results.records_of(records))?;
         log.progress(stage, done, total)?;
     }
     log.end(stage, State::Done, None)

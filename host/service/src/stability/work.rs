@@ -14,7 +14,9 @@ use crate::attempts::{Attempt, MOST_LOST};
 use crate::engine::Inner;
 use crate::measure::Stop;
 use crate::model::{AlgorithmInfo, Stability, State};
+use crate::plugins::registry::Registry;
 use crate::quotas::time;
+use crate::store::Store;
 use crate::time_limit::in_time;
 use crate::{EngineError, Result};
 
@@ -99,7 +101,7 @@ async fn one_part(
     found.complete = done.len() == parts.len();
     let seconds = row.spent_seconds + stop.worked().as_secs_f64();
     if inner.store.accept_part(attempt, &done, &found, seconds).await.map_err(fault)? {
-        publish(inner, row, &algorithm, &found).await.map_err(fault)?;
+        publish(&inner.store, &inner.registry, row, &algorithm, &found).await.map_err(fault)?;
     }
     Ok(())
 }
@@ -126,9 +128,15 @@ async fn tried(
 }
 
 /// A whole run of a public algorithm as it is usually used takes its place in the table that everybody sees.
-async fn publish(inner: &Inner, row: &StabilityRow, algorithm: &Algorithm, found: &Stability) -> Result<()> {
+async fn publish(
+    store: &Store,
+    registry: &Registry,
+    row: &StabilityRow,
+    algorithm: &Algorithm,
+    found: &Stability,
+) -> Result<()> {
     let usual = row.spec.parts.is_empty() && row.spec.seeds.is_none() && algorithm.settings.is_empty();
     let named = |info: &AlgorithmInfo| (&info.id, &info.plugin_sha256) == (&found.algorithm, &found.plugin_sha256);
-    let public = inner.registry.public().iter().any(named);
-    if usual && public { inner.store.keep_stability(found).await } else { Ok(()) }
+    let public = registry.public().iter().any(named);
+    if usual && public { store.keep_stability(found).await } else { Ok(()) }
 }
