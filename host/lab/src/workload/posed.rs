@@ -12,7 +12,7 @@ use crate::model::{PosedGroup, PosedObject, PosedScene, ScenePair, WhichGroup};
 use crate::recording::Recording;
 use crate::{LabError, Result};
 
-use super::shapes::{solid, solids};
+use super::shapes::{described, solid};
 
 /// Pairs of a scene that are listed.
 const MOST_PAIRS: usize = 10_000;
@@ -64,8 +64,6 @@ fn first_places(queries: &[Recorded]) -> BTreeMap<u32, Pose> {
 /// `Invalid` for a primitive that has no triangles.
 pub fn posed_scene(recording: &Recording) -> Result<PosedScene> {
     let scene = &recording.scene.scene;
-    let solids = solids(&recording.scene)?;
-    let about = solids.iter().zip(&scene.objects).map(|(solid, object)| solid.describe(&object.name)).collect();
     let mut pairs: BTreeMap<[u32; 2], (u64, Option<&str>)> = BTreeMap::new();
     for [a, b] in recording.queries.iter().map(|query| query.objects) {
         pairs.entry([a.min(b), a.max(b)]).or_default().0 += 1;
@@ -91,7 +89,7 @@ pub fn posed_scene(recording: &Recording) -> Result<PosedScene> {
         disabled: disabled.map(str::to_owned),
     };
     Ok(PosedScene {
-        about,
+        about: described(&recording.scene)?,
         objects: (0..).zip(&scene.objects).map(posed).collect(),
         placed_by_queries,
         pairs: pairs.into_iter().map(pair).collect(),

@@ -9,7 +9,7 @@ use crate::cache::Cache;
 use crate::model::RecordingInfo;
 use crate::{EngineError, Recording, Result};
 
-/// Queries of an uploaded recording at most, and of all that are kept in memory, some 300 bytes each.
+/// Queries of an uploaded recording at most, and the weight of all recordings that are kept in memory.
 const MOST_QUERIES: usize = 2_000_000;
 
 /// The recordings of one engine.
@@ -23,7 +23,7 @@ pub struct Recordings {
 impl Recordings {
     /// Those among these blobs; archives are read from a file in this folder.
     pub fn new(blobs: Blobs, folder: PathBuf) -> Self {
-        Self { blobs, folder, recent: Cache::weighing(MOST_QUERIES, |recording| recording.queries.len()) }
+        Self { blobs, folder, recent: Cache::weighing(MOST_QUERIES, weight) }
     }
 
     /// A stored recording, from memory when it was used lately.
@@ -36,6 +36,12 @@ impl Recordings {
         let recording = blocking(move || parsed(&name, &bytes, &folder)).await?;
         Ok(self.recent.put(&told.sha256, recording))
     }
+}
+
+/// How much memory a recording takes, in queries of some 300 bytes: an object with its names about as much, and five triangles.
+fn weight(recording: &Recording) -> usize {
+    let triangles: usize = recording.scene.meshes.values().map(|mesh| mesh.triangles().len()).sum();
+    recording.queries.len() + recording.scene.scene.objects.len() + triangles / 5
 }
 
 /// Reads an uploaded recording; archives are read from a file.
@@ -51,4 +57,25 @@ pub fn parsed(name: &str, bytes: &[u8], folder: &Path) -> Result<Recording> {
         )));
     }
     Ok(recording)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use ocb_core::scene::Scene;
+    use ocb_core::stock;
+    use ocb_lab::scene_file::SceneFile;
+
+    use super::*;
+
+    #[test]
+    fn a_scene_weighs_something_though_nothing_was_asked() {
+        let mut meshes = HashMap::new();
+        SceneFile::keep(&mut meshes, stock::generate("torus-knot", 800).unwrap());
+        let scene = Scene { name: String::new(), objects: Vec::new(), disabled: Vec::new() };
+        let recording =
+            Recording { scene: SceneFile { scene, meshes }, about: Default::default(), queries: Vec::new() };
+        assert_eq!(weight(&recording), 160);
+    }
 }
