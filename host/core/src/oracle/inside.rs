@@ -26,18 +26,25 @@ pub(super) fn containment(scene: &Scene) -> Option<Containment> {
         return None;
     }
     let (pose_a, pose_b) = (&scene.configuration.pose_a, &scene.configuration.pose_b);
-    // The surfaces do not meet, so one vertex tells where all that hangs together with it is.
-    let holds = |solid: &Solid, part: &Shape, pose: &Pose| {
-        part.topology.components.iter().any(|c| solid.encloses(pose, &part.positions()[c[0] as usize]))
-    };
-    let b_in_a = holds(&Solid::new(scene, a, pose_a), b, pose_b);
-    let a_in_b = holds(&Solid::new(scene, b, pose_b), a, pose_a);
+    let b_in_a = enclosed(&Solid::new(scene, a, pose_a), b, pose_b).any(|inside| inside);
+    let a_in_b = enclosed(&Solid::new(scene, b, pose_b), a, pose_a).any(|inside| inside);
     Some(match (a_in_b, b_in_a) {
         (false, false) => Containment::Apart,
         (true, false) => Containment::AInB,
         (false, true) => Containment::BInA,
         (true, true) => Containment::Both,
     })
+}
+
+/// Of each part of B that hangs together: is it inside A, which is closed? The surfaces must not meet.
+pub(super) fn parts_of_b_in_a(scene: &Scene) -> Vec<bool> {
+    let solid = Solid::new(scene, scene.pair.a, &scene.configuration.pose_a);
+    enclosed(&solid, scene.pair.b, &scene.configuration.pose_b).collect()
+}
+
+/// The surfaces do not meet, so one vertex tells where all that hangs together with it is.
+fn enclosed<'s>(solid: &'s Solid<'s>, object: &'s Shape, pose: &'s Pose) -> impl Iterator<Item = bool> + 's {
+    object.part_vertices().map(move |vertex| solid.encloses(pose, vertex))
 }
 
 /// A closed object where a configuration puts it.

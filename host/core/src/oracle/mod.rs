@@ -262,7 +262,13 @@ impl<'a> Pair<'a> {
         Scene::with(self, configuration, inside::containment)
     }
 
-    /// The same, when a pair of triangles is known to be near.
+    /// Of each part of B that hangs together ([`Shape::part_vertices`]): is it inside A? `None` when A is not closed; B need not be.
+    /// The surfaces must not meet.
+    pub fn parts_of_b_in_a(&self, configuration: &Configuration) -> Option<Vec<bool>> {
+        self.a.is_closed().then(|| Scene::with(self, configuration, inside::parts_of_b_in_a))
+    }
+
+    /// [`Pair::truth`], when a pair of triangles is known to be near.
     pub(crate) fn truth_near(&self, configuration: &Configuration, start: Option<[u32; 2]>) -> Truth {
         self.truth_with(configuration, start, Effort::Enough)
     }
