@@ -91,6 +91,8 @@ pub struct Simpler {
     pub levels: Vec<Parts>,
     /// The convex hull; absent for a flat object.
     pub hull: Option<Parts>,
+    /// Convex hulls of parts, the object being cut in several ways.
+    pub parts: Vec<Vec<Parts>>,
 }
 
 /// A level of an object.

@@ -7,6 +7,7 @@ mod detail;
 mod errors;
 mod ladder;
 mod method;
+mod parts;
 mod points;
 mod proxy;
 mod question;

@@ -61,8 +61,12 @@ impl Proxy {
 
 /// The convex hull of a mesh; `None` where there is none.
 pub fn hull(mesh: &Mesh) -> Option<Mesh> {
-    let used = mesh.triangles().as_flattened().iter().map(|&v| mesh.positions()[v as usize]);
-    let mut points: Vec<Vector> = used.map(|p| Vector::new(p.x, p.y, p.z)).collect();
+    hull_of(mesh.triangles().as_flattened().iter().map(|&v| mesh.positions()[v as usize]))
+}
+
+/// The convex hull of points; `None` where there is none.
+pub(crate) fn hull_of(points: impl Iterator<Item = Point3<f64>>) -> Option<Mesh> {
+    let mut points: Vec<Vector> = points.map(|p| Vector::new(p.x, p.y, p.z)).collect();
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
     points.dedup();
     let (corners, triangles) = try_convex_hull(&points).ok()?;

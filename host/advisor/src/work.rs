@@ -10,6 +10,7 @@ use ocb_sandbox::inside::task::Desk;
 
 use crate::advice::{Scene, advise};
 use crate::ladder::{Level, ladder, meshes};
+use crate::parts::hulls_of_parts;
 use crate::proxy::hull;
 use crate::scene::sample;
 
@@ -43,8 +44,9 @@ pub fn work(order: &[u8], may_start_threads: bool, desk: &Desk<'_>) -> Vec<u8> {
         Task::Ladder { object, known } => Reply::Ladder(rungs(&whole(object), &known, &told)),
         Task::Simplify(object) => {
             let object = whole(object);
-            let levels = meshes(&object).iter().map(Parts::of).collect();
-            Reply::Simpler(Simpler { levels, hull: hull(&object).as_ref().map(Parts::of) })
+            let all = |meshes: &Vec<Mesh>| meshes.iter().map(Parts::of).collect();
+            let (levels, hull) = (all(&meshes(&object)), hull(&object).as_ref().map(Parts::of));
+            Reply::Simpler(Simpler { levels, hull, parts: hulls_of_parts(&object).iter().map(all).collect() })
         }
         Task::Advise(scene) => advice(*scene, &told, desk),
     };

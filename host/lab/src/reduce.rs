@@ -1,14 +1,16 @@
 //! No more model than a scene needs: for each object of a recording the simplest body that changes no recorded answer by more than
 //! a tolerance.
 //!
-//! What may stand for an object: a ball, a capsule, a box, its convex hull, a level of detail with fewer triangles. The choice is
-//! made for all objects together, because the errors of both objects of a pair add up. Every recorded query is then certified by
+//! What may stand for an object: a ball, a capsule, a box, its convex hull, a few hulls, a level of detail with fewer triangles. The
+//! choice is made for all objects together, because the errors of both objects of a pair add up. Every recorded query is then certified by
 //! the oracle, about the objects and about what stands for them. The same is done with the last fifth of the recording left out,
 //! which shows what the choice is worth for queries that it has not seen.
 
 mod between;
 mod body;
 mod choose;
+mod cover;
+mod grown;
 mod report;
 mod stand_in;
 mod urdf;
@@ -40,6 +42,8 @@ pub struct Simplified {
     pub levels: Vec<Arc<Mesh>>,
     /// The convex hull; absent for a flat object.
     pub hull: Option<Arc<Mesh>>,
+    /// Convex hulls of parts, the object being cut in several ways.
+    pub parts: Vec<Vec<Arc<Mesh>>>,
 }
 
 /// Makes levels and hull of an object with this name; nothing when it was stopped. Nothing of what it makes is believed.

@@ -95,7 +95,9 @@ pub enum BodyKind {
     Box,
     /// Its convex hull.
     Hull,
-    /// A mesh with fewer triangles, near its surface.
+    /// Convex hulls of a few parts.
+    Hulls,
+    /// A mesh with fewer triangles, near its surface or around it.
     Level,
 }
 

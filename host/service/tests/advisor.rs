@@ -49,7 +49,8 @@ fn misbehave(order: &[u8]) -> Vec<u8> {
         }
         // A hull without corners that are there.
         Task::Simplify(_) => {
-            return br#"{"Simpler": {"levels": [], "hull": {"positions": [], "triangles": [[0, 1, 2]]}}}"#.to_vec();
+            return br#"{"Simpler": {"levels": [], "hull": {"positions": [], "triangles": [[0, 1, 2]]}, "parts": []}}"#
+                .to_vec();
         }
         Task::Advise(scene) => scene,
     };

@@ -11,7 +11,11 @@ use crate::model::ReduceTerms;
 pub fn between([a, b]: [&Body; 2], configuration: &Configuration) -> Interval {
     let Configuration { pose_a, pose_b } = configuration;
     let outer = distance([&a.outer, &b.outer], configuration);
-    let contained = [a.contains(pose_a, b, pose_b), b.contains(pose_b, a, pose_a)];
+    // Where the surfaces meet, the distance is 0 whatever is inside.
+    let contained = match outer.hi {
+        0.0 => [Contains::No; 2],
+        _ => [a.contains(pose_a, b, pose_b), b.contains(pose_b, a, pose_a)],
+    };
     let lo = if contained == [Contains::No; 2] { outer.lo } else { 0.0 };
     let hi = if contained.contains(&Contains::Yes) {
         0.0

@@ -2,29 +2,31 @@
 
 use std::sync::Arc;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 use ocb_core::configuration::Configuration;
 use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::pose::Pose;
 
+use super::cover;
+
 /// Lengths below this share of the size are rounding.
 pub const ROUNDING: f64 = 1e-11;
-/// Triangles of a mesh that is tried for being convex, at most: each is compared with each vertex.
-const MOST_PLANES: usize = 4096;
 
 /// Which points are in the body.
 #[derive(Debug)]
 enum Inside {
     /// Only its surface counts.
     Nothing,
-    /// What is behind all of these planes: outward normals, and how far along them.
-    Planes(Vec<(Vector3<f64>, f64)>),
-    /// A solid that is not convex: nothing is known of any point.
+    /// What its closed surface encloses.
+    Enclosed,
+    /// What any of these encloses. Together they are the whole surface, and they may overlap.
+    Parts(Vec<Shape>),
+    /// It is a solid that is not closed: nothing is known of any point.
     Unknown,
 }
 
-/// Is a point in a body?
+/// Is a body in another one?
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contains {
     /// Certainly not.
@@ -55,26 +57,20 @@ impl Body {
         Self::of(mesh, None, Inside::Nothing)
     }
 
-    /// A convex body in one polyhedron and around another one; absent where both are the same. Both are closed and convex.
-    pub fn convex(outer: Arc<Mesh>, inner: Option<Arc<Mesh>>) -> Self {
-        let planes = planes(&outer);
-        Self::of(outer, inner, Inside::Planes(planes))
+    /// A solid body in one closed polyhedron and around another one; absent where both are the same.
+    pub fn between(outer: Arc<Mesh>, inner: Option<Arc<Mesh>>) -> Self {
+        Self::of(outer, inner, Inside::Enclosed)
     }
 
-    /// A mesh that stands for a solid body. If it is not closed and convex, or has too many triangles to find that out, nothing is
-    /// known of what is inside.
+    /// A mesh that stands for a solid body.
     pub fn solid(mesh: Arc<Mesh>) -> Self {
-        let body = Self::of(mesh.clone(), None, Inside::Unknown);
-        if mesh.triangles().len() > MOST_PLANES || !body.outer.is_closed() {
-            return body;
-        }
-        let planes = planes(&mesh);
-        let rounding = ROUNDING * mesh.bounds().min.coords.amax().max(mesh.bounds().max.coords.amax());
-        let behind = |p: &Point3<f64>| beyond(&planes, &p.coords, rounding) <= rounding;
-        match mesh.positions().iter().all(behind) {
-            true => Self { inside: Inside::Planes(planes), ..body },
-            false => body,
-        }
+        let inside = if mesh.is_closed() { Inside::Enclosed } else { Inside::Unknown };
+        Self::of(mesh, None, inside)
+    }
+
+    /// A mesh that consists of these closed ones, each of which is solid.
+    pub fn union(mesh: Arc<Mesh>, parts: &[Arc<Mesh>]) -> Self {
+        Self::of(mesh, None, Inside::Parts(parts.iter().cloned().map(Shape::new).collect()))
     }
 
     fn of(outer: Arc<Mesh>, inner: Option<Arc<Mesh>>, inside: Inside) -> Self {
@@ -83,14 +79,18 @@ impl Body {
         Self { outer: Shape::new(outer), inner: inner.map(Shape::new), inside, centre, radius }
     }
 
-    /// Does it certainly contain all of a mesh in the same frame? Its surface does not meet the mesh, and each part of the mesh has
-    /// a vertex inside.
+    /// Does it certainly contain all of a mesh in the same frame?
     pub fn surrounds(&self, mesh: &Self) -> bool {
-        let Inside::Planes(planes) = &self.inside else { return false };
-        let rounding = ROUNDING * (self.radius + self.centre.coords.norm());
         let here = Configuration { pose_a: Pose::identity(), pose_b: Pose::identity() };
-        mesh.outer.part_vertices().all(|p| beyond(planes, &p.coords, rounding) < -rounding)
-            && !Pair::new(&self.outer, &mesh.outer).hit(&here)
+        match &self.inside {
+            Inside::Nothing | Inside::Unknown => false,
+            Inside::Parts(parts) => cover::covers(parts, &mesh.outer),
+            Inside::Enclosed => {
+                let pair = Pair::new(&self.outer, &mesh.outer);
+                !pair.hit(&here)
+                    && pair.parts_of_b_in_a(&here).is_some_and(|parts| parts.into_iter().all(|inside| inside))
+            }
+        }
     }
 
     /// The polyhedron in it.
@@ -103,56 +103,34 @@ impl Body {
         self.inner.is_some()
     }
 
-    /// Is a body, whose surface does not meet this one's, inside it? The other one's poses and this one's are given.
+    /// Is part of another body, whose outer surface does not meet this one's, inside it? This one's pose and the other's are given.
     pub fn contains(&self, own: &Pose, other: &Self, its: &Pose) -> Contains {
-        let planes = match &self.inside {
-            Inside::Nothing => return Contains::No,
-            Inside::Unknown => return Contains::Perhaps,
-            Inside::Planes(planes) => planes,
+        let configuration = Configuration { pose_a: *own, pose_b: *its };
+        let in_it = |solid: &Shape| {
+            let parts = Pair::new(solid, &other.outer).parts_of_b_in_a(&configuration);
+            parts.is_none_or(|parts| parts.contains(&true))
         };
-        let size = self.radius + (its.translation - own.translation).norm() + other.radius + other.centre.coords.norm();
-        let rounding = ROUNDING * (size + self.centre.coords.norm() + own.translation.amax() + its.translation.amax());
-        let mut found = Contains::No;
-        for start in other.outer.part_vertices() {
-            let p = own.linear.transpose() * (its.apply(start).coords - own.translation);
-            match beyond(planes, &p, rounding) {
-                off if off > rounding => {}
-                // Of a body between two polyhedra only the outer one's planes are known.
-                off if off < -rounding && !self.is_between() => return Contains::Yes,
-                _ => found = Contains::Perhaps,
-            }
-        }
-        found
-    }
-}
-
-/// Of each triangle: its outward normal, and how far along that it is.
-fn planes(mesh: &Mesh) -> Vec<(Vector3<f64>, f64)> {
-    let plane = |triangle: u32| {
-        let [a, b, c] = mesh.corners(triangle);
-        let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
-        Some((normal, normal.dot(&a.coords)))
-    };
-    (0..mesh.triangles().len() as u32).filter_map(plane).collect()
-}
-
-/// How far a point is beyond the plane that it is farthest beyond of; the first by more than `enough` will do.
-fn beyond(planes: &[(Vector3<f64>, f64)], p: &Vector3<f64>, enough: f64) -> f64 {
-    let mut most = f64::NEG_INFINITY;
-    for (normal, at) in planes {
-        most = most.max(normal.dot(p) - at);
-        if most > enough {
-            break;
+        let found = match &self.inside {
+            Inside::Nothing => false,
+            Inside::Unknown => return Contains::Perhaps,
+            Inside::Enclosed => in_it(&self.outer),
+            Inside::Parts(parts) => parts.iter().any(in_it),
+        };
+        match found {
+            false => Contains::No,
+            // What is in its outer polyhedron need not be in the body.
+            true if self.is_between() => Contains::Perhaps,
+            true => Contains::Yes,
         }
     }
-    most
 }
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
     use ocb_core::scene::{Geometry, tessellate};
-    use ocb_core::stock;
 
+    use super::super::tests::ring;
     use super::*;
 
     fn at(x: f64) -> Pose {
@@ -178,9 +156,17 @@ mod tests {
     }
 
     #[test]
-    fn of_a_solid_that_is_not_convex_nothing_is_known() {
-        let knot = Arc::new(stock::generate("torus-knot", 600).expect("a knot"));
-        let (knot, ball) = (Body::solid(knot.clone()), Body::surface(knot));
-        assert_eq!(knot.contains(&at(0.0), &ball, &at(100.0)), Contains::Perhaps);
+    fn a_solid_that_is_not_convex_has_an_inside_if_it_is_closed() {
+        let ring = Arc::new(ring(40, 40));
+        let size = [0.05; 3];
+        let grain = Body::surface(Arc::new(tessellate::outside(&Geometry::Box { size }, 0.0).expect("a box")));
+        let (solid, surface) = (Body::solid(ring.clone()), Body::surface(ring.clone()));
+        // In its hole, in the ring, outside.
+        for (x, inside) in [(0.0, Contains::No), (1.0, Contains::Yes), (2.0, Contains::No)] {
+            assert_eq!(solid.contains(&at(0.0), &grain, &at(x)), inside, "{x}");
+            assert_eq!(surface.contains(&at(0.0), &grain, &at(x)), Contains::No);
+        }
+        let open = Arc::new(Mesh::new(ring.positions().to_vec(), ring.triangles()[1..].to_vec()).expect("a mesh"));
+        assert_eq!(Body::solid(open).contains(&at(0.0), &grain, &at(2.0)), Contains::Perhaps);
     }
 }

@@ -8,8 +8,9 @@ use ocb_core::mesh::Mesh;
 use ocb_core::pose::Pose;
 use ocb_core::scene::{Geometry, around, tessellate};
 
-use super::Make;
 use super::body::Body;
+use super::grown::grown;
+use super::{Make, Simplified};
 use crate::model::{BodyKind, ReduceTerms};
 use crate::scene_file::SceneFile;
 use crate::{LabError, Result};
@@ -20,6 +21,10 @@ const PRECISION: f64 = 1.0 / 20.0;
 const FINEST: f64 = 1.0 / 50.0;
 /// A hull is larger by this share, so that rounding leaves no vertex outside.
 const HULL: f64 = 1e-9;
+/// So are the hulls of parts, which have to overlap where the object was cut.
+const PART: f64 = 1e-6;
+/// A level grows by one of these shares of the tolerance, so that it contains its object.
+const GROWTH: [f64; 8] = [0.03125, 0.0625, 0.125, 0.25, 0.5, 1.0, 2.0, 4.0];
 
 /// A body that may stand for an object, or the object itself.
 #[derive(Clone, Debug)]
@@ -32,6 +37,8 @@ pub struct StandIn {
     pub place: Pose,
     /// Its triangles, where it is a mesh.
     pub mesh: Option<Arc<Mesh>>,
+    /// The convex hulls that it consists of, where it is several.
+    pub hulls: Vec<Arc<Mesh>>,
     /// What an algorithm has to do with, about: triangles; 1 for a ball, 2 for a capsule, 6 for a box or a cylinder.
     pub elements: u64,
     pub(super) body: Arc<Body>,
@@ -67,10 +74,14 @@ pub fn of<E: From<LabError>>(
         }
     }
     let own = mesh(BodyKind::Object, object.clone(), *solid);
-    all.extend(made.hull.and_then(|hull| enlarged(&hull, &own.body)));
-    if !terms.outside_only {
-        let levels = made.levels.into_iter().filter(|level| level.triangles().len() < object.triangles().len());
-        all.extend(levels.map(|level| mesh(BodyKind::Level, level, *solid)));
+    let Simplified { levels, hull, parts } = made;
+    all.extend(hull.and_then(|hull| contains(mesh(BodyKind::Hull, scaled(&hull, HULL)?, true), &own)));
+    all.extend(parts.iter().filter_map(|parts| contains(hulls(parts)?, &own)));
+    for level in levels.into_iter().filter(|level| level.triangles().len() < object.triangles().len()) {
+        match terms.outside_only {
+            true => all.extend(containing(&level, &own, terms)),
+            false => all.push(mesh(BodyKind::Level, level, *solid)),
+        }
     }
     all.retain(|stand_in| stand_in.elements < own.elements);
     all.sort_by_key(|stand_in| stand_in.elements);
@@ -86,7 +97,15 @@ fn mesh(kind: BodyKind, mesh: Arc<Mesh>, solid: bool) -> StandIn {
     };
     let body = if solid { Body::solid(mesh.clone()) } else { Body::surface(mesh.clone()) };
     let elements = mesh.triangles().len() as u64;
-    StandIn { kind, geometry, place: Pose::identity(), mesh: Some(mesh), elements, body: Arc::new(body) }
+    StandIn {
+        kind,
+        geometry,
+        place: Pose::identity(),
+        mesh: Some(mesh),
+        hulls: Vec::new(),
+        elements,
+        body: Arc::new(body),
+    }
 }
 
 fn primitive(kind: BodyKind, geometry: &Geometry, place: Pose, terms: ReduceTerms) -> Result<StandIn> {
@@ -108,15 +127,41 @@ fn primitive(kind: BodyKind, geometry: &Geometry, place: Pose, terms: ReduceTerm
         Geometry::Capsule { .. } => 2,
         _ => 6,
     };
-    let body = Arc::new(Body::convex(outer, inner));
-    Ok(StandIn { kind, geometry: geometry.clone(), place, mesh: None, elements, body })
+    let body = Arc::new(Body::between(outer, inner));
+    Ok(StandIn { kind, geometry: geometry.clone(), place, mesh: None, hulls: Vec::new(), elements, body })
 }
 
-/// A hull that certainly contains the object; nothing where this one does not. A foreign library made it.
-fn enlarged(hull: &Mesh, object: &Body) -> Option<StandIn> {
-    let centre = hull.bounds().center();
-    let larger = hull.positions().iter().map(|p| centre + (p - centre) * (1.0 + HULL)).collect();
-    let larger = Mesh::new(larger, hull.triangles().to_vec()).ok()?;
-    let stand_in = mesh(BodyKind::Hull, Arc::new(larger), true);
-    stand_in.body.surrounds(object).then_some(stand_in)
+/// Only what certainly contains the object. A foreign library made most of it.
+fn contains(stand_in: StandIn, own: &StandIn) -> Option<StandIn> {
+    stand_in.body.surrounds(&own.body).then_some(stand_in)
+}
+
+/// Larger by this share, seen from the middle.
+fn scaled(mesh: &Mesh, by: f64) -> Option<Arc<Mesh>> {
+    let centre = mesh.bounds().center();
+    let positions = mesh.positions().iter().map(|p| centre + (p - centre) * (1.0 + by)).collect();
+    Mesh::new(positions, mesh.triangles().to_vec()).ok().map(Arc::new)
+}
+
+/// Convex hulls as one mesh.
+fn hulls(parts: &[Arc<Mesh>]) -> Option<StandIn> {
+    let parts: Vec<Arc<Mesh>> = parts.iter().map(|part| scaled(part, PART)).collect::<Option<_>>()?;
+    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+    for part in &parts {
+        let first = positions.len() as u32;
+        positions.extend_from_slice(part.positions());
+        triangles.extend(part.triangles().iter().map(|corners| corners.map(|v| v + first)));
+    }
+    let whole = mesh(BodyKind::Hulls, Arc::new(Mesh::new(positions, triangles).ok()?), true);
+    let body = Arc::new(Body::union(whole.mesh.clone()?, &parts));
+    Some(StandIn { hulls: parts, body, ..whole })
+}
+
+/// A level that has grown just so far that it contains the object; nothing where it would have to grow too much.
+fn containing(level: &Mesh, own: &StandIn, terms: ReduceTerms) -> Option<StandIn> {
+    let larger = |share: f64| {
+        let larger = Arc::new(grown(level, share * terms.tolerance)?);
+        contains(mesh(BodyKind::Level, larger, true), own)
+    };
+    GROWTH.into_iter().find_map(larger)
 }

@@ -1,6 +1,7 @@
 //! A robot's URDF with the simpler bodies in place of its collision geometry; everything else stays as it was written.
 //!
-//! URDF has no capsule, so that one becomes a cylinder and two balls, which together are the same body.
+//! URDF has no capsule, so that one becomes a cylinder and two balls, which together are the same body. Of several hulls each becomes an
+//! element.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -23,6 +24,8 @@ use crate::{LabError, Result};
 
 /// Most bytes of a description.
 const MOST_BYTES: u64 = 64 << 20;
+/// Between two elements.
+const BETWEEN: &str = "\n    ";
 /// Two readers of one mesh may round each number to single precision.
 const SINGLE: f64 = 1e-6;
 
@@ -106,9 +109,18 @@ impl Robot {
                 continue;
             }
             text.push_str(&self.text[from..range.start]);
-            text.push_str(&written(shown, &stand_in.geometry, &within(origin, &stand_in.place), name));
+            let place = within(origin, &stand_in.place);
+            // Readers of robots take each mesh of hulls for convex.
+            let one = |number: usize| (format!("{name}_hull_{number}"), format!("{shown}_hull_{number}"));
+            let several = (0..).zip(&stand_in.hulls).map(|(number, mesh)| (one(number), Some(mesh)));
+            let whole = [((name.clone(), shown.clone()), stand_in.mesh.as_ref())];
+            let bodies: Vec<_> = if stand_in.hulls.is_empty() { whole.into() } else { several.collect() };
+            let elements = bodies.iter().map(|((name, shown), _)| written(shown, &stand_in.geometry, &place, name));
+            text.push_str(&elements.collect::<Vec<_>>().join(BETWEEN));
             from = range.end;
-            meshes.extend(stand_in.mesh.as_ref().map(|mesh| (file(name), obj::write(mesh).into_bytes())));
+            for ((name, _), mesh) in bodies {
+                meshes.extend(mesh.map(|mesh| (file(&name), obj::write(mesh).into_bytes())));
+            }
         }
         text.push_str(&self.text[from..]);
         Urdf { text, meshes }
@@ -173,7 +185,7 @@ fn written(shown: &str, geometry: &Geometry, place: &Pose, name: &str) -> String
             let middle = one(shown, place, format!("<cylinder radius=\"{radius}\" length=\"{length}\"/>"));
             match *length {
                 0.0 => ball("ball", 0.0),
-                length => [middle, ball("lower", -length / 2.0), ball("upper", length / 2.0)].join("\n    "),
+                length => [middle, ball("lower", -length / 2.0), ball("upper", length / 2.0)].join(BETWEEN),
             }
         }
     }

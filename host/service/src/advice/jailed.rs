@@ -35,6 +35,9 @@ const MEMORY: u64 = 8 << 30;
 const ROOM: usize = 1 << 30;
 /// Levels in one at most: each has at most 80 % of the triangles of the one before.
 const MOST_LEVELS: usize = 100;
+/// Ways in which an object is cut into parts, and parts, at most.
+const MOST_CUTS: usize = 8;
+const MOST_PARTS: usize = 256;
 /// The longest text in one.
 const TEXT: usize = 500;
 
@@ -168,14 +171,16 @@ impl Advisor {
     /// # Errors
     /// As for [`Advisor::advise`].
     pub fn simplify(&self, name: &str, object: &Mesh, watch: &dyn Watch) -> Result<Option<Simplified>> {
-        let Simpler { levels, hull } = match self.run(Task::Simplify(Parts::of(object)), name, watch)? {
+        let Simpler { levels, hull, parts } = match self.run(Task::Simplify(Parts::of(object)), name, watch)? {
             Some(Reply::Simpler(simpler)) => simpler,
             Some(_) => return Err(nonsense("it sent something else than bodies")),
             None => return Ok(None),
         };
         let mesh = |parts: Parts| parts.mesh().map(Arc::new).map_err(|e| nonsense(&e.to_string()));
         let levels = levels.into_iter().take(MOST_LEVELS).map(mesh).collect::<Result<_>>()?;
-        Ok(Some(Simplified { levels, hull: hull.map(mesh).transpose()? }))
+        let cut = |parts: Vec<Parts>| parts.into_iter().take(MOST_PARTS).map(mesh).collect();
+        let parts = parts.into_iter().take(MOST_CUTS).map(cut).collect::<Result<_>>()?;
+        Ok(Some(Simplified { levels, hull: hull.map(mesh).transpose()?, parts }))
     }
 
     /// Does one piece of work in a jail; `None` when it was stopped. `name` belongs to the object whose levels are made.

@@ -8,8 +8,7 @@ use opencollbench_plugin::{
 };
 use parry3d_f64::math::{Matrix, Pose, Rotation, Vector};
 use parry3d_f64::query::details::distance_support_map_support_map;
-pub use parts::Part;
-use parts::decompose;
+pub use parts::{Part, decompose};
 
 /// An object as convex parts.
 #[derive(Debug)]

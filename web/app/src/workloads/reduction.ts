@@ -4,7 +4,7 @@ import { count, significant } from '../ui/format'
 
 /** What stands for an object. */
 export const BODY: Record<BodyKind, string> = {
-  object: 'the object itself', sphere: 'a sphere', capsule: 'a capsule', box: 'a box', hull: 'its convex hull', level: 'a mesh with fewer triangles',
+  object: 'the object itself', sphere: 'a sphere', capsule: 'a capsule', box: 'a box', hull: 'its convex hull', hulls: 'convex hulls of a few parts', level: 'a mesh with fewer triangles',
 }
 
 const sum = (scene: ReducedScene, of: 'before' | 'after') => scene.objects.reduce((all, object) => all + object[of], 0)

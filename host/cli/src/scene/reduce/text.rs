@@ -65,6 +65,7 @@ fn objects(reduction: &Reduction) -> String {
             BodyKind::Capsule => "capsule",
             BodyKind::Box => "box",
             BodyKind::Hull => "convex hull",
+            BodyKind::Hulls => "convex hulls",
             BodyKind::Level => "fewer triangles",
         };
         vec![it.name.clone(), body.to_owned(), it.before.to_string(), it.after.to_string(), it.queries.to_string()]

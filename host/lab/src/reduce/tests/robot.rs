@@ -106,3 +106,41 @@ fn a_robot_that_was_not_recorded_is_refused() {
     }
     assert!(refused(&before).contains("no object of the recording"), "{}", refused(&before));
 }
+
+#[test]
+fn of_several_hulls_each_is_an_element() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (path, before) = robot(folder.path(), Kind::Collide);
+    let terms = ReduceTerms { tolerance: 0.01, near: 0.0, outside_only: true, frontier: false };
+    let halves = |_: &str, object: &Arc<Mesh>| {
+        let ([x, y, z], middle) = (object.bounds().sides().into(), object.bounds().center());
+        let half = |side: f64| {
+            let half =
+                tessellate::outside(&Geometry::Box { size: [0.51 * x, 1.01 * y, 1.01 * z] }, 0.0).expect("a box");
+            let at = middle.coords + Vector3::x() * (side * 0.25 * x);
+            let moved = half.positions().iter().map(|p| p + at).collect();
+            Arc::new(Mesh::new(moved, half.triangles().to_vec()).expect("a box"))
+        };
+        Ok(Some(Simplified { parts: vec![vec![half(-1.0), half(1.0)]], ..Simplified::default() }))
+    };
+    let mut after = done(&before, terms, &halves);
+    let base = &before.scene.scene.objects[0];
+    let all =
+        stand_in::of(&before.scene, &base.geometry, "", terms, &halves).expect("bodies").expect("nothing stops it");
+    after.stand_ins[0] = all.into_iter().find(|it| it.kind == BodyKind::Hulls).expect("they cover the knot");
+    let written = Robot::read(&path, &Wanted::default(), &before).expect("a robot").with(&after);
+    let out = folder.path().join("out.urdf");
+    std::fs::write(&out, &written.text).expect("a file");
+    std::fs::create_dir(folder.path().join("collision")).expect("a folder");
+    for (name, bytes) in &written.meshes {
+        std::fs::write(folder.path().join(name), bytes).expect("a file");
+    }
+    let again = scene_import::import(&out, &Wanted::default()).expect("a robot").file;
+    for (own, hull) in again.scene.objects.iter().zip(&after.stand_ins[0].hulls) {
+        let Geometry::Mesh { sha256, .. } = &own.geometry else { panic!("{own:?} is no mesh") };
+        assert_eq!((&*again.meshes[sha256], own.link.as_deref()), (&**hull, Some("base")));
+        assert!((own.pose.linear - base.pose.linear).amax() < 1e-12);
+        assert!((own.pose.translation - base.pose.translation).amax() < 1e-12);
+    }
+    assert_eq!(again.scene.objects[2].link.as_deref(), Some("arm"));
+}
