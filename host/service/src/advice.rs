@@ -136,7 +136,7 @@ impl Engine {
             let _held = inner.work.holding.hold(&attempt, move || lost.stop());
             let found = inner.advices.work_on(&attempt, &job).await;
             // What closing interrupted stays open, and is begun again.
-            let ended = match inner.tasks.closing() {
+            let ended = match inner.work.closing() {
                 true => inner.store.put_back_advice(&attempt).await,
                 false => inner.advices.end(&attempt, job.info(), found).await,
             };

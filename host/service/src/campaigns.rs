@@ -162,7 +162,7 @@ impl Engine {
             let row = inner.campaigns.campaign_row(id).await?;
             let own = inner.store.campaign_runs(id).await?;
             for due in inner.campaigns.due(row.of_suite, row.of_people, &row.hardware_class, &own).await? {
-                if inner.tasks.closing() {
+                if inner.work.closing() {
                     return Ok(());
                 }
                 if inner.campaigns.campaign_row(id).await?.cancelled_us.is_some() {

@@ -56,7 +56,7 @@ pub struct Inner {
     pub suite: Arc<Suite>,
     pub suite_runs: Arc<SuiteRuns>,
     pub campaigns: Campaigns,
-    pub work: Work,
+    pub work: Arc<Work>,
     pub tasks: Tasks,
     pub sets: Arc<Sets>,
     pub results: Arc<Results>,
@@ -67,8 +67,6 @@ pub struct Inner {
     pub house: House,
     pub outbox: Arc<Outbox>,
     pub owned: Owned,
-    /// Held as long as this process uses the folder.
-    pub lock: File,
 }
 
 impl Engine {

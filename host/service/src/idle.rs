@@ -41,7 +41,7 @@ impl Filling {
     /// Carries out one piece of idle work; false when there is none, or none may be done now. `asked` is the number of requests
     /// when the queue was found empty.
     pub async fn work(&mut self, inner: &Arc<Inner>, asked: u64) -> bool {
-        if !inner.config.idle || inner.tasks.closing() || !inner.advices.is_empty() {
+        if !inner.config.idle || inner.work.closing() || !inner.advices.is_empty() {
             return false;
         }
         self.go_on(inner, asked).await.unwrap_or_else(|e| {
@@ -61,9 +61,7 @@ impl Filling {
             carry_out(inner, &attempt, Some(asked)).await?;
             return Ok(true);
         }
-        let tried = next_part(inner, IDLE, |id, stop| inner.work.set_current_idle(id, stop, asked)).await;
-        inner.work.unset_current();
-        if tried? || inner.advices.next_own(&inner.work, &inner.tasks, asked).await? {
+        if next_part(inner, Some(asked)).await? || inner.advices.next_own(&inner.work, asked).await? {
             return Ok(true);
         }
         // Enough for every machine until the next look.

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use crate::advice::work::{Advices, Sources};
-use crate::attempts::worker::Worker;
 use crate::attempts::{beat, lost};
 use crate::blobs::Blobs;
 use crate::boxed;
@@ -65,7 +64,7 @@ impl Engine {
         let outbox = Arc::new(Outbox::new(store.clone(), config.mail.clone()));
         let run_events = RunEvents::new();
         let inner = Arc::new(Inner {
-            work: Work::of(Worker::of(&lock, &machine.hardware_class)?),
+            work: Arc::new(Work::new(lock, &machine.hardware_class)?),
             tasks: Tasks::default(),
             charts: Charts::new(store.clone(), objects.clone(), results.clone(), machine.clone(), registry.profile()),
             campaigns: Campaigns {
@@ -99,7 +98,6 @@ impl Engine {
                 objects: objects.clone(),
                 guest_days: config.guest_days,
             },
-            lock,
             config,
             machine,
             objects,
@@ -138,17 +136,13 @@ impl Engine {
     /// engine may open the folder, even while handles of this one exist.
     #[boxed]
     pub async fn shutdown(&self) {
-        self.inner.tasks.close();
-        self.inner.work.stop_current(None, None);
+        self.inner.work.close();
         self.inner.advices.stop_all();
-        self.inner.work.wake.notify_one();
         self.inner.house.close();
-        self.inner.work.holding.closed.notify_one();
         self.inner.tasks.ended().await;
         self.inner.house.leave().await;
         self.inner.store.close().await;
-        // Closing the file does it too; at the latest then it is free.
-        let _ = self.inner.lock.unlock();
+        self.inner.work.leave();
     }
 
     /// The service at a glance.

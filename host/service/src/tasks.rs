@@ -1,6 +1,5 @@
 //! What runs in the background until the engine closes.
 
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use tokio::task::{AbortHandle, JoinHandle};
@@ -8,7 +7,6 @@ use tokio::task::{AbortHandle, JoinHandle};
 /// The tasks of one engine.
 #[derive(Default)]
 pub struct Tasks {
-    closing: AtomicBool,
     /// What closing waits for.
     awaited: Mutex<Vec<JoinHandle<()>>>,
     /// What closing breaks off.
@@ -16,11 +14,6 @@ pub struct Tasks {
 }
 
 impl Tasks {
-    /// The engine is shutting down.
-    pub fn closing(&self) -> bool {
-        self.closing.load(Ordering::SeqCst)
-    }
-
     /// Work that closing waits for.
     pub fn spawn(&self, work: impl Future<Output = ()> + Send + 'static) {
         let mut tasks = self.awaited.lock().unwrap_or_else(PoisonError::into_inner);
@@ -33,11 +26,6 @@ impl Tasks {
     pub fn listen(&self, listening: impl Future<Output = ()> + Send + 'static) {
         let task = tokio::spawn(listening);
         *self.listening.lock().unwrap_or_else(PoisonError::into_inner) = Some(task.abort_handle());
-    }
-
-    /// The engine shuts down.
-    pub fn close(&self) {
-        self.closing.store(true, Ordering::SeqCst);
     }
 
     /// Breaks off listening, and waits for the end of all others.

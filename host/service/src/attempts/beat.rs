@@ -12,7 +12,7 @@ const BEAT: Duration = Duration::from_secs(5);
 /// Renews the leases of this process and, while it keeps house, takes back attempts of workers that are gone; until the engine
 /// closes.
 pub async fn beat(inner: Arc<Inner>) {
-    while !inner.tasks.closing() {
+    while !inner.work.closing() {
         tokio::select! {
             () = tokio::time::sleep(BEAT) => {}
             () = inner.work.holding.look.notified() => {}

@@ -21,7 +21,7 @@ impl Engine {
 
     async fn keep_house(self) {
         let inner = &self.inner;
-        while !inner.tasks.closing() {
+        while !inner.work.closing() {
             tokio::select! {
                 () = tokio::time::sleep(TICK) => {}
                 () = inner.house.closing() => return,

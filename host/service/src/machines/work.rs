@@ -62,7 +62,7 @@ impl Engine {
             return Ok(NextWork::Sentinel(Box::new(algorithm)));
         }
         let (asked, worker) = (Instant::now(), worker(machine, &facts.hardware_class));
-        while !self.inner.tasks.closing() {
+        while !self.inner.work.closing() {
             let prepared = self.inner.orders.prepared.notified();
             if let Some(attempt) = self.inner.store.begin_prepared_run(&worker, &self.inner.classes.usual()).await? {
                 match self.begun(machine, &attempt).await? {

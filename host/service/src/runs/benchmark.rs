@@ -42,7 +42,7 @@ pub fn run(inner: &Arc<Inner>, attempt: &Attempt, stop: &Stop, handle: &Handle) 
     let ended = bench.stages().map_err(EngineError::for_visitors);
     match &ended {
         Ok(End::Done { .. } | End::Prepared) => {}
-        Ok(End::Stopped) if inner.tasks.closing() || stop.for_now() => {}
+        Ok(End::Stopped) if inner.work.closing() || stop.for_now() => {}
         Ok(End::Stopped) => bench.log.end_open(State::Cancelled, None)?,
         Err(e) => bench.log.end_open(State::Failed, Some(&e.to_string()))?,
     }

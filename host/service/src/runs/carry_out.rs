@@ -24,15 +24,7 @@ pub const BACK_OFF: Duration = Duration::from_secs(2);
 /// Carries out an attempt at a run; idle work gives way when more is asked for than was.
 pub async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, idle: Option<u64>) -> Result<()> {
     let (id, stop) = (attempt.job.as_str(), Stop::default());
-    let _held = inner.work.hold(attempt, &stop);
-    match idle {
-        Some(asked) => inner.work.set_current_idle(id, &stop, asked),
-        None => inner.work.set_current(id, &stop),
-    }
-    // A shutdown that came between the beginning and this line found nothing to stop; it is noticed here.
-    if inner.tasks.closing() {
-        stop.stop();
-    }
+    let _held = inner.work.begin(attempt, &stop, idle);
     inner.run_events.queue_moved();
     let row = inner.store.run_row(id).await?;
     let shown = show(&inner.under_way, &inner.registry, &row);
@@ -42,7 +34,7 @@ pub async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, idle: Option<u64>)
         how => how,
     };
     inner.work.unset_current();
-    if let (Ok(End::Stopped), true) = (&how, inner.tasks.closing() || stop.for_now()) {
+    if let (Ok(End::Stopped), true) = (&how, inner.work.closing() || stop.for_now()) {
         if inner.store.put_back_run(attempt).await? {
             inner.run_events.ring(id);
         }
@@ -64,7 +56,7 @@ async fn failed_here(inner: &Arc<Inner>, attempt: &Attempt, fault: &EngineError)
         match inner.store.lose_run(attempt, Some(&inner.work.worker)).await {
             Ok(Some(state)) => return run_was_lost(&inner.campaigns, &attempt.job, state).await,
             Ok(None) => return Ok(()),
-            Err(e) if inner.tasks.closing() => return Err(e),
+            Err(e) if inner.work.closing() => return Err(e),
             Err(e) => tracing::error!("the end of run {} cannot be recorded: {e}", attempt.job),
         }
     }
@@ -136,7 +128,7 @@ async fn accept(
     loop {
         match inner.store.accept_run(attempt, RunEnd { state, message: message.as_deref(), handed }).await {
             Ok(accepted) => return Ok(accepted),
-            Err(e) if inner.tasks.closing() => return Err(e),
+            Err(e) if inner.work.closing() => return Err(e),
             Err(e) => tracing::error!("the end of run {} cannot be recorded: {e}", row.id),
         }
         tokio::time::sleep(BACK_OFF).await;

@@ -1,10 +1,12 @@
 //! Work under way, and how it is stopped.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::fs::File;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tokio::sync::Notify;
 
+use crate::Result;
 use crate::attempts::Attempt;
 use crate::attempts::worker::{Held, Holding, Worker};
 use crate::measure::Stop;
@@ -21,6 +23,9 @@ struct Current {
 pub struct Work {
     /// Who this process is to others on the same database.
     pub worker: Worker,
+    /// Held as long as this process uses the folder.
+    lock: File,
+    closing: AtomicBool,
     current: Mutex<Option<Current>>,
     /// The attempts that it works on.
     pub holding: Arc<Holding>,
@@ -31,15 +36,36 @@ pub struct Work {
 }
 
 impl Work {
-    /// Nothing is at work yet.
-    pub fn of(worker: Worker) -> Self {
-        Self {
-            worker,
+    /// Nothing is at work yet in the folder of this lock.
+    pub fn new(lock: File, class: &str) -> Result<Self> {
+        Ok(Self {
+            worker: Worker::of(&lock, class)?,
+            lock,
+            closing: AtomicBool::default(),
             current: Mutex::default(),
             holding: Arc::default(),
             wake: Notify::new(),
             asked: AtomicU64::new(0),
-        }
+        })
+    }
+
+    /// The engine shuts down: what is at work is put back, and nothing else begins.
+    pub fn close(&self) {
+        self.closing.store(true, Ordering::SeqCst);
+        self.stop_current(None, None);
+        self.wake.notify_one();
+        self.holding.closed.notify_one();
+    }
+
+    /// The engine is shutting down.
+    pub fn closing(&self) -> bool {
+        self.closing.load(Ordering::SeqCst)
+    }
+
+    /// Nothing works in the folder any more, and another process may open it.
+    pub fn leave(&self) {
+        // Closing the file does it too; at the latest then it is free.
+        let _ = self.lock.unlock();
     }
 
     /// How often more work was asked for.
@@ -54,21 +80,24 @@ impl Work {
         self.wake.notify_one();
     }
 
-    /// Keeps this attempt, and puts its work off when another worker has the job.
-    pub fn hold(&self, attempt: &Attempt, stop: &Stop) -> Held {
-        let stop = stop.clone();
-        self.holding.hold(attempt, move || stop.stop_for_now())
+    /// Begins the work on an attempt, and keeps it until what this gives is dropped. The work is put off when another worker has
+    /// the job. Idle work gives way to any request after so many.
+    pub fn begin(&self, attempt: &Attempt, stop: &Stop, idle: Option<u64>) -> Held {
+        let when_lost = stop.clone();
+        let held = self.holding.hold(attempt, move || when_lost.stop_for_now());
+        self.set_current(&attempt.job, stop, idle);
+        // A shutdown that came before found nothing to stop.
+        if self.closing() {
+            stop.stop();
+        }
+        held
     }
 
     /// Notes the work under way and how it is stopped.
-    pub fn set_current(&self, id: &str, stop: &Stop) {
-        *self.current() = Some(Current { id: id.to_owned(), stop: stop.clone(), idle: false });
-    }
-
-    /// The same for idle work. A request since then found nothing that could give way.
-    pub fn set_current_idle(&self, id: &str, stop: &Stop, asked: u64) {
-        *self.current() = Some(Current { id: id.to_owned(), stop: stop.clone(), idle: true });
-        if self.asked() != asked {
+    pub fn set_current(&self, id: &str, stop: &Stop, idle: Option<u64>) {
+        *self.current() = Some(Current { id: id.to_owned(), stop: stop.clone(), idle: idle.is_some() });
+        // A request since then found nothing that could give way.
+        if idle.is_some_and(|asked| asked != self.asked()) {
             stop.stop_for_now();
         }
     }

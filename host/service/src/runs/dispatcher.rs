@@ -9,7 +9,6 @@ use crate::idle::Filling;
 use crate::measure::Stop;
 use crate::plugins::checks;
 use crate::runs::carry_out::{BACK_OFF, carry_out};
-use crate::runs::priority::INTERACTIVE;
 use crate::stability::work::next_part;
 use crate::workloads::work::next_replay;
 
@@ -22,7 +21,7 @@ const LONGEST_BACK_OFF: Duration = Duration::from_secs(60);
 pub async fn work(inner: Arc<Inner>) {
     let (mut faults, mut next_check) = (0, Instant::now());
     let mut filling = Filling::default();
-    while !inner.tasks.closing() {
+    while !inner.work.closing() {
         let asked = inner.work.asked();
         // In turn, so that neither waits for all of the other.
         let mut checked = false;
@@ -36,9 +35,7 @@ pub async fn work(inner: Arc<Inner>) {
                 }
             }
         }
-        let tried = next_part(&inner, INTERACTIVE, |id, stop| inner.work.set_current(id, stop)).await;
-        inner.work.unset_current();
-        let tried = match tried {
+        let tried = match next_part(&inner, None).await {
             Ok(tried) => tried,
             Err(e) => {
                 tracing::error!("a stability run: {e}");
@@ -47,8 +44,7 @@ pub async fn work(inner: Arc<Inner>) {
                 true
             }
         };
-        let replayed = next_replay(&inner).await;
-        let replayed = match replayed {
+        let replayed = match next_replay(&inner).await {
             Ok(replayed) => replayed,
             Err(e) => {
                 tracing::error!("a replay: {e}");
@@ -90,11 +86,7 @@ fn back_off(faults: u32) -> Duration {
 async fn check_next(inner: &Arc<Inner>) -> Result<bool> {
     let Some((attempt, row)) = inner.store.begin_check(&inner.work.worker).await? else { return Ok(false) };
     let stop = Stop::default();
-    let _held = inner.work.hold(&attempt, &stop);
-    inner.work.set_current(&row.id, &stop);
-    if inner.tasks.closing() {
-        stop.stop();
-    }
+    let _held = inner.work.begin(&attempt, &stop, None);
     // Who ended it between the beginning and this line found nothing to stop.
     let done = match inner.store.plugin(&row.id).await {
         Ok(Some(now)) if now.state.is_checking() => checks::carry_out(inner, &attempt, &row, &stop).await,
@@ -106,7 +98,7 @@ async fn check_next(inner: &Arc<Inner>) -> Result<bool> {
         && let Err(e) = inner.store.put_back_check(&attempt).await
     {
         tracing::error!("the check of plugin {} cannot be put back: {e}", row.id);
-        if inner.tasks.closing() {
+        if inner.work.closing() {
             break;
         }
         tokio::time::sleep(BACK_OFF).await;

@@ -16,12 +16,15 @@ use crate::measure::Stop;
 use crate::model::{AlgorithmInfo, Stability, State};
 use crate::plugins::registry::Registry;
 use crate::quotas::time;
+use crate::runs::priority::{IDLE, INTERACTIVE};
 use crate::store::Store;
 use crate::time_limit::in_time;
 use crate::{EngineError, Result};
 
-/// Tries the next part of the run of this priority whose turn it is, which `begun` hears; false when none waits.
-pub async fn next_part(inner: &Arc<Inner>, priority: i64, begun: impl FnOnce(&str, &Stop)) -> Result<bool> {
+/// Tries the next part of the run whose turn it is; false when none waits. Idle work gives way to any request after so
+/// many.
+pub async fn next_part(inner: &Arc<Inner>, idle: Option<u64>) -> Result<bool> {
+    let priority = if idle.is_some() { IDLE } else { INTERACTIVE };
     let Some((attempt, row)) = inner.store.begin_part(priority, &inner.work.worker).await? else { return Ok(false) };
     if row.attempts > MOST_LOST {
         let message = format!(
@@ -31,14 +34,15 @@ pub async fn next_part(inner: &Arc<Inner>, priority: i64, begun: impl FnOnce(&st
         return Ok(true);
     }
     let stop = Stop::default();
-    let _held = inner.work.hold(&attempt, &stop);
-    begun(&row.id, &stop);
+    let _held = inner.work.begin(&attempt, &stop, idle);
     // Who ended it between the beginning and the line above found nothing to stop.
     let open = inner.store.stability_run(&row.id).await?.is_some_and(|now| now.state == State::Running);
-    if inner.tasks.closing() || !open {
+    if !open {
         stop.stop();
     }
-    match part_in_time(inner, &attempt, &row, &stop).await {
+    let ended = part_in_time(inner, &attempt, &row, &stop).await;
+    inner.work.unset_current();
+    match ended {
         Ok(()) => {}
         // Its time is over.
         Err(LabError::Stopped) if stop.reason().is_some() => {

@@ -33,11 +33,10 @@ pub async fn next_replay(inner: &Arc<Inner>) -> Result<bool> {
         return Ok(true);
     }
     let stop = Stop::default();
-    let _held = inner.work.hold(&attempt, &stop);
-    inner.work.set_current(&row.id, &stop);
+    let _held = inner.work.begin(&attempt, &stop, None);
     // Who ended it between the beginning and the line above found nothing to stop.
     let open = inner.store.workload(&row.id).await?.is_some_and(|now| now.state == State::Running);
-    if inner.tasks.closing() || !open {
+    if !open {
         stop.stop();
     }
     let ended = carry_out(inner, &attempt, &row, &stop).await;
