@@ -14,6 +14,7 @@ use crate::machines::under_way::Orders;
 use crate::mail::outbox::Outbox;
 use crate::objects::Objects;
 use crate::owned::items::Owned;
+use crate::plugins::checks::Checks;
 use crate::plugins::registry::Registry;
 use crate::results::Results;
 use crate::runs::current::Work;
@@ -58,6 +59,7 @@ pub struct Inner {
     pub campaigns: Campaigns,
     pub work: Arc<Work>,
     pub tasks: Tasks,
+    pub checks: Arc<Checks>,
     pub sets: Arc<Sets>,
     pub results: Arc<Results>,
     pub charts: Charts,

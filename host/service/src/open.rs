@@ -17,6 +17,7 @@ use crate::mail::outbox::Outbox;
 use crate::model::Status;
 use crate::objects::Objects;
 use crate::owned::items::Owned;
+use crate::plugins::checks::Checks;
 use crate::plugins::registry::Registry;
 use crate::results::Results;
 use crate::runs::current::Work;
@@ -63,8 +64,20 @@ impl Engine {
         });
         let outbox = Arc::new(Outbox::new(store.clone(), config.mail.clone()));
         let run_events = RunEvents::new();
+        let work = Arc::new(Work::new(lock, &machine.hardware_class)?);
+        let checks = Arc::new(Checks {
+            store: store.clone(),
+            blobs: blobs.clone(),
+            registry: registry.clone(),
+            outbox: outbox.clone(),
+            work: work.clone(),
+            data: config.data.clone(),
+            quick: config.quick_checks,
+            limit: config.check_limit,
+        });
         let inner = Arc::new(Inner {
-            work: Arc::new(Work::new(lock, &machine.hardware_class)?),
+            work,
+            checks,
             tasks: Tasks::default(),
             charts: Charts::new(store.clone(), objects.clone(), results.clone(), machine.clone(), registry.profile()),
             campaigns: Campaigns {

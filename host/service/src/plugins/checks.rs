@@ -1,103 +1,152 @@
 //! Checks of plugins that developers sent: work of the queue, one at a time, never beside a measurement.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
+use std::time::Duration;
 
 use ocb_lab::check::{Extent, Step, Term, check_plugin};
 use tokio::runtime::Handle;
 
 use crate::attempts::{Attempt, MOST_LOST, superseded};
 use crate::audit::Note;
-use crate::engine::Inner;
+use crate::blobs::Blobs;
 use crate::mail::outbox::Outbox;
 use crate::measure::Stop;
 use crate::model::{CheckVerdict, PluginReport, PluginState};
 use crate::plugins::checks_sql::CheckEnd;
 use crate::plugins::conflict;
 use crate::plugins::notices::of_check;
-use crate::plugins::registry::submitted;
+use crate::plugins::registry::{Registry, submitted};
 use crate::plugins::sql::{PluginRow, THE_SERVICE};
+use crate::runs::carry_out::BACK_OFF;
+use crate::runs::current::Work;
 use crate::store::Store;
 use crate::{EngineError, Result};
 
-/// Carries out an attempt at a check and notes where the plugin stands then; false when it was stopped.
-pub async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, row: &PluginRow, stop: &Stop) -> Result<bool> {
-    let file = submitted::plugin_file(&inner.blobs, &inner.config.data, &row.blob).await?;
-    let (sender, ended) = tokio::sync::oneshot::channel();
-    let (for_check, for_stop, handle) = (inner.clone(), stop.clone(), Handle::current());
-    let (for_attempt, for_row) = (attempt.clone(), row.clone());
-    // A thread of its own: a jail ends with the thread that started it.
-    let thread = thread::Builder::new().name("check".into()).spawn(move || {
-        let _ = sender.send(check(&for_check, &for_attempt, &for_row, &file, &for_stop, &handle));
-    });
-    thread.map_err(|e| EngineError::fault("Starting the check's thread failed", e))?;
-    let report = ended.await.unwrap_or_else(|_| Err(EngineError::Fault("The check failed; see the log.".into())));
-    match report {
-        _ if stop.asked() => Ok(false),
-        Ok(Some(report)) => settle(inner, attempt, row, report).await.map(|()| true),
-        Ok(None) => Ok(false),
-        Err(e) => Err(e),
-    }
+/// The checks that wait, and what carries them out.
+pub struct Checks {
+    pub store: Store,
+    pub blobs: Blobs,
+    pub registry: Arc<Registry>,
+    pub outbox: Arc<Outbox>,
+    pub work: Arc<Work>,
+    /// The data folder.
+    pub data: PathBuf,
+    /// They ask only the short part of their questions.
+    pub quick: bool,
+    /// Time of a whole check.
+    pub limit: Duration,
 }
 
-/// The report; `None` when stopped while another process measured.
-fn check(
-    inner: &Inner,
-    attempt: &Attempt,
-    row: &PluginRow,
-    file: &std::path::Path,
-    stop: &Stop,
-    handle: &Handle,
-) -> Result<Option<PluginReport>> {
-    let Some(_right) = stop.right_to_measure(|| {})? else { return Ok(None) };
-    let (mut seq, mut fault) = (0, None);
-    let mut tell = |step: Step<'_>| {
-        let kept = handle.block_on(async {
-            match step {
-                Step::Line(line) => {
-                    seq += 1;
-                    inner.store.add_line(attempt, seq, line).await
-                }
-                Step::Loads => inner.store.note_vetted(attempt).await,
+impl Checks {
+    /// Checks the plugin whose turn it is; false when none waits.
+    pub async fn next(self: &Arc<Self>) -> Result<bool> {
+        let Some((attempt, row)) = self.store.begin_check(&self.work.worker).await? else { return Ok(false) };
+        let stop = Stop::default();
+        let _held = self.work.begin(&attempt, &stop, None);
+        // Who ended it between the beginning and this line found nothing to stop.
+        let done = match self.store.plugin(&row.id).await {
+            Ok(Some(now)) if now.state.is_checking() => self.carry_out(&attempt, &row, &stop).await,
+            other => other.map(|_| false),
+        };
+        self.work.unset_current();
+        // What was stopped, or went wrong by our fault and not the plugin's, is no attempt. A database error is retried.
+        while !matches!(done, Ok(true))
+            && let Err(e) = self.store.put_back_check(&attempt).await
+        {
+            tracing::error!("the check of plugin {} cannot be put back: {e}", row.id);
+            if self.work.closing() {
+                break;
             }
-        });
-        match kept {
-            Ok(true) => {}
-            Ok(false) => fault = Some(superseded()),
-            Err(e) => fault = Some(e),
+            tokio::time::sleep(BACK_OFF).await;
         }
-        fault.is_none() && !stop.asked()
-    };
-    let quick = inner.config.quick_checks;
-    let extent = Extent { manifest: Some(row.manifest.clone()), quick, ..Extent::default() };
-    let term = Term::new(stop, inner.config.check_limit);
-    let report = check_plugin(inner.registry.runner(), file, &extent, &term, &mut tell)?;
-    fault.map_or(Ok(Some(report)), Err)
-}
-
-async fn settle(inner: &Inner, attempt: &Attempt, row: &PluginRow, report: PluginReport) -> Result<()> {
-    let class = &inner.machine.hardware_class;
-    let described = PluginRow { algorithms: report.algorithms, ..row.clone() };
-    let all = inner.store.plugins().await?;
-    let failed = report.lines.iter().find(|line| line.verdict == CheckVerdict::Fail);
-    let reason = match failed {
-        Some(line) => Some(format!("{}: {}", line.check, line.evidence)),
-        None if !report.passed => Some("The check did not finish.".to_owned()),
-        None => conflict(&described, &all, |id| inner.registry.algorithm(id).is_some()),
-    };
-    let (state, reason) = match reason {
-        Some(reason) => (PluginState::Failed, reason),
-        None => (PluginState::Validated, format!("Passed on hardware class {class}.")),
-    };
-    let notice = of_check(row, state, &reason);
-    let new_notice = inner.outbox.new_notice(&row.account, &notice);
-    let end = CheckEnd { algorithms: &described.algorithms, class, state, new_notice, note: note(row, state, &reason) };
-    if inner.store.accept_check(attempt, end).await? {
-        inner.outbox.post_soon();
-    } else {
-        tracing::warn!("plugin {}: the report of attempt {} comes too late and is not kept", row.id, attempt.number);
+        done.map(|_| true)
     }
-    inner.registry.renew().await
+
+    /// Carries out an attempt at a check and notes where the plugin stands then; false when it was stopped.
+    async fn carry_out(self: &Arc<Self>, attempt: &Attempt, row: &PluginRow, stop: &Stop) -> Result<bool> {
+        let file = submitted::plugin_file(&self.blobs, &self.data, &row.blob).await?;
+        let (sender, ended) = tokio::sync::oneshot::channel();
+        let (checks, for_stop, handle) = (self.clone(), stop.clone(), Handle::current());
+        let (for_attempt, for_row) = (attempt.clone(), row.clone());
+        // A thread of its own: a jail ends with the thread that started it.
+        let thread = thread::Builder::new().name("check".into()).spawn(move || {
+            let _ = sender.send(checks.check(&for_attempt, &for_row, &file, &for_stop, &handle));
+        });
+        thread.map_err(|e| EngineError::fault("Starting the check's thread failed", e))?;
+        let report = ended.await.unwrap_or_else(|_| Err(EngineError::Fault("The check failed; see the log.".into())));
+        match report {
+            _ if stop.asked() => Ok(false),
+            Ok(Some(report)) => self.settle(attempt, row, report).await.map(|()| true),
+            Ok(None) => Ok(false),
+            Err(e) => Err(e),
+        }
+    }
+
+    /// The report; `None` when stopped while another process measured.
+    fn check(
+        &self,
+        attempt: &Attempt,
+        row: &PluginRow,
+        file: &Path,
+        stop: &Stop,
+        handle: &Handle,
+    ) -> Result<Option<PluginReport>> {
+        let Some(_right) = stop.right_to_measure(|| {})? else { return Ok(None) };
+        let (mut seq, mut fault) = (0, None);
+        let mut tell = |step: Step<'_>| {
+            let kept = handle.block_on(async {
+                match step {
+                    Step::Line(line) => {
+                        seq += 1;
+                        self.store.add_line(attempt, seq, line).await
+                    }
+                    Step::Loads => self.store.note_vetted(attempt).await,
+                }
+            });
+            match kept {
+                Ok(true) => {}
+                Ok(false) => fault = Some(superseded()),
+                Err(e) => fault = Some(e),
+            }
+            fault.is_none() && !stop.asked()
+        };
+        let extent = Extent { manifest: Some(row.manifest.clone()), quick: self.quick, ..Extent::default() };
+        let term = Term::new(stop, self.limit);
+        let report = check_plugin(self.registry.runner(), file, &extent, &term, &mut tell)?;
+        fault.map_or(Ok(Some(report)), Err)
+    }
+
+    async fn settle(&self, attempt: &Attempt, row: &PluginRow, report: PluginReport) -> Result<()> {
+        let class = &self.work.worker.class;
+        let described = PluginRow { algorithms: report.algorithms, ..row.clone() };
+        let all = self.store.plugins().await?;
+        let failed = report.lines.iter().find(|line| line.verdict == CheckVerdict::Fail);
+        let reason = match failed {
+            Some(line) => Some(format!("{}: {}", line.check, line.evidence)),
+            None if !report.passed => Some("The check did not finish.".to_owned()),
+            None => conflict(&described, &all, |id| self.registry.algorithm(id).is_some()),
+        };
+        let (state, reason) = match reason {
+            Some(reason) => (PluginState::Failed, reason),
+            None => (PluginState::Validated, format!("Passed on hardware class {class}.")),
+        };
+        let notice = of_check(row, state, &reason);
+        let new_notice = self.outbox.new_notice(&row.account, &notice);
+        let end =
+            CheckEnd { algorithms: &described.algorithms, class, state, new_notice, note: note(row, state, &reason) };
+        if self.store.accept_check(attempt, end).await? {
+            self.outbox.post_soon();
+        } else {
+            tracing::warn!(
+                "plugin {}: the report of attempt {} comes too late and is not kept",
+                row.id,
+                attempt.number
+            );
+        }
+        self.registry.renew().await
+    }
 }
 
 fn note<'a>(row: &'a PluginRow, state: PluginState, reason: &'a str) -> Note<'a> {

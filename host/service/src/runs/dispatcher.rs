@@ -3,11 +3,8 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::Result;
 use crate::engine::Inner;
 use crate::idle::Filling;
-use crate::measure::Stop;
-use crate::plugins::checks;
 use crate::runs::carry_out::{BACK_OFF, carry_out};
 use crate::stability::work::next_part;
 use crate::workloads::work::next_replay;
@@ -26,7 +23,7 @@ pub async fn work(inner: Arc<Inner>) {
         // In turn, so that neither waits for all of the other.
         let mut checked = false;
         if Instant::now() >= next_check {
-            match check_next(&inner).await {
+            match inner.checks.next().await {
                 Ok(done) => (checked, faults) = (done, 0),
                 Err(e) => {
                     let pause = back_off(faults);
@@ -80,30 +77,6 @@ pub async fn work(inner: Arc<Inner>) {
 /// How long checks wait after so many faults before this one.
 fn back_off(faults: u32) -> Duration {
     BACK_OFF.saturating_mul(2_u32.saturating_pow(faults)).min(LONGEST_BACK_OFF)
-}
-
-/// Checks the plugin whose turn it is; false when none waits.
-async fn check_next(inner: &Arc<Inner>) -> Result<bool> {
-    let Some((attempt, row)) = inner.store.begin_check(&inner.work.worker).await? else { return Ok(false) };
-    let stop = Stop::default();
-    let _held = inner.work.begin(&attempt, &stop, None);
-    // Who ended it between the beginning and this line found nothing to stop.
-    let done = match inner.store.plugin(&row.id).await {
-        Ok(Some(now)) if now.state.is_checking() => checks::carry_out(inner, &attempt, &row, &stop).await,
-        other => other.map(|_| false),
-    };
-    inner.work.unset_current();
-    // What was stopped, or went wrong by our fault and not the plugin's, is no attempt. A database error is retried, as below.
-    while !matches!(done, Ok(true))
-        && let Err(e) = inner.store.put_back_check(&attempt).await
-    {
-        tracing::error!("the check of plugin {} cannot be put back: {e}", row.id);
-        if inner.work.closing() {
-            break;
-        }
-        tokio::time::sleep(BACK_OFF).await;
-    }
-    done.map(|_| true)
 }
 
 #[test]
