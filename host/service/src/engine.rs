@@ -21,6 +21,7 @@ use crate::runs::current::Work;
 use crate::runs::log::RunEvents;
 use crate::runs::preliminary::UnderWay;
 use crate::sets::stored::Sets;
+use crate::stability::work::StabilityRuns;
 use crate::store::Store;
 use crate::suite::Suite;
 use crate::suite::known::SuiteRuns;
@@ -60,6 +61,7 @@ pub struct Inner {
     pub work: Arc<Work>,
     pub tasks: Tasks,
     pub checks: Arc<Checks>,
+    pub stability: Arc<StabilityRuns>,
     pub sets: Arc<Sets>,
     pub results: Arc<Results>,
     pub charts: Charts,

@@ -19,7 +19,6 @@ use crate::runs::RunContext;
 use crate::runs::carry_out::carry_out;
 use crate::runs::priority::IDLE;
 use crate::stability::runs_sql::StabilityRow;
-use crate::stability::work::next_part;
 use crate::store::{Store, now_us};
 use crate::suite::known::SuiteRuns;
 use crate::suite::planning::AT_ONCE;
@@ -61,7 +60,7 @@ impl Filling {
             carry_out(inner, &attempt, Some(asked)).await?;
             return Ok(true);
         }
-        if next_part(inner, Some(asked)).await? || inner.advices.next_own(&inner.work, asked).await? {
+        if inner.stability.next(Some(asked)).await? || inner.advices.next_own(&inner.work, asked).await? {
             return Ok(true);
         }
         // Enough for every machine until the next look.

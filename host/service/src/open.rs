@@ -26,6 +26,7 @@ use crate::runs::log::RunEvents;
 use crate::runs::preliminary::UnderWay;
 use crate::runs::priority::BACKGROUND;
 use crate::sets::stored::Sets;
+use crate::stability::work::StabilityRuns;
 use crate::store::{Store, now_us};
 use crate::suite::Suite;
 use crate::suite::known::SuiteRuns;
@@ -75,9 +76,17 @@ impl Engine {
             quick: config.quick_checks,
             limit: config.check_limit,
         });
+        let stability = Arc::new(StabilityRuns {
+            store: store.clone(),
+            registry: registry.clone(),
+            work: work.clone(),
+            machine: machine.clone(),
+            ceilings: config.ceilings,
+        });
         let inner = Arc::new(Inner {
             work,
             checks,
+            stability,
             tasks: Tasks::default(),
             charts: Charts::new(store.clone(), objects.clone(), results.clone(), machine.clone(), registry.profile()),
             campaigns: Campaigns {

@@ -5,8 +5,6 @@ pub mod runs_sql;
 pub mod sql;
 pub mod work;
 
-use std::sync::Arc;
-
 use crate::boxed;
 use crate::engine::Engine;
 use crate::measure::Stop;
@@ -33,14 +31,14 @@ impl Engine {
         selection.check()?;
         let algorithm = self.inner.registry.named(algorithm, None)?;
         let whole = selection.parts.is_empty() && selection.at.is_none() && selection.seed.is_none();
-        let inner = Arc::clone(&self.inner);
+        let (registry, machine) = (self.inner.registry.clone(), self.inner.machine.clone());
         // A thread of its own: a jail ends with the thread that started it.
         let (sender, found) = tokio::sync::oneshot::channel();
         std::thread::spawn(move || {
             let right = stop.right_to_measure(|| at("waiting: another process is measuring on this machine"));
-            let tried = right.and_then(|right| right.ok_or(LabError::Stopped)).and_then(|_right| {
-                stability::run(inner.registry.runner(), &inner.machine, &algorithm, &selection, &stop, &at)
-            });
+            let tried = right
+                .and_then(|right| right.ok_or(LabError::Stopped))
+                .and_then(|_right| stability::run(registry.runner(), &machine, &algorithm, &selection, &stop, &at));
             // Who asked may have gone.
             drop(sender.send(tried));
         });

@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 use crate::engine::Inner;
 use crate::idle::Filling;
 use crate::runs::carry_out::{BACK_OFF, carry_out};
-use crate::stability::work::next_part;
 use crate::workloads::work::next_replay;
 
 /// The queue is looked at this often even if nobody rings.
@@ -32,7 +31,7 @@ pub async fn work(inner: Arc<Inner>) {
                 }
             }
         }
-        let tried = match next_part(&inner, None).await {
+        let tried = match inner.stability.next(None).await {
             Ok(tried) => tried,
             Err(e) => {
                 tracing::error!("a stability run: {e}");
