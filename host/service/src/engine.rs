@@ -27,6 +27,7 @@ use crate::suite::Suite;
 use crate::suite::known::SuiteRuns;
 use crate::tasks::Tasks;
 use crate::workloads::recordings::Recordings;
+use crate::workloads::replay::Replays;
 use crate::{EngineConfig, EngineError, Result};
 
 /// Runs, objects, algorithms and results behind one cheap-to-clone handle.
@@ -65,7 +66,8 @@ pub struct Inner {
     pub sets: Arc<Sets>,
     pub results: Arc<Results>,
     pub charts: Charts,
-    pub recordings: Recordings,
+    pub recordings: Arc<Recordings>,
+    pub replays: Arc<Replays>,
     pub advices: Advices,
     /// Whether this service does the work that one service does for all on the database.
     pub house: House,

@@ -32,6 +32,7 @@ use crate::suite::Suite;
 use crate::suite::known::SuiteRuns;
 use crate::tasks::Tasks;
 use crate::workloads::recordings::Recordings;
+use crate::workloads::replay::Replays;
 use crate::{EngineConfig, EngineError, Result};
 
 impl Engine {
@@ -83,10 +84,24 @@ impl Engine {
             machine: machine.clone(),
             ceilings: config.ceilings,
         });
+        let recordings = Arc::new(Recordings::new(blobs.clone(), config.data.clone()));
+        let replays = Arc::new(Replays {
+            store: store.clone(),
+            blobs: blobs.clone(),
+            registry: registry.clone(),
+            recordings: recordings.clone(),
+            work: work.clone(),
+            machine: machine.clone(),
+            ceilings: config.ceilings,
+            advisor: config.advisor.clone(),
+            data: config.data.clone(),
+        });
         let inner = Arc::new(Inner {
             work,
             checks,
             stability,
+            recordings,
+            replays,
             tasks: Tasks::default(),
             charts: Charts::new(store.clone(), objects.clone(), results.clone(), machine.clone(), registry.profile()),
             campaigns: Campaigns {
@@ -103,7 +118,6 @@ impl Engine {
             classes,
             orders: Orders::default(),
             suite,
-            recordings: Recordings::new(blobs.clone(), config.data.clone()),
             advices: Advices::new(Sources {
                 store: store.clone(),
                 blobs: blobs.clone(),

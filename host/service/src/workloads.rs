@@ -3,9 +3,9 @@
 mod heatmaps;
 pub mod recordings;
 mod reduce;
-mod replay;
+pub mod replay;
 pub mod sql;
-pub mod work;
+mod work;
 
 use std::sync::Arc;
 

@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 use crate::engine::Inner;
 use crate::idle::Filling;
 use crate::runs::carry_out::{BACK_OFF, carry_out};
-use crate::workloads::work::next_replay;
 
 /// The queue is looked at this often even if nobody rings.
 const IDLE: Duration = Duration::from_secs(30);
@@ -40,7 +39,7 @@ pub async fn work(inner: Arc<Inner>) {
                 true
             }
         };
-        let replayed = match next_replay(&inner).await {
+        let replayed = match inner.replays.next().await {
             Ok(replayed) => replayed,
             Err(e) => {
                 tracing::error!("a replay: {e}");

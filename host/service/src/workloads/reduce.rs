@@ -8,10 +8,9 @@ use ocb_lab::algorithm::Algorithm;
 use ocb_lab::recording::Recording;
 use ocb_lab::reduce::{self, Reduced};
 
-use super::replay::replay;
+use super::replay::Replays;
 use crate::advice::jailed::{Advisor, SHELF};
 use crate::blocking::blocking;
-use crate::engine::Inner;
 use crate::measure::Stop;
 use crate::model::{ReduceTerms, ReducedScene, ReducedSpeed, Track, WorkloadResult, WorkloadSpec, frontier};
 use crate::{EngineError, Result};
@@ -48,7 +47,7 @@ impl Watch for Looking {
 
 /// A replay that also reduces its scene.
 pub(super) struct Reducing<'a> {
-    pub inner: &'a Arc<Inner>,
+    pub replays: &'a Replays,
     pub recording: &'a Arc<Recording>,
     pub spec: &'a WorkloadSpec,
     pub algorithms: &'a [Arc<Algorithm>],
@@ -79,7 +78,7 @@ impl Reducing<'_> {
             all.sort_by(|x, y| x.0.total_cmp(&y.0));
             frontier(first, &all)
         });
-        let folder = self.inner.config.data.clone();
+        let folder = self.replays.data.clone();
         let file = blocking(move || {
             let fault = |e: std::io::Error| EngineError::fault("Writing the reduced recording failed", e);
             let file = tempfile::NamedTempFile::new_in(&folder).map_err(fault)?;
@@ -90,8 +89,8 @@ impl Reducing<'_> {
     }
 
     async fn reduce(&self, terms: ReduceTerms) -> Result<Reduced> {
-        let config = &self.inner.config;
-        let advisor = Advisor::new(&config.advisor, &self.inner.machine, &config.data.join(SHELF));
+        let Replays { advisor, machine, data, .. } = self.replays;
+        let advisor = Advisor::new(advisor, machine, &data.join(SHELF));
         let watch = Looking { stop: self.stop.clone(), doing: self.doing.clone() };
         let of = self.recording.clone();
         let reduced = blocking(move || {
@@ -105,6 +104,6 @@ impl Reducing<'_> {
         self.doing.say(Some(what.to_owned()));
         let spec = WorkloadSpec { tracks: vec![self.track], reduce: None, ..self.spec.clone() };
         let (algorithms, stop) = (self.algorithms.to_vec(), self.stop.clone());
-        Ok(replay(self.inner, recording.clone(), spec, algorithms, stop, |_| {}, || {}).await?.result)
+        Ok(self.replays.replay(recording.clone(), spec, algorithms, stop, |_| {}, || {}).await?.result)
     }
 }
