@@ -65,26 +65,9 @@ impl Engine {
         let Some(attempt) = inner.store.add_advice(&info, owner, &turn, &inner.work.worker).await? else {
             return Ok((self.advice(&info.id).await?, false));
         };
-        self.begin_advice(attempt, inner.advices.add(info.clone()));
+        inner.advices.begin(attempt, info.clone());
         inner.work.call();
         Ok((info, true))
-    }
-
-    /// Begins again what an ended process left behind.
-    pub(crate) async fn take_up_advice(&self) -> Result<()> {
-        let inner = &self.inner;
-        for AdviceRow { mut info, attempts, .. } in inner.store.open_advice().await? {
-            let Some(attempt) = inner.store.take_up(&info.id, &inner.work.worker).await? else { continue };
-            if attempts >= MOST_LOST {
-                info.state = State::Failed;
-                info.message =
-                    Some(format!("The service ended {attempts} times during this work, so it is not tried again."));
-                inner.store.end_advice(&attempt, &info, &Default::default()).await?;
-                continue;
-            }
-            self.begin_advice(attempt, inner.advices.add(info));
-        }
-        Ok(())
     }
 
     /// How far it is, and the advice when it is done.
@@ -126,28 +109,6 @@ impl Engine {
         let paper = self.inner.store.paper(id, side, stage).await?;
         Ok((self.inner.blobs.get(&paper.certificate).await?, paper.file.replace(".obj", ".certificate.json")))
     }
-
-    /// Works on it in the background when its turn comes.
-    fn begin_advice(&self, attempt: Attempt, job: Arc<Job>) {
-        let inner = self.inner.clone();
-        self.inner.tasks.spawn(async move {
-            let id = attempt.job.as_str();
-            let lost = job.clone();
-            let _held = inner.work.holding.hold(&attempt, move || lost.stop());
-            let found = inner.advices.work_on(&attempt, &job).await;
-            // What closing interrupted stays open, and is begun again.
-            let ended = match inner.work.closing() {
-                true => inner.store.put_back_advice(&attempt).await,
-                false => inner.advices.end(&attempt, job.info(), found).await,
-            };
-            if let Err(e) = ended {
-                tracing::error!("advice {id}: {e}");
-            }
-            inner.advices.remove(id);
-            // Idle work waits for it.
-            inner.work.wake.notify_one();
-        });
-    }
 }
 
 impl Store {
@@ -169,6 +130,44 @@ impl Advices {
         let (a, b) =
             (self.from.objects.info_for(&spec.object_a, viewer).await?, self.from.objects.info_for(b, viewer).await?);
         Ok([a.name, b.name])
+    }
+
+    /// Begins again what an ended process left behind.
+    pub(crate) async fn take_up(self: &Arc<Self>) -> Result<()> {
+        for AdviceRow { mut info, attempts, .. } in self.from.store.open_advice().await? {
+            let Some(attempt) = self.from.store.take_up(&info.id, &self.work.worker).await? else { continue };
+            if attempts >= MOST_LOST {
+                info.state = State::Failed;
+                info.message =
+                    Some(format!("The service ended {attempts} times during this work, so it is not tried again."));
+                self.from.store.end_advice(&attempt, &info, &Default::default()).await?;
+                continue;
+            }
+            self.begin(attempt, info);
+        }
+        Ok(())
+    }
+
+    /// Works on it in the background when its turn comes.
+    fn begin(self: &Arc<Self>, attempt: Attempt, info: AdviceInfo) {
+        let (advices, job) = (self.clone(), self.add(info));
+        self.tasks.spawn(async move {
+            let id = attempt.job.as_str();
+            let lost = job.clone();
+            let _held = advices.work.holding.hold(&attempt, move || lost.stop());
+            let found = advices.work_on(&attempt, &job).await;
+            // What closing interrupted stays open, and is begun again.
+            let ended = match advices.work.closing() {
+                true => advices.from.store.put_back_advice(&attempt).await,
+                false => advices.end(&attempt, job.info(), found).await,
+            };
+            if let Err(e) = ended {
+                tracing::error!("advice {id}: {e}");
+            }
+            advices.remove(id);
+            // Idle work waits for it.
+            advices.work.wake.notify_one();
+        });
     }
 
     async fn work_on(&self, attempt: &Attempt, job: &Arc<Job>) -> Result<Option<Found>> {

@@ -60,7 +60,7 @@ pub struct Inner {
     pub suite_runs: Arc<SuiteRuns>,
     pub campaigns: Campaigns,
     pub work: Arc<Work>,
-    pub tasks: Tasks,
+    pub tasks: Arc<Tasks>,
     pub checks: Arc<Checks>,
     pub stability: Arc<StabilityRuns>,
     pub sets: Arc<Sets>,
@@ -68,7 +68,7 @@ pub struct Inner {
     pub charts: Charts,
     pub recordings: Arc<Recordings>,
     pub replays: Arc<Replays>,
-    pub advices: Advices,
+    pub advices: Arc<Advices>,
     /// Whether this service does the work that one service does for all on the database.
     pub house: House,
     pub outbox: Arc<Outbox>,

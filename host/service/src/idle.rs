@@ -60,7 +60,7 @@ impl Filling {
             carry_out(inner, &attempt, Some(asked)).await?;
             return Ok(true);
         }
-        if inner.stability.next(Some(asked)).await? || inner.advices.next_own(&inner.work, asked).await? {
+        if inner.stability.next(Some(asked)).await? || inner.advices.next_own(asked).await? {
             return Ok(true);
         }
         // Enough for every machine until the next look.

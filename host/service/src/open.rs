@@ -96,13 +96,25 @@ impl Engine {
             advisor: config.advisor.clone(),
             data: config.data.clone(),
         });
+        let tasks: Arc<Tasks> = Arc::default();
+        let sources = Sources {
+            store: store.clone(),
+            blobs: blobs.clone(),
+            objects: objects.clone(),
+            machine: machine.clone(),
+            program: config.advisor.clone(),
+            data: config.data.clone(),
+            quick: config.quick_advice,
+        };
+        let advices = Arc::new(Advices::new(sources, work.clone(), tasks.clone()));
         let inner = Arc::new(Inner {
             work,
             checks,
             stability,
             recordings,
             replays,
-            tasks: Tasks::default(),
+            advices,
+            tasks,
             charts: Charts::new(store.clone(), objects.clone(), results.clone(), machine.clone(), registry.profile()),
             campaigns: Campaigns {
                 store: store.clone(),
@@ -118,15 +130,6 @@ impl Engine {
             classes,
             orders: Orders::default(),
             suite,
-            advices: Advices::new(Sources {
-                store: store.clone(),
-                blobs: blobs.clone(),
-                objects: objects.clone(),
-                machine: machine.clone(),
-                program: config.advisor.clone(),
-                data: config.data.clone(),
-                quick: config.quick_advice,
-            }),
             house: House::default(),
             owned: Owned {
                 store: store.clone(),

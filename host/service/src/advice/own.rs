@@ -6,7 +6,6 @@ use super::waiting;
 use crate::Result;
 use crate::advice::work::Advices;
 use crate::model::AdviceSpec;
-use crate::runs::current::Work;
 
 impl Advices {
     /// Asks for it, and gives its id; the work begins when the service is idle.
@@ -18,18 +17,18 @@ impl Advices {
     }
 
     /// Works on the oldest that has no end; false when none waits, or visitors' advice is at work.
-    pub(crate) async fn next_own(&self, work: &Work, asked: u64) -> Result<bool> {
+    pub(crate) async fn next_own(&self, asked: u64) -> Result<bool> {
         let Ok(_turn) = self.turn.try_acquire() else { return Ok(false) };
         let Some(row) = self.from.store.open_own_advice().await?.into_iter().next() else { return Ok(false) };
         // Another service may be quicker.
-        let Some(attempt) = self.from.store.take_up(&row.info.id, &work.worker).await? else { return Ok(false) };
+        let Some(attempt) = self.from.store.take_up(&row.info.id, &self.work.worker).await? else { return Ok(false) };
         let job = self.add(row.info);
         let lost = job.clone();
-        let _held = work.holding.hold(&attempt, move || lost.stop());
-        work.set_current(&attempt.job, &job.stop, Some(asked));
+        let _held = self.work.holding.hold(&attempt, move || lost.stop());
+        self.work.set_current(&attempt.job, &job.stop, Some(asked));
         let found = self.make(&attempt, &job).await;
-        work.unset_current();
-        let ended = match work.closing() || (job.stop.for_now() && matches!(found, Ok(None))) {
+        self.work.unset_current();
+        let ended = match self.work.closing() || (job.stop.for_now() && matches!(found, Ok(None))) {
             true => self.from.store.put_back_advice(&attempt).await,
             false => self.end(&attempt, job.info(), found).await,
         };

@@ -19,7 +19,9 @@ use crate::machine::Machine;
 use crate::measure::Stop;
 use crate::model::{AdviceInfo, Asked, State};
 use crate::objects::Objects;
+use crate::runs::current::Work;
 use crate::store::Store;
+use crate::tasks::Tasks;
 
 /// What advice is made from.
 pub struct Sources {
@@ -38,6 +40,8 @@ pub struct Sources {
 /// The requests that wait or are at work, by id.
 pub struct Advices {
     pub from: Sources,
+    pub work: Arc<Work>,
+    pub tasks: Arc<Tasks>,
     jobs: Mutex<HashMap<String, Arc<Job>>>,
     /// Whose turn it is, first come, first served.
     pub turn: Semaphore,
@@ -62,8 +66,8 @@ pub type Found = (Advice, [Vec<(Paper, Arc<Mesh>)>; 2]);
 
 impl Advices {
     /// Nothing waits yet.
-    pub fn new(from: Sources) -> Self {
-        Self { from, jobs: Mutex::default(), turn: Semaphore::new(1) }
+    pub fn new(from: Sources, work: Arc<Work>, tasks: Arc<Tasks>) -> Self {
+        Self { from, work, tasks, jobs: Mutex::default(), turn: Semaphore::new(1) }
     }
 
     /// A request that waits from now on.

@@ -6,7 +6,7 @@ use super::worker::Worker;
 use super::{Attempt, Kind, MOST_LOST, sql};
 use crate::Result;
 use crate::campaigns::course::Campaigns;
-use crate::engine::{Engine, Inner};
+use crate::engine::Inner;
 use crate::model::State;
 use crate::plugins::checks;
 use crate::runs::events_sql::append_event;
@@ -44,7 +44,7 @@ pub async fn take_back(inner: &Arc<Inner>, just_started: Option<&Worker>) -> Res
         checks::give_up(&inner.store, &inner.outbox).await?;
     }
     if advice {
-        Engine { inner: inner.clone() }.take_up_advice().await?;
+        inner.advices.take_up().await?;
     }
     Ok(())
 }
