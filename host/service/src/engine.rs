@@ -18,6 +18,7 @@ use crate::plugins::checks::Checks;
 use crate::plugins::registry::Registry;
 use crate::results::Results;
 use crate::runs::current::Work;
+use crate::runs::ends::RunEnds;
 use crate::runs::log::RunEvents;
 use crate::runs::preliminary::UnderWay;
 use crate::sets::stored::Sets;
@@ -58,7 +59,8 @@ pub struct Inner {
     /// What public plugins are measured on.
     pub suite: Arc<Suite>,
     pub suite_runs: Arc<SuiteRuns>,
-    pub campaigns: Campaigns,
+    pub campaigns: Arc<Campaigns>,
+    pub run_ends: Arc<RunEnds>,
     pub work: Arc<Work>,
     pub tasks: Arc<Tasks>,
     pub checks: Arc<Checks>,

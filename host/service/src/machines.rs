@@ -128,7 +128,7 @@ impl Engine {
             inner.store.put_back_run(&attempt).await?;
             inner.orders.forget(&attempt.id);
             inner.run_events.ring(&attempt.job);
-            inner.orders.prepared.notify_waiters();
+            inner.work.prepared.notify_waiters();
         }
         Ok(())
     }

@@ -22,6 +22,7 @@ use crate::plugins::registry::Registry;
 use crate::results::Results;
 use crate::runs::current::Work;
 use crate::runs::dispatcher;
+use crate::runs::ends::RunEnds;
 use crate::runs::log::RunEvents;
 use crate::runs::preliminary::UnderWay;
 use crate::runs::priority::BACKGROUND;
@@ -84,6 +85,20 @@ impl Engine {
             machine: machine.clone(),
             ceilings: config.ceilings,
         });
+        let campaigns = Arc::new(Campaigns {
+            store: store.clone(),
+            objects: objects.clone(),
+            registry: registry.clone(),
+            suite_runs: suite_runs.clone(),
+            outbox: outbox.clone(),
+            run_events: run_events.clone(),
+        });
+        let run_ends = Arc::new(RunEnds {
+            store: store.clone(),
+            run_events: run_events.clone(),
+            campaigns: campaigns.clone(),
+            work: work.clone(),
+        });
         let recordings = Arc::new(Recordings::new(blobs.clone(), config.data.clone()));
         let replays = Arc::new(Replays {
             store: store.clone(),
@@ -114,16 +129,10 @@ impl Engine {
             recordings,
             replays,
             advices,
+            campaigns,
+            run_ends,
             tasks,
             charts: Charts::new(store.clone(), objects.clone(), results.clone(), machine.clone(), registry.profile()),
-            campaigns: Campaigns {
-                store: store.clone(),
-                objects: objects.clone(),
-                registry: registry.clone(),
-                suite_runs: suite_runs.clone(),
-                outbox: outbox.clone(),
-                run_events: run_events.clone(),
-            },
             suite_runs,
             outbox,
             run_events,

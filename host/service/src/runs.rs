@@ -6,6 +6,7 @@ pub mod carry_out;
 pub mod current;
 pub mod dispatcher;
 pub mod draw;
+pub mod ends;
 pub mod estimate;
 pub mod events_sql;
 pub mod featured;

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use super::worker::Worker;
 use super::{Attempt, Kind, MOST_LOST, sql};
 use crate::Result;
-use crate::campaigns::course::Campaigns;
 use crate::engine::Inner;
 use crate::model::State;
 use crate::plugins::checks;
@@ -26,10 +25,7 @@ pub async fn take_back(inner: &Arc<Inner>, just_started: Option<&Worker>) -> Res
         }
         let Attempt { kind, job, number, .. } = &attempt;
         let lost = match kind {
-            Kind::Prepare | Kind::Measure => match inner.store.lose_run(&attempt, just_started).await? {
-                Some(state) => run_was_lost(&inner.campaigns, job, state).await.map(|()| true)?,
-                None => false,
-            },
+            Kind::Prepare | Kind::Measure => inner.run_ends.lose(&attempt, just_started).await?.is_some(),
             Kind::Check => inner.store.lose_check(&attempt, just_started).await?,
             Kind::Stability | Kind::Replay | Kind::Advise => inner.store.lose(&attempt, just_started).await?,
         };
@@ -47,13 +43,6 @@ pub async fn take_back(inner: &Arc<Inner>, just_started: Option<&Worker>) -> Res
         inner.advices.take_up().await?;
     }
     Ok(())
-}
-
-/// What follows from a lost attempt at a run.
-pub async fn run_was_lost(campaigns: &Campaigns, run: &str, now: State) -> Result<()> {
-    campaigns.run_events.ring(run);
-    campaigns.run_events.queue_moved();
-    if now == State::Queued { Ok(()) } else { campaigns.run_of_campaign_ended(run).await }
 }
 
 impl Store {

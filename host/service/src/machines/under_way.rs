@@ -4,8 +4,6 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use tokio::sync::Notify;
-
 use crate::Result;
 use crate::attempts::LEASE_US;
 use crate::runs::log::RunLog;
@@ -32,8 +30,6 @@ impl Working {
 #[derive(Default)]
 pub struct Orders {
     working: Mutex<HashMap<String, Arc<Working>>>,
-    /// Rung when a run was prepared.
-    pub prepared: Notify,
 }
 
 impl Orders {

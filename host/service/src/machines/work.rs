@@ -13,7 +13,6 @@ use super::sentinel::sentinel_due;
 use super::sql::worker;
 use super::under_way::Working;
 use crate::attempts::Attempt;
-use crate::attempts::lost::run_was_lost;
 use crate::blocking::blocking;
 use crate::boxed;
 use crate::columns::{read_records, read_triangle_tests};
@@ -24,7 +23,7 @@ use crate::model::{
     WorkOrder,
 };
 use crate::runs::accept::End;
-use crate::runs::carry_out::{ended, too_long};
+use crate::runs::carry_out::too_long;
 use crate::runs::log::RunLog;
 use crate::runs::looking::show;
 use crate::runs::sql::RunRow;
@@ -63,7 +62,7 @@ impl Engine {
         }
         let (asked, worker) = (Instant::now(), worker(machine, &facts.hardware_class));
         while !self.inner.work.closing() {
-            let prepared = self.inner.orders.prepared.notified();
+            let prepared = self.inner.work.prepared.notified();
             if let Some(attempt) = self.inner.store.begin_prepared_run(&worker, &self.inner.classes.usual()).await? {
                 match self.begun(machine, &attempt).await? {
                     Some(order) => return Ok(NextWork::Run(Box::new(order))),
@@ -84,7 +83,7 @@ impl Engine {
             // It cannot be measured as it was asked for.
             Err(e @ (EngineError::Invalid(_) | EngineError::NotFound(_))) => {
                 let row = self.inner.store.run_row(&attempt.job).await?;
-                ended(&self.inner, attempt, &row, &Err(e), None, None).await?;
+                self.inner.run_ends.ended(attempt, &row, &Err(e), None, None).await?;
                 Ok(None)
             }
             // It was ended meanwhile.
@@ -92,19 +91,10 @@ impl Engine {
             // A fault of ours, which may last: the run is not the first in the queue for ever.
             Err(e) => {
                 tracing::error!("run {}, attempt {} cannot begin: {e}", attempt.job, attempt.number);
-                self.lose(machine, attempt).await?;
+                self.inner.run_ends.lose(attempt, Some(&worker(machine, ""))).await?;
                 Err(e)
             }
         }
-    }
-
-    /// The attempt came to nothing: its run waits again, or has failed after three. What it is now, if the attempt was current.
-    async fn lose(&self, machine: &str, attempt: &Attempt) -> Result<Option<State>> {
-        let state = self.inner.store.lose_run(attempt, Some(&worker(machine, ""))).await?;
-        if let Some(state) = state {
-            run_was_lost(&self.inner.campaigns, &attempt.job, state).await?;
-        }
-        Ok(state)
     }
 
     async fn try_begin(&self, attempt: &Attempt) -> Result<Option<WorkOrder>> {
@@ -213,7 +203,7 @@ impl Engine {
             Ok(accepted) => {
                 self.inner.orders.forget(attempt);
                 self.inner.run_events.ring(&row.id);
-                self.inner.orders.prepared.notify_waiters();
+                self.inner.work.prepared.notify_waiters();
                 Ok(accepted)
             }
         }
@@ -245,7 +235,7 @@ impl Engine {
                     let mut log = working.log.lock().unwrap_or_else(PoisonError::into_inner);
                     hand_in::keep(&here, &mut log, &of.1, results)
                 });
-                ended(inner, attempt, row, &Ok(end.await?), None, None).await
+                inner.run_ends.ended(attempt, row, &Ok(end.await?), None, None).await
             }
             Ended::TooLong => {
                 let (here, of) = (self.inner.clone(), (attempt.clone(), row.clone()));
@@ -255,7 +245,7 @@ impl Engine {
                 });
                 closing.await?;
                 let reason = inner.config.ceilings.longest_run(row).map(too_long);
-                ended(inner, attempt, row, &Ok(End::Stopped), reason.as_deref(), None).await
+                inner.run_ends.ended(attempt, row, &Ok(End::Stopped), reason.as_deref(), None).await
             }
             Ended::PutBack => inner.store.put_back_run(attempt).await,
             Ended::Failed { message } => self.failed(machine, attempt, row, &message).await,
@@ -266,7 +256,7 @@ impl Engine {
     async fn failed(&self, machine: &str, attempt: &Attempt, row: &RunRow, why: &str) -> Result<bool> {
         tracing::error!("run {}: the machine {machine} failed: {why}", row.id);
         self.inner.store.machine_failed(machine, why).await?;
-        Ok(self.lose(machine, attempt).await?.is_some())
+        Ok(self.inner.run_ends.lose(attempt, Some(&worker(machine, ""))).await?.is_some())
     }
 
     /// The results of a machine, if they are of what was ordered.

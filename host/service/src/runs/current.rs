@@ -31,6 +31,8 @@ pub struct Work {
     pub holding: Arc<Holding>,
     /// Rung when the queue has something new.
     pub wake: Notify,
+    /// Rung when a run was prepared for a measuring machine.
+    pub prepared: Notify,
     /// Number of requests for work.
     asked: AtomicU64,
 }
@@ -45,6 +47,7 @@ impl Work {
             current: Mutex::default(),
             holding: Arc::default(),
             wake: Notify::new(),
+            prepared: Notify::new(),
             asked: AtomicU64::new(0),
         })
     }
