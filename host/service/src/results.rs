@@ -1,6 +1,7 @@
 //! From stored records to heatmaps, charts and files.
 
 mod ask;
+mod hand_in;
 mod selected;
 pub mod selecting;
 pub mod sql;

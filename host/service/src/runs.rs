@@ -11,7 +11,6 @@ pub mod estimate;
 pub mod events_sql;
 pub mod featured;
 pub mod follow;
-pub mod hand_in;
 #[cfg(feature = "postgres")]
 pub mod hear;
 pub mod log;

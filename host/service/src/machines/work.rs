@@ -27,7 +27,7 @@ use crate::runs::carry_out::too_long;
 use crate::runs::log::RunLog;
 use crate::runs::looking::show;
 use crate::runs::sql::RunRow;
-use crate::runs::{draw, hand_in, spec};
+use crate::runs::{draw, spec};
 use crate::{EngineError, Result};
 
 /// How often a machine that waits for work looks into the queue, unless a run is prepared here.
@@ -154,7 +154,7 @@ impl Engine {
                 if let Step::Progress { place, done, total, worked } = step {
                     inner.under_way.estimate(&row.id, |it| it.progress(place, done, total, worked.as_secs_f64()));
                 }
-                hand_in::tell(&mut log, &step, name)?;
+                log.step(&step, name)?;
             }
             Ok(())
         });
@@ -233,7 +233,7 @@ impl Engine {
                 let end = blocking(move || {
                     let working = working(&here, &of.0, &of.1)?;
                     let mut log = working.log.lock().unwrap_or_else(PoisonError::into_inner);
-                    hand_in::keep(&here, &mut log, &of.1, results)
+                    here.results.hand_in(&mut log, &of.1, results)
                 });
                 inner.run_ends.ended(attempt, row, &Ok(end.await?), None, None).await
             }

@@ -20,10 +20,10 @@ use crate::machine::MakingWay;
 use crate::measure::{Part, Preliminary, Stop, Task};
 use crate::model::{RunSpec, SetInfo, State};
 use crate::runs::accept::End;
+use crate::runs::draw;
 use crate::runs::log::RunLog;
 use crate::runs::looking::Looking;
 use crate::runs::sql::RunRow;
-use crate::runs::{draw, hand_in};
 use crate::suite::{Suite, drawn_anew};
 use crate::{EngineError, Result};
 
@@ -70,7 +70,7 @@ impl<'a> Bench<'a> {
             return Ok(if self.stop.asked() { End::Stopped } else { End::Prepared });
         }
         let Some(results) = self.measuring(&pairing, &looking, &set, &info)? else { return Ok(End::Stopped) };
-        hand_in::keep(self.inner, &mut self.log, &self.row, results)
+        self.inner.results.hand_in(&mut self.log, &self.row, results)
     }
 
     /// For a suite without a seed: draws this run's configurations, from a secret that was fixed together with its plugins.
@@ -210,7 +210,7 @@ impl<'a> Bench<'a> {
                 Step::Preliminary(place, seen) => looking.show(*place, Preliminary::clone(seen)),
                 Step::Waiting(_) => {}
             }
-            hand_in::tell(log, &step, name)
+            log.step(&step, name)
         })
     }
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use ocb_lab::job::Step;
 use tokio::runtime::Handle;
 use tokio::sync::broadcast;
 
@@ -147,17 +148,17 @@ impl RunLog {
     }
 
     /// Has this stage ended?
-    pub fn has_ended(&self, index: usize) -> bool {
+    fn has_ended(&self, index: usize) -> bool {
         !matches!(self.stages[index].state, State::Queued | State::Running)
     }
 
     /// Number of algorithms that have a stage.
-    pub fn algorithms(&self) -> usize {
+    fn algorithms(&self) -> usize {
         self.stages.len() - FIRST_MEASURING - 1
     }
 
     /// Is something said about this stage?
-    pub fn has_note(&self, index: usize) -> bool {
+    fn has_note(&self, index: usize) -> bool {
         self.stages[index].message.is_some()
     }
 
@@ -204,6 +205,31 @@ impl RunLog {
         self.tell(index)
     }
 
+    /// Notes a step of measuring; `reference` is the name of the reference algorithm.
+    pub fn step(&mut self, step: &Step, reference: &str) -> Result<()> {
+        match *step {
+            // It was told before, and arrives late.
+            Step::Progress { place, .. } if self.has_ended(FIRST_MEASURING + place.min(self.algorithms() - 1)) => {
+                Ok(())
+            }
+            Step::Waiting(_) if self.has_ended(FIRST_MEASURING) => Ok(()),
+            Step::Waiting(waiting) => {
+                self.note(FIRST_MEASURING, waiting.then_some("Waiting: another process is measuring on this machine."))
+            }
+            Step::Progress { place, done, total, worked } if place < self.algorithms() => {
+                // The reference has no stage of its own unless it was requested; the first such stage says that it is at work.
+                if self.has_note(FIRST_MEASURING) {
+                    self.note(FIRST_MEASURING, None)?;
+                }
+                self.progress_after(FIRST_MEASURING + place, done, total, worked)
+            }
+            Step::Progress { done, total, .. } => {
+                self.note(FIRST_MEASURING, Some(&turn_of_reference(reference, done, total)))
+            }
+            Step::Preliminary(..) => Ok(()),
+        }
+    }
+
     /// A stage has ended.
     pub fn end(&mut self, index: usize, state: State, message: Option<String>) -> Result<()> {
         let stage = &mut self.stages[index];
@@ -243,6 +269,12 @@ impl RunLog {
     pub fn kept(&self, call: impl Future<Output = Result<bool>>) -> Result<()> {
         if self.handle.block_on(call)? { Ok(()) } else { Err(superseded()) }
     }
+}
+
+/// What is said while the reference algorithm, for which nobody asked, has its turn.
+fn turn_of_reference(name: &str, done: u64, total: u64) -> String {
+    let of = if total > 0 { format!(" of {total}") } else { String::new() };
+    format!("Now the reference algorithm, {name}: {done}{of} queries.")
 }
 
 /// Items per second lately.
