@@ -19,6 +19,7 @@ use crate::plugins::registry::Registry;
 use crate::results::Results;
 use crate::runs::current::Work;
 use crate::runs::ends::RunEnds;
+use crate::runs::live::LiveRuns;
 use crate::runs::log::RunEvents;
 use crate::runs::preliminary::UnderWay;
 use crate::sets::stored::Sets;
@@ -52,10 +53,10 @@ pub struct Inner {
     /// The hardware classes on which runs are measured.
     pub classes: Arc<Classes>,
     pub run_events: RunEvents,
+    pub live: Arc<LiveRuns>,
     /// What the run at work can show.
     pub under_way: Arc<UnderWay>,
-    /// The runs that machines measure for this service.
-    pub orders: Orders,
+    pub orders: Arc<Orders>,
     /// What public plugins are measured on.
     pub suite: Arc<Suite>,
     pub suite_runs: Arc<SuiteRuns>,

@@ -23,6 +23,7 @@ use crate::results::Results;
 use crate::runs::current::Work;
 use crate::runs::dispatcher;
 use crate::runs::ends::RunEnds;
+use crate::runs::live::LiveRuns;
 use crate::runs::log::RunEvents;
 use crate::runs::preliminary::UnderWay;
 use crate::runs::priority::BACKGROUND;
@@ -99,6 +100,13 @@ impl Engine {
             campaigns: campaigns.clone(),
             work: work.clone(),
         });
+        let live = Arc::new(LiveRuns {
+            store: store.clone(),
+            registry: registry.clone(),
+            run_events: run_events.clone(),
+            under_way: under_way.clone(),
+        });
+        let orders = Arc::new(Orders::new(live.clone(), objects.clone(), suite.clone(), config.ceilings));
         let recordings = Arc::new(Recordings::new(blobs.clone(), config.data.clone()));
         let replays = Arc::new(Replays {
             store: store.clone(),
@@ -131,13 +139,14 @@ impl Engine {
             advices,
             campaigns,
             run_ends,
+            live,
+            orders,
             tasks,
             charts: Charts::new(store.clone(), objects.clone(), results.clone(), machine.clone(), registry.profile()),
             suite_runs,
             outbox,
             run_events,
             classes,
-            orders: Orders::default(),
             suite,
             house: House::default(),
             owned: Owned {

@@ -13,6 +13,7 @@ pub mod featured;
 pub mod follow;
 #[cfg(feature = "postgres")]
 pub mod hear;
+pub mod live;
 pub mod log;
 pub mod looking;
 pub mod places;

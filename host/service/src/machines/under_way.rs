@@ -4,10 +4,16 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use crate::Result;
-use crate::attempts::LEASE_US;
+use tokio::runtime::Handle;
+
+use crate::attempts::{Attempt, LEASE_US};
+use crate::objects::Objects;
+use crate::runs::live::LiveRuns;
 use crate::runs::log::RunLog;
 use crate::runs::preliminary::Shown;
+use crate::runs::sql::RunRow;
+use crate::suite::Suite;
+use crate::{Ceilings, Result};
 
 const LEASE: Duration = Duration::from_micros(LEASE_US as u64);
 
@@ -26,21 +32,36 @@ impl Working {
     }
 }
 
-/// These runs by attempt.
-#[derive(Default)]
+/// The runs that machines measure for this service.
 pub struct Orders {
+    pub(super) live: Arc<LiveRuns>,
+    pub(super) objects: Arc<Objects>,
+    pub(super) suite: Arc<Suite>,
+    pub(super) ceilings: Ceilings,
+    /// By attempt.
     working: Mutex<HashMap<String, Arc<Working>>>,
 }
 
 impl Orders {
-    /// The run of this attempt. One that is not known here is made: reading its log may take a while and keeps no other waiting.
-    pub fn working(
-        &self,
-        attempt: &str,
-        log: impl FnOnce() -> Result<RunLog>,
-        show: impl FnOnce() -> Shown,
-    ) -> Result<Arc<Working>> {
-        let known = self.all().get(attempt).cloned();
+    /// None is known yet.
+    pub fn new(live: Arc<LiveRuns>, objects: Arc<Objects>, suite: Arc<Suite>, ceilings: Ceilings) -> Self {
+        Self { live, objects, suite, ceilings, working: Mutex::default() }
+    }
+
+    /// A machine begins this attempt at a prepared run; blocks.
+    pub fn begin(&self, attempt: &Attempt, row: &RunRow) -> Result<()> {
+        let log = || RunLog::go_on(attempt, &row.spec.algorithms, &self.live, Handle::current());
+        self.known(attempt, row, log).map(|_| ())
+    }
+
+    /// The run of an attempt that has begun, and was heard from just now; blocks.
+    pub fn working(&self, attempt: &Attempt, row: &RunRow) -> Result<Arc<Working>> {
+        self.known(attempt, row, || RunLog::resume(attempt, &self.live, Handle::current()))
+    }
+
+    /// One that is not known here is made: reading its log may take a while and keeps no other waiting.
+    fn known(&self, attempt: &Attempt, row: &RunRow, log: impl FnOnce() -> Result<RunLog>) -> Result<Arc<Working>> {
+        let known = self.all().get(&attempt.id).cloned();
         if let Some(working) = known {
             return Ok(working.heard());
         }
@@ -48,8 +69,8 @@ impl Orders {
         let mut all = self.all();
         // Of a machine that died nobody says that it has ended.
         all.retain(|_, working| working.shown.is_heard());
-        let working = all.entry(attempt.to_owned()).or_insert_with(|| Arc::new(Working { log, shown: show() }));
-        Ok(working.clone().heard())
+        let show = || Arc::new(Working { log, shown: self.live.show(row) });
+        Ok(all.entry(attempt.id.clone()).or_insert_with(show).clone().heard())
     }
 
     /// The machine of this attempt was heard from just now; false when the attempt is not known here.

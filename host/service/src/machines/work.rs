@@ -1,22 +1,19 @@
 //! The work of measuring machines, from asking for a run to handing in its results.
 
-use std::sync::{Arc, PoisonError};
+use std::sync::PoisonError;
 use std::time::Duration;
 
 use ocb_lab::job::{Found, Results, Step};
 use ocb_lab::worker::Seen;
-use tokio::runtime::Handle;
 use tokio::time::Instant;
 
-use super::orders::order;
 use super::sentinel::sentinel_due;
 use super::sql::worker;
-use super::under_way::Working;
 use crate::attempts::Attempt;
 use crate::blocking::blocking;
 use crate::boxed;
 use crate::columns::{read_records, read_triangle_tests};
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::measure::Preliminary;
 use crate::model::{
     AlgorithmResult, Ended, Environment, MachineFacts, MeasuredAlgorithm, NextWork, OutcomeName, Preview, State, Told,
@@ -24,8 +21,6 @@ use crate::model::{
 };
 use crate::runs::accept::End;
 use crate::runs::carry_out::too_long;
-use crate::runs::log::RunLog;
-use crate::runs::looking::show;
 use crate::runs::sql::RunRow;
 use crate::runs::{draw, spec};
 use crate::{EngineError, Result};
@@ -99,20 +94,15 @@ impl Engine {
 
     async fn try_begin(&self, attempt: &Attempt) -> Result<Option<WorkOrder>> {
         let row = self.inner.store.run_row(&attempt.job).await?;
-        let Some(order) = order(&self.inner, attempt, &row).await? else {
+        let Some(order) = self.inner.orders.order(attempt, &row).await? else {
             self.inner.store.prepare_again(attempt).await?;
             self.inner.work.wake.notify_one();
             return Ok(None);
         };
         self.inner.store.keep_order(&order).await?;
         // Who follows the run hears that it has begun.
-        let (inner, attempt) = (self.inner.clone(), attempt.clone());
-        let told = (inner.store.clone(), inner.run_events.clone(), inner.under_way.clone());
-        blocking(move || {
-            let log = || RunLog::go_on(&attempt, &row.spec.algorithms, told, Handle::current());
-            inner.orders.working(&attempt.id, log, || show(&inner.under_way, &inner.registry, &row)).map(|_| ())
-        })
-        .await?;
+        let (orders, attempt) = (self.inner.orders.clone(), attempt.clone());
+        blocking(move || orders.begin(&attempt, &row)).await?;
         Ok(Some(order))
     }
 
@@ -144,15 +134,15 @@ impl Engine {
             return Ok(true);
         }
         let row = self.inner.store.run_row(&attempt.job).await?;
-        let inner = self.inner.clone();
+        let (orders, live) = (self.inner.orders.clone(), self.inner.live.clone());
         let telling = blocking(move || {
-            let working = working(&inner, &attempt, &row)?;
+            let working = orders.working(&attempt, &row)?;
             let mut log = working.log.lock().unwrap_or_else(PoisonError::into_inner);
-            let reference = spec::reference(&row.spec, &inner.registry);
+            let reference = spec::reference(&row.spec, &live.registry);
             let name = reference.as_ref().map_or("", |reference| reference.info.name.as_str());
             for step in steps.into_iter().map(told) {
                 if let Step::Progress { place, done, total, worked } = step {
-                    inner.under_way.estimate(&row.id, |it| it.progress(place, done, total, worked.as_secs_f64()));
+                    live.progress(&row.id, place, done, total, worked);
                 }
                 log.step(&step, name)?;
             }
@@ -176,16 +166,14 @@ impl Engine {
         }
         if !self.inner.orders.heard(&attempt.id) {
             let row = self.inner.store.run_row(&attempt.job).await?;
-            let inner = self.inner.clone();
-            let current = attempt.clone();
-            blocking(move || working(&inner, &current, &row).map(|_| ())).await?;
+            let (orders, current) = (self.inner.orders.clone(), attempt.clone());
+            blocking(move || orders.working(&current, &row).map(|_| ())).await?;
         }
         // Ranks are given here, at the end.
         let result = AlgorithmResult { preliminary: true, rank: None, place_so_far: None, ..result };
         let seen = Seen { place, preliminary: Preliminary { result, records, seconds } };
         self.inner.store.keep_seen(&attempt, &seen, &self.inner.work.worker).await?;
-        self.inner.under_way.show(&order.run, place, seen.preliminary);
-        self.inner.run_events.ring(&order.run);
+        self.inner.live.seen(&order.run, place, seen.preliminary);
         Ok(true)
     }
 
@@ -228,19 +216,20 @@ impl Engine {
                 if environment.as_ref().is_some_and(|machine| machine.hardware_class != class) {
                     return Err(wrong("they are of another hardware class"));
                 }
-                let results = self.results(row, order, algorithms, (environment, preview), files)?;
-                let (here, of) = (self.inner.clone(), (attempt.clone(), row.clone()));
+                let measured = self.results(row, order, algorithms, (environment, preview), files)?;
+                let (orders, results) = (inner.orders.clone(), inner.results.clone());
+                let of = (attempt.clone(), row.clone());
                 let end = blocking(move || {
-                    let working = working(&here, &of.0, &of.1)?;
+                    let working = orders.working(&of.0, &of.1)?;
                     let mut log = working.log.lock().unwrap_or_else(PoisonError::into_inner);
-                    here.results.hand_in(&mut log, &of.1, results)
+                    results.hand_in(&mut log, &of.1, measured)
                 });
                 inner.run_ends.ended(attempt, row, &Ok(end.await?), None, None).await
             }
             Ended::TooLong => {
-                let (here, of) = (self.inner.clone(), (attempt.clone(), row.clone()));
+                let (orders, of) = (inner.orders.clone(), (attempt.clone(), row.clone()));
                 let closing = blocking(move || {
-                    let working = working(&here, &of.0, &of.1)?;
+                    let working = orders.working(&of.0, &of.1)?;
                     working.log.lock().unwrap_or_else(PoisonError::into_inner).end_open(State::Cancelled, None)
                 });
                 closing.await?;
@@ -284,13 +273,6 @@ impl Engine {
         let environment = environment.map(|environment| Environment { draw: Some(draw), ..*environment });
         Ok(Results { algorithms: found, environment, preview: preview.map(|preview| *preview) })
     }
-}
-
-/// An attempt that has begun, and was heard from just now; blocks.
-fn working(inner: &Inner, attempt: &Attempt, row: &RunRow) -> Result<Arc<Working>> {
-    let told = (inner.store.clone(), inner.run_events.clone(), inner.under_way.clone());
-    let log = || RunLog::resume(attempt, told, Handle::current());
-    inner.orders.working(&attempt.id, log, || show(&inner.under_way, &inner.registry, row))
 }
 
 /// Why nothing was measured, if that is the fault of the machine and not of the algorithms.

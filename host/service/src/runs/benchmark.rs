@@ -36,8 +36,7 @@ const CONFIGURATIONS: usize = 1;
 /// Carries out a run, or prepares it for a measuring machine. An error is the reason why the run failed.
 pub fn run(inner: &Arc<Inner>, attempt: &Attempt, stop: &Stop, handle: &Handle) -> Result<End> {
     let row = handle.block_on(inner.store.run_row(&attempt.job))?;
-    let told = (inner.store.clone(), inner.run_events.clone(), inner.under_way.clone());
-    let log = RunLog::begin(attempt, &row.spec.algorithms, told, handle.clone())?;
+    let log = RunLog::begin(attempt, &row.spec.algorithms, &inner.live, handle.clone())?;
     let mut bench = Bench { inner, attempt, row, stop, log };
     let ended = bench.stages().map_err(EngineError::for_visitors);
     match &ended {

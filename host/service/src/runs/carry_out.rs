@@ -10,7 +10,6 @@ use crate::engine::Inner;
 use crate::measure::Stop;
 use crate::runs::accept::End;
 use crate::runs::benchmark;
-use crate::runs::looking::show;
 use crate::runs::sql::RunRow;
 use crate::time_limit::in_time;
 use crate::{EngineError, Result};
@@ -24,7 +23,7 @@ pub async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, idle: Option<u64>)
     let _held = inner.work.begin(attempt, &stop, idle);
     inner.run_events.queue_moved();
     let row = inner.store.run_row(id).await?;
-    let shown = show(&inner.under_way, &inner.registry, &row);
+    let shown = inner.live.show(&row);
     let how = match run_in_time(inner, attempt, &row, &stop).await {
         // Whoever stopped it need not wait for another attempt.
         Err(EngineError::Fault(_)) if stop.asked() => Ok(End::Stopped),

@@ -11,7 +11,6 @@ use tokio::sync::{Notify, mpsc};
 
 use crate::Result;
 use crate::engine::Inner;
-use crate::runs::looking;
 use crate::runs::preliminary::Shown;
 use crate::store::{Store, from_json};
 
@@ -108,13 +107,9 @@ async fn show(inner: &Inner, elsewhere: &mut HashMap<String, Shown>, told: &str)
     if !inner.orders.heard(attempt) {
         let row = inner.store.run_row(run).await?;
         elsewhere.retain(|_, shown| shown.is_heard());
-        elsewhere
-            .entry(attempt.to_owned())
-            .or_insert_with(|| looking::show(&inner.under_way, &inner.registry, &row))
-            .heard(SHOWN);
+        elsewhere.entry(attempt.to_owned()).or_insert_with(|| inner.live.show(&row)).heard(SHOWN);
     }
-    inner.under_way.show(run, place, preliminary);
-    inner.run_events.ring(run);
+    inner.live.seen(run, place, preliminary);
     Ok(())
 }
 

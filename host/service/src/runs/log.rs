@@ -10,7 +10,7 @@ use tokio::sync::broadcast;
 use crate::Result;
 use crate::attempts::{Attempt, superseded};
 use crate::model::{RunEvent, Stage, StageKind, State};
-use crate::runs::preliminary::UnderWay;
+use crate::runs::live::LiveRuns;
 use crate::store::Store;
 
 /// So often a page learns of progress.
@@ -85,9 +85,7 @@ pub fn fresh_stages(algorithms: &[String]) -> Vec<Stage> {
 /// the run.
 pub struct RunLog {
     attempt: Attempt,
-    store: Store,
-    run_events: RunEvents,
-    under_way: Arc<UnderWay>,
+    live: Arc<LiveRuns>,
     handle: Handle,
     stages: Vec<Stage>,
     meters: Vec<Meter>,
@@ -95,56 +93,36 @@ pub struct RunLog {
 
 impl RunLog {
     /// All stages begin anew: what an earlier attempt left is found again in the store, quickly.
-    pub fn begin(
-        attempt: &Attempt,
-        algorithms: &[String],
-        told: (Store, RunEvents, Arc<UnderWay>),
-        handle: Handle,
-    ) -> Result<Self> {
-        Self::with_stages(attempt, fresh_stages(algorithms), told, handle)
+    pub fn begin(attempt: &Attempt, algorithms: &[String], live: &Arc<LiveRuns>, handle: Handle) -> Result<Self> {
+        Self::with_stages(attempt, fresh_stages(algorithms), live, handle)
     }
 
     /// The log of a run that was prepared: the stages of its objects and configurations stay as they are.
-    pub fn go_on(
-        attempt: &Attempt,
-        algorithms: &[String],
-        told: (Store, RunEvents, Arc<UnderWay>),
-        handle: Handle,
-    ) -> Result<Self> {
+    pub fn go_on(attempt: &Attempt, algorithms: &[String], live: &Arc<LiveRuns>, handle: Handle) -> Result<Self> {
         let mut stages = fresh_stages(algorithms);
-        let known = handle.block_on(told.0.stages(&attempt.job))?;
+        let known = handle.block_on(live.store.stages(&attempt.job))?;
         for (stage, known) in stages.iter_mut().zip(known).take(FIRST_MEASURING) {
             *stage = known;
         }
-        Self::with_stages(attempt, stages, told, handle)
+        Self::with_stages(attempt, stages, live, handle)
     }
 
     /// The log of an attempt that another process began, or this one before it was started again.
-    pub fn resume(attempt: &Attempt, told: (Store, RunEvents, Arc<UnderWay>), handle: Handle) -> Result<Self> {
-        let stages = handle.block_on(told.0.stages(&attempt.job))?;
-        Ok(Self::of(attempt, stages, told, handle))
+    pub fn resume(attempt: &Attempt, live: &Arc<LiveRuns>, handle: Handle) -> Result<Self> {
+        let stages = handle.block_on(live.store.stages(&attempt.job))?;
+        Ok(Self::of(attempt, stages, live, handle))
     }
 
-    fn with_stages(
-        attempt: &Attempt,
-        stages: Vec<Stage>,
-        told: (Store, RunEvents, Arc<UnderWay>),
-        handle: Handle,
-    ) -> Result<Self> {
-        let log = Self::of(attempt, stages, told, handle);
+    fn with_stages(attempt: &Attempt, stages: Vec<Stage>, live: &Arc<LiveRuns>, handle: Handle) -> Result<Self> {
+        let log = Self::of(attempt, stages, live, handle);
         let stages: Vec<(usize, &Stage)> = log.stages.iter().enumerate().collect();
         log.send(&stages, plain_event(State::Running, 0))?;
         Ok(log)
     }
 
-    fn of(
-        attempt: &Attempt,
-        stages: Vec<Stage>,
-        (store, run_events, under_way): (Store, RunEvents, Arc<UnderWay>),
-        handle: Handle,
-    ) -> Self {
+    fn of(attempt: &Attempt, stages: Vec<Stage>, live: &Arc<LiveRuns>, handle: Handle) -> Self {
         let meters = stages.iter().map(|_| Meter::new()).collect();
-        Self { attempt: attempt.clone(), store, run_events, under_way, handle, stages, meters }
+        Self { attempt: attempt.clone(), live: live.clone(), handle, stages, meters }
     }
 
     /// Has this stage ended?
@@ -259,9 +237,9 @@ impl RunLog {
 
     fn send(&self, stages: &[(usize, &Stage)], event: RunEvent) -> Result<()> {
         let run = self.attempt.job.as_str();
-        let mut event = RunEvent { seconds_left: self.under_way.seconds_left(run), ..event };
-        self.kept(self.store.tell(&self.attempt, stages, &mut event))?;
-        self.run_events.ring(run);
+        let mut event = RunEvent { seconds_left: self.live.under_way.seconds_left(run), ..event };
+        self.kept(self.live.store.tell(&self.attempt, stages, &mut event))?;
+        self.live.run_events.ring(run);
         Ok(())
     }
 

@@ -12,10 +12,7 @@ use crate::engine::Inner;
 use crate::machine::MeasuringRight;
 use crate::measure::{self, Part, Preliminary, Stop, Task};
 use crate::model::RunSpec;
-use crate::plugins::registry::Registry;
 use crate::runs::draw;
-use crate::runs::preliminary::{Shown, UnderWay};
-use crate::runs::spec::reference;
 use crate::runs::sql::RunRow;
 
 /// One run while it is looked at.
@@ -36,14 +33,6 @@ pub struct Looking<'a> {
 pub fn seed(row: &RunRow, algorithms: &[Arc<Algorithm>]) -> Option<u64> {
     let watched = row.suite.is_none() && row.campaign.is_none() && !row.is_refined();
     watched.then(|| draw::seed(row, "first look", algorithms))
-}
-
-/// This run is under way now and may show something.
-pub fn show(under_way: &Arc<UnderWay>, registry: &Registry, row: &RunRow) -> Shown {
-    // Where the reference is none of the algorithms, it takes turns, too.
-    let apart = reference(&row.spec, registry).filter(|apart| !row.spec.algorithms.contains(&apart.info.id));
-    let algorithms = row.spec.algorithms.len() + usize::from(apart.is_some());
-    under_way.begin(&row.id, registry.profile(), algorithms, row.expected_seconds)
 }
 
 impl<'a> Looking<'a> {
@@ -90,12 +79,11 @@ impl<'a> Looking<'a> {
 
     /// An algorithm is so far in the rounds.
     pub fn progress(&self, index: usize, done: u64, total: u64, worked: Duration) {
-        self.inner.under_way.estimate(&self.run, |it| it.progress(index, done, total, worked.as_secs_f64()));
+        self.inner.live.progress(&self.run, index, done, total, worked);
     }
 
     /// The algorithm at this place of the run's list has something to show.
     pub fn show(&self, place: usize, seen: Preliminary) {
-        self.inner.under_way.show(&self.run, place, seen);
-        self.inner.run_events.ring(&self.run);
+        self.inner.live.seen(&self.run, place, seen);
     }
 }
