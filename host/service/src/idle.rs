@@ -16,7 +16,6 @@ use crate::locks::Lock;
 use crate::model::{AlgorithmInfo, ExampleWork, RunSpec, StabilitySpec, State};
 use crate::plugins::registry::Registry;
 use crate::runs::RunContext;
-use crate::runs::carry_out::carry_out;
 use crate::runs::priority::IDLE;
 use crate::stability::runs_sql::StabilityRow;
 use crate::store::{Store, now_us};
@@ -52,12 +51,8 @@ impl Filling {
 
     async fn go_on(&mut self, inner: &Arc<Inner>, asked: u64) -> Result<bool> {
         // What was queued last, or gave way before.
-        let next = match inner.config.elsewhere {
-            false => inner.store.begin_idle_run(&inner.work.worker).await?,
-            true => inner.store.begin_preparing_idle(&inner.work.worker).await?,
-        };
-        if let Some(attempt) = next {
-            carry_out(inner, &attempt, Some(asked)).await?;
+        if let Some(attempt) = inner.benchmarks.next(true).await? {
+            inner.benchmarks.carry_out(&attempt, Some(asked)).await?;
             return Ok(true);
         }
         if inner.stability.next(Some(asked)).await? || inner.advices.next_own(asked).await? {

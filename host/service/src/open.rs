@@ -20,6 +20,7 @@ use crate::owned::items::Owned;
 use crate::plugins::checks::Checks;
 use crate::plugins::registry::Registry;
 use crate::results::Results;
+use crate::runs::carry_out::Benchmarks;
 use crate::runs::current::Work;
 use crate::runs::dispatcher;
 use crate::runs::ends::RunEnds;
@@ -107,6 +108,21 @@ impl Engine {
             under_way: under_way.clone(),
         });
         let orders = Arc::new(Orders::new(live.clone(), objects.clone(), suite.clone(), config.ceilings));
+        let benchmarks = Arc::new(Benchmarks {
+            store: store.clone(),
+            blobs: blobs.clone(),
+            objects: objects.clone(),
+            registry: registry.clone(),
+            sets: sets.clone(),
+            results: results.clone(),
+            suite: suite.clone(),
+            live: live.clone(),
+            run_ends: run_ends.clone(),
+            work: work.clone(),
+            machine: machine.clone(),
+            ceilings: config.ceilings,
+            elsewhere: config.elsewhere,
+        });
         let recordings = Arc::new(Recordings::new(blobs.clone(), config.data.clone()));
         let replays = Arc::new(Replays {
             store: store.clone(),
@@ -141,6 +157,7 @@ impl Engine {
             run_ends,
             live,
             orders,
+            benchmarks,
             tasks,
             charts: Charts::new(store.clone(), objects.clone(), results.clone(), machine.clone(), registry.profile()),
             suite_runs,

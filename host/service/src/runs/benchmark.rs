@@ -15,11 +15,11 @@ use tokio::runtime::Handle;
 
 use crate::attempts::{Attempt, Kind};
 use crate::configurations::{self, ConfigurationFile, Gauge};
-use crate::engine::Inner;
 use crate::machine::MakingWay;
 use crate::measure::{Part, Preliminary, Stop, Task};
 use crate::model::{RunSpec, SetInfo, State};
 use crate::runs::accept::End;
+use crate::runs::carry_out::Benchmarks;
 use crate::runs::draw;
 use crate::runs::log::RunLog;
 use crate::runs::looking::Looking;
@@ -34,14 +34,14 @@ const OBJECT: usize = 0;
 const CONFIGURATIONS: usize = 1;
 
 /// Carries out a run, or prepares it for a measuring machine. An error is the reason why the run failed.
-pub fn run(inner: &Arc<Inner>, attempt: &Attempt, stop: &Stop, handle: &Handle) -> Result<End> {
-    let row = handle.block_on(inner.store.run_row(&attempt.job))?;
-    let log = RunLog::begin(attempt, &row.spec.algorithms, &inner.live, handle.clone())?;
-    let mut bench = Bench { inner, attempt, row, stop, log };
+pub fn run(benchmarks: &Benchmarks, attempt: &Attempt, stop: &Stop, handle: &Handle) -> Result<End> {
+    let row = handle.block_on(benchmarks.store.run_row(&attempt.job))?;
+    let log = RunLog::begin(attempt, &row.spec.algorithms, &benchmarks.live, handle.clone())?;
+    let mut bench = Bench { benchmarks, attempt, row, stop, log };
     let ended = bench.stages().map_err(EngineError::for_visitors);
     match &ended {
         Ok(End::Done { .. } | End::Prepared) => {}
-        Ok(End::Stopped) if inner.work.closing() || stop.for_now() => {}
+        Ok(End::Stopped) if benchmarks.work.closing() || stop.for_now() => {}
         Ok(End::Stopped) => bench.log.end_open(State::Cancelled, None)?,
         Err(e) => bench.log.end_open(State::Failed, Some(&e.to_string()))?,
     }
@@ -49,7 +49,7 @@ pub fn run(inner: &Arc<Inner>, attempt: &Attempt, stop: &Stop, handle: &Handle) 
 }
 
 struct Bench<'a> {
-    inner: &'a Arc<Inner>,
+    benchmarks: &'a Benchmarks,
     attempt: &'a Attempt,
     row: RunRow,
     stop: &'a Stop,
@@ -69,25 +69,25 @@ impl<'a> Bench<'a> {
             return Ok(if self.stop.asked() { End::Stopped } else { End::Prepared });
         }
         let Some(results) = self.measuring(&pairing, &looking, &set, &info)? else { return Ok(End::Stopped) };
-        self.inner.results.hand_in(&mut self.log, &self.row, results)
+        self.benchmarks.results.hand_in(&mut self.log, &self.row, results)
     }
 
     /// For a suite without a seed: draws this run's configurations, from a secret that was fixed together with its plugins.
     fn draw_configurations(&mut self) -> Result<()> {
-        let Suite { document, sha256, .. } = &*self.inner.suite;
+        let Suite { document, sha256, .. } = &*self.benchmarks.suite;
         if document.seed.is_some() || self.row.suite.as_ref() != Some(sha256) {
             return Ok(());
         }
         self.row.spec = drawn_anew(&self.row.spec, draw::configurations(&self.row, &self.algorithms()?));
-        self.log.kept(self.inner.store.spec_of_run(self.attempt, &self.row.spec))
+        self.log.kept(self.benchmarks.store.spec_of_run(self.attempt, &self.row.spec))
     }
 
     fn objects(&mut self) -> Result<Pairing> {
         let spec = self.row.spec.clone();
         let same = spec.object_b.is_none();
         self.log.start(OBJECT, if same { 1 } else { 2 })?;
-        let mesh_a = self.log.wait(self.inner.objects.mesh(&spec.object_a))?;
-        let mesh_b = spec.object_b.as_ref().map(|id| self.log.wait(self.inner.objects.mesh(id))).transpose()?;
+        let mesh_a = self.log.wait(self.benchmarks.objects.mesh(&spec.object_a))?;
+        let mesh_b = spec.object_b.as_ref().map(|id| self.log.wait(self.benchmarks.objects.mesh(id))).transpose()?;
         let pairing = Pairing::new(mesh_a, mesh_b);
         let single = self.algorithms()?.into_iter().find(|c| pairing.flattened && c.info.single_precision);
         if let Some(algorithm) = single {
@@ -110,12 +110,12 @@ impl<'a> Bench<'a> {
         let key = configurations::set_key(&sha_a, &sha_b, &self.row.spec)?;
         let file = self.configuration_file()?;
         let straightened = file.as_ref().and_then(ConfigurationFile::note);
-        let store = self.inner.store.clone();
-        let keeping = self.log.wait(self.inner.store.locks.keeping())?;
+        let store = self.benchmarks.store.clone();
+        let keeping = self.log.wait(self.benchmarks.store.locks.keeping())?;
         if let Some(stored) = self.log.wait(store.set(&key))? {
             let n = u64::from(stored.info.configurations);
             self.log.start(CONFIGURATIONS, n)?;
-            let set = self.log.wait(self.inner.sets.get(&stored.blob))?;
+            let set = self.log.wait(self.benchmarks.sets.get(&stored.blob))?;
             self.log.kept(store.set_of_run(self.attempt, &stored.info, &stored.blob))?;
             self.log.progress(CONFIGURATIONS, n, n)?;
             let again = Some("Saved positions were reused.".to_owned());
@@ -127,20 +127,20 @@ impl<'a> Bench<'a> {
         let poses = file.map(|file| file.poses);
         let Some(set) = self.find(pairing, looking, poses.as_deref())? else { return Ok(None) };
         let seconds = started.elapsed().as_secs_f64();
-        let _keeping = self.log.wait(self.inner.store.locks.keeping())?;
-        let info = self.log.wait(self.inner.sets.keep(&key, [a, b], &set, seconds))?;
+        let _keeping = self.log.wait(self.benchmarks.store.locks.keeping())?;
+        let info = self.log.wait(self.benchmarks.sets.keep(&key, [a, b], &set, seconds))?;
         let blob = info.sha256.clone();
         self.log.kept(store.set_of_run(self.attempt, &info, &blob))?;
         let missed = (info.missed_rays > 0)
             .then(|| format!("On {} rays the requested separation was not reached.", info.missed_rays));
         self.log.end(CONFIGURATIONS, State::Done, sentences([missed, straightened]))?;
-        Ok(Some((self.inner.sets.remember(&blob, set), info)))
+        Ok(Some((self.benchmarks.sets.remember(&blob, set), info)))
     }
 
     /// The run's configuration file, if it has one.
     fn configuration_file(&self) -> Result<Option<ConfigurationFile>> {
         let Method::File { sha256 } = &self.row.spec.method else { return Ok(None) };
-        Ok(Some(configurations::read_file(&self.log.wait(self.inner.blobs.get(sha256))?)?))
+        Ok(Some(configurations::read_file(&self.log.wait(self.benchmarks.blobs.get(sha256))?)?))
     }
 
     /// Finds the set on all CPUs while this thread reports.
@@ -162,7 +162,7 @@ impl<'a> Bench<'a> {
         let gauge = &gauge;
         let beginning = &mut |set: &ConfigurationSet| looking.at_beginning(pairing, set, total);
         let set = thread::scope(|scope| -> Result<_> {
-            let mut way = MakingWay::begin(&self.inner.machine);
+            let mut way = MakingWay::begin(&self.benchmarks.machine);
             let worker = scope.spawn(move || configurations::make(pairing, spec, poses, gauge, Some(beginning)));
             while !worker.is_finished() {
                 thread::sleep(TICK.min(Duration::from_millis(20)));
@@ -172,15 +172,14 @@ impl<'a> Bench<'a> {
                 }
                 // A grid looks for some more than wanted.
                 let done = gauge.done.load(Ordering::Relaxed).min(total);
-                self.inner
-                    .under_way
-                    .estimate(&self.row.id, |it| it.finding(done, total, begun.elapsed().as_secs_f64()));
+                let seconds = begun.elapsed().as_secs_f64();
+                self.benchmarks.live.under_way.estimate(&self.row.id, |it| it.finding(done, total, seconds));
                 self.log.progress_slowly(CONFIGURATIONS, done, total)?;
             }
             let found = worker.join();
             Ok(found.map_err(|_| EngineError::Fault("Finding the configurations failed.".into()))??)
         })?;
-        self.inner.under_way.estimate(&self.row.id, |it| it.finding(total, total, 0.0));
+        self.benchmarks.live.under_way.estimate(&self.row.id, |it| it.finding(total, total, 0.0));
         if set.is_some() {
             self.log.progress(CONFIGURATIONS, total, total)?;
         }
@@ -195,12 +194,13 @@ impl<'a> Bench<'a> {
         info: &SetInfo,
     ) -> Result<Option<Results>> {
         let algorithms = self.algorithms()?;
-        let reference = crate::runs::spec::reference(&self.row.spec, &self.inner.registry);
+        let reference = crate::runs::spec::reference(&self.row.spec, &self.benchmarks.registry);
         let (seed, part) = (draw::seed(&self.row, &info.sha256, &algorithms), Part::of(&self.row.spec, set));
         let task = Task { seed, ..looking.task(pairing, set, part) };
         let (look, draw) = (looking.to_come(), draw::drawn(&self.row, seed));
         let job = Job { task, look, set: info, run: &self.row.id, draw };
-        let place = Place { runner: self.inner.registry.runner(), machine: &self.inner.machine, stop: self.stop };
+        let place =
+            Place { runner: self.benchmarks.registry.runner(), machine: &self.benchmarks.machine, stop: self.stop };
         let name = reference.as_ref().map_or("", |reference| reference.info.name.as_str());
         let log = &mut self.log;
         job::measure(job, &place, &mut |step| {
@@ -215,12 +215,12 @@ impl<'a> Bench<'a> {
 
     /// Everything that preliminary results of this run need.
     fn looking(&self) -> Result<Looking<'a>> {
-        let reference = crate::runs::spec::reference(&self.row.spec, &self.inner.registry);
-        Ok(Looking::new(self.inner, self.stop, &self.row, self.algorithms()?, reference))
+        let reference = crate::runs::spec::reference(&self.row.spec, &self.benchmarks.registry);
+        Ok(Looking::new(self.benchmarks, self.stop, &self.row, self.algorithms()?, reference))
     }
 
     fn algorithms(&self) -> Result<Vec<Arc<Algorithm>>> {
-        self.inner.registry.algorithms_of(&self.row)
+        self.benchmarks.registry.algorithms_of(&self.row)
     }
 }
 

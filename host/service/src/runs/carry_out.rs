@@ -6,54 +6,98 @@ use std::time::Duration;
 use tokio::runtime::Handle;
 
 use crate::attempts::Attempt;
-use crate::engine::Inner;
+use crate::blobs::Blobs;
+use crate::machine::Machine;
 use crate::measure::Stop;
+use crate::objects::Objects;
+use crate::plugins::registry::Registry;
+use crate::results::Results;
 use crate::runs::accept::End;
 use crate::runs::benchmark;
+use crate::runs::current::Work;
+use crate::runs::ends::RunEnds;
+use crate::runs::live::LiveRuns;
 use crate::runs::sql::RunRow;
+use crate::sets::stored::Sets;
+use crate::store::Store;
+use crate::suite::Suite;
 use crate::time_limit::in_time;
-use crate::{EngineError, Result};
+use crate::{Ceilings, EngineError, Result};
 
 /// After a fault of the database.
 pub const BACK_OFF: Duration = Duration::from_secs(2);
 
-/// Carries out an attempt at a run; idle work gives way when more is asked for than was.
-pub async fn carry_out(inner: &Arc<Inner>, attempt: &Attempt, idle: Option<u64>) -> Result<()> {
-    let (id, stop) = (attempt.job.as_str(), Stop::default());
-    let _held = inner.work.begin(attempt, &stop, idle);
-    inner.run_events.queue_moved();
-    let row = inner.store.run_row(id).await?;
-    let shown = inner.live.show(&row);
-    let how = match run_in_time(inner, attempt, &row, &stop).await {
-        // Whoever stopped it need not wait for another attempt.
-        Err(EngineError::Fault(_)) if stop.asked() => Ok(End::Stopped),
-        how => how,
-    };
-    inner.work.unset_current();
-    if let (Ok(End::Stopped), true) = (&how, inner.work.closing() || stop.for_now()) {
-        if inner.store.put_back_run(attempt).await? {
-            inner.run_events.ring(id);
-        }
-        return Ok(());
-    }
-    if let Err(e @ EngineError::Fault(_)) = how {
-        drop(shown);
-        return inner.run_ends.failed_here(attempt, &e).await;
-    }
-    inner.run_ends.ended(attempt, &row, &how, stop.reason().as_deref(), Some(shown)).await.map(|_| ())
+/// The runs that this service measures, or prepares for measuring machines.
+pub struct Benchmarks {
+    pub store: Store,
+    pub blobs: Blobs,
+    pub objects: Arc<Objects>,
+    pub registry: Arc<Registry>,
+    pub sets: Arc<Sets>,
+    pub results: Arc<Results>,
+    pub suite: Arc<Suite>,
+    pub live: Arc<LiveRuns>,
+    pub run_ends: Arc<RunEnds>,
+    pub work: Arc<Work>,
+    pub machine: Machine,
+    pub ceilings: Ceilings,
+    /// Runs are only prepared here.
+    pub elsewhere: bool,
 }
 
-/// Runs the benchmark on a thread of its own, and stops it when its time limit is over.
-async fn run_in_time(inner: &Arc<Inner>, attempt: &Attempt, row: &RunRow, stop: &Stop) -> Result<End> {
-    let (sender, ended) = tokio::sync::oneshot::channel();
-    let (for_run, for_attempt, for_stop, handle) = (inner.clone(), attempt.clone(), stop.clone(), Handle::current());
-    let thread = std::thread::Builder::new().name("run".into()).spawn(move || {
-        let _ = sender.send(benchmark::run(&for_run, &for_attempt, &for_stop, &handle));
-    });
-    thread.map_err(|e| EngineError::fault("Starting the run's thread failed", e))?;
-    let limit = inner.config.ceilings.longest_run(row).map(|longest| (longest, too_long(longest)));
-    // The sender is dropped without a word only when the thread panicked.
-    in_time(ended, stop, limit).await.unwrap_or_else(|_| Err(EngineError::Fault("The run failed; see the log.".into())))
+impl Benchmarks {
+    /// Begins an attempt at the next run: one that somebody asked for, or idle work.
+    pub async fn next(&self, idle: bool) -> Result<Option<Attempt>> {
+        let worker = &self.work.worker;
+        match (self.elsewhere, idle) {
+            (false, false) => self.store.begin_run(worker).await,
+            (false, true) => self.store.begin_idle_run(worker).await,
+            (true, false) => self.store.begin_preparing(worker).await,
+            (true, true) => self.store.begin_preparing_idle(worker).await,
+        }
+    }
+
+    /// Carries out an attempt at a run; idle work gives way to any request after so many.
+    pub async fn carry_out(self: &Arc<Self>, attempt: &Attempt, idle: Option<u64>) -> Result<()> {
+        let (id, stop) = (attempt.job.as_str(), Stop::default());
+        let _held = self.work.begin(attempt, &stop, idle);
+        self.live.run_events.queue_moved();
+        let row = self.store.run_row(id).await?;
+        let shown = self.live.show(&row);
+        let how = match self.run_in_time(attempt, &row, &stop).await {
+            // Whoever stopped it need not wait for another attempt.
+            Err(EngineError::Fault(_)) if stop.asked() => Ok(End::Stopped),
+            how => how,
+        };
+        self.work.unset_current();
+        if let (Ok(End::Stopped), true) = (&how, self.work.closing() || stop.for_now()) {
+            if self.store.put_back_run(attempt).await? {
+                self.live.run_events.ring(id);
+            }
+            return Ok(());
+        }
+        if let Err(e @ EngineError::Fault(_)) = how {
+            drop(shown);
+            return self.run_ends.failed_here(attempt, &e).await;
+        }
+        self.run_ends.ended(attempt, &row, &how, stop.reason().as_deref(), Some(shown)).await.map(|_| ())
+    }
+
+    /// Runs the benchmark on a thread of its own, and stops it when its time limit is over.
+    async fn run_in_time(self: &Arc<Self>, attempt: &Attempt, row: &RunRow, stop: &Stop) -> Result<End> {
+        let (sender, ended) = tokio::sync::oneshot::channel();
+        let (benchmarks, handle) = (self.clone(), Handle::current());
+        let (for_attempt, for_stop) = (attempt.clone(), stop.clone());
+        let thread = std::thread::Builder::new().name("run".into()).spawn(move || {
+            let _ = sender.send(benchmark::run(&benchmarks, &for_attempt, &for_stop, &handle));
+        });
+        thread.map_err(|e| EngineError::fault("Starting the run's thread failed", e))?;
+        let limit = self.ceilings.longest_run(row).map(|longest| (longest, too_long(longest)));
+        // The sender is dropped without a word only when the thread panicked.
+        in_time(ended, stop, limit)
+            .await
+            .unwrap_or_else(|_| Err(EngineError::Fault("The run failed; see the log.".into())))
+    }
 }
 
 /// Why a run that took too long was stopped.

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::engine::Inner;
 use crate::idle::Filling;
-use crate::runs::carry_out::{BACK_OFF, carry_out};
+use crate::runs::carry_out::BACK_OFF;
 
 /// The queue is looked at this often even if nobody rings.
 const IDLE: Duration = Duration::from_secs(30);
@@ -47,13 +47,9 @@ pub async fn work(inner: Arc<Inner>) {
                 true
             }
         };
-        let next = match inner.config.elsewhere {
-            false => inner.store.begin_run(&inner.work.worker).await,
-            true => inner.store.begin_preparing(&inner.work.worker).await,
-        };
-        match next {
+        match inner.benchmarks.next(false).await {
             Ok(Some(attempt)) => {
-                if let Err(e) = carry_out(&inner, &attempt, None).await {
+                if let Err(e) = inner.benchmarks.carry_out(&attempt, None).await {
                     tracing::error!("run {}: {e}", attempt.job);
                     tokio::time::sleep(BACK_OFF).await;
                 }

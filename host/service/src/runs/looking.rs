@@ -8,16 +8,16 @@ use ocb_core::configuration::ConfigurationSet;
 use ocb_lab::algorithm::Algorithm;
 use ocb_lab::pairing::Pairing;
 
-use crate::engine::Inner;
 use crate::machine::MeasuringRight;
 use crate::measure::{self, Part, Preliminary, Stop, Task};
 use crate::model::RunSpec;
+use crate::runs::carry_out::Benchmarks;
 use crate::runs::draw;
 use crate::runs::sql::RunRow;
 
 /// One run while it is looked at.
 pub struct Looking<'a> {
-    inner: &'a Inner,
+    benchmarks: &'a Benchmarks,
     stop: &'a Stop,
     run: String,
     spec: RunSpec,
@@ -38,18 +38,18 @@ pub fn seed(row: &RunRow, algorithms: &[Arc<Algorithm>]) -> Option<u64> {
 impl<'a> Looking<'a> {
     /// Where machines measure, the service looks at no run itself.
     pub fn new(
-        inner: &'a Inner,
+        benchmarks: &'a Benchmarks,
         stop: &'a Stop,
         row: &RunRow,
         algorithms: Vec<Arc<Algorithm>>,
         reference: Option<Arc<Algorithm>>,
     ) -> Self {
         Self {
-            inner,
+            benchmarks,
             stop,
             run: row.id.clone(),
             spec: row.spec.clone(),
-            seed: seed(row, &algorithms).filter(|_| !inner.config.elsewhere),
+            seed: seed(row, &algorithms).filter(|_| !benchmarks.elsewhere),
             algorithms,
             reference,
             looked: AtomicBool::new(false),
@@ -71,19 +71,19 @@ impl<'a> Looking<'a> {
     pub fn at_beginning(&self, pairing: &Pairing, set: &ConfigurationSet, of: u64) {
         let Ok(Some(_right)) = MeasuringRight::try_take() else { return };
         let Some(seed) = self.to_come() else { return };
-        self.inner.under_way.begins_with(&self.run, set.clone());
+        self.benchmarks.live.under_way.begins_with(&self.run, set.clone());
         let task = Task { seed, ..self.task(pairing, set, Part { precision: None, at_most: usize::MAX, of }) };
-        let (runner, machine) = (self.inner.registry.runner(), &self.inner.machine);
+        let (runner, machine) = (self.benchmarks.registry.runner(), &self.benchmarks.machine);
         measure::first_look(&task, runner, machine, self.stop, &mut |place, seen| self.show(place, seen));
     }
 
     /// An algorithm is so far in the rounds.
     pub fn progress(&self, index: usize, done: u64, total: u64, worked: Duration) {
-        self.inner.live.progress(&self.run, index, done, total, worked);
+        self.benchmarks.live.progress(&self.run, index, done, total, worked);
     }
 
     /// The algorithm at this place of the run's list has something to show.
     pub fn show(&self, place: usize, seen: Preliminary) {
-        self.inner.live.seen(&self.run, place, seen);
+        self.benchmarks.live.seen(&self.run, place, seen);
     }
 }
