@@ -29,7 +29,7 @@ use crate::model::{
 use crate::notices::notice;
 use crate::plugins::sql::THE_SERVICE;
 use crate::requests::Made;
-use crate::runs::RunContext;
+use crate::runs::asking::RunContext;
 use crate::runs::log::plain_event;
 use crate::runs::priority::BACKGROUND;
 use crate::store::now_us;
@@ -176,7 +176,7 @@ impl Engine {
                     rerun_of: due.repeats.as_ref().map(|run| run.id.as_str()),
                     ..RunContext::default()
                 };
-                match self.enqueue(due.spec.clone(), asking).await {
+                match inner.runs.enqueue(due.spec.clone(), asking).await {
                     Err(e) if due.can_be_left_out(&e) => {
                         tracing::warn!("campaign {id}: a run cannot be repeated: {e}");
                     }

@@ -17,6 +17,7 @@ use crate::owned::items::Owned;
 use crate::plugins::checks::Checks;
 use crate::plugins::registry::Registry;
 use crate::results::Results;
+use crate::runs::asking::Runs;
 use crate::runs::carry_out::Benchmarks;
 use crate::runs::current::Work;
 use crate::runs::ends::RunEnds;
@@ -65,6 +66,7 @@ pub struct Inner {
     pub run_ends: Arc<RunEnds>,
     pub work: Arc<Work>,
     pub tasks: Arc<Tasks>,
+    pub runs: Arc<Runs>,
     pub benchmarks: Arc<Benchmarks>,
     pub checks: Arc<Checks>,
     pub stability: Arc<StabilityRuns>,

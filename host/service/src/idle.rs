@@ -9,13 +9,13 @@ pub mod sql;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::engine::{Engine, Inner};
+use crate::engine::Inner;
 use crate::examples::next_example;
 use crate::idle::sql::{Tried, TriedSet};
 use crate::locks::Lock;
 use crate::model::{AlgorithmInfo, ExampleWork, RunSpec, StabilitySpec, State};
 use crate::plugins::registry::Registry;
-use crate::runs::RunContext;
+use crate::runs::asking::RunContext;
 use crate::runs::priority::IDLE;
 use crate::stability::runs_sql::StabilityRow;
 use crate::store::{Store, now_us};
@@ -99,9 +99,8 @@ async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
 }
 
 async fn queue_run(inner: &Arc<Inner>, spec: RunSpec, tried: &[Tried], suite: Option<&str>) -> Result<()> {
-    let engine = Engine { inner: inner.clone() };
     let context = RunContext { priority: IDLE, suite, ..RunContext::default() };
-    note(&inner.store, engine.enqueue(spec, context).await.map(|(run, _)| run), tried).await
+    note(&inner.store, inner.runs.enqueue(spec, context).await.map(|(run, _)| run), tried).await
 }
 
 /// Notes what was tried and in which run or advice. What cannot be asked for is not asked for again.

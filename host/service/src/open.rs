@@ -20,6 +20,7 @@ use crate::owned::items::Owned;
 use crate::plugins::checks::Checks;
 use crate::plugins::registry::Registry;
 use crate::results::Results;
+use crate::runs::asking::Runs;
 use crate::runs::carry_out::Benchmarks;
 use crate::runs::current::Work;
 use crate::runs::dispatcher;
@@ -123,6 +124,16 @@ impl Engine {
             ceilings: config.ceilings,
             elsewhere: config.elsewhere,
         });
+        let runs = Arc::new(Runs {
+            store: store.clone(),
+            blobs: blobs.clone(),
+            objects: objects.clone(),
+            registry: registry.clone(),
+            classes: classes.clone(),
+            run_events: run_events.clone(),
+            work: work.clone(),
+            ceilings: config.ceilings,
+        });
         let recordings = Arc::new(Recordings::new(blobs.clone(), config.data.clone()));
         let replays = Arc::new(Replays {
             store: store.clone(),
@@ -157,6 +168,7 @@ impl Engine {
             run_ends,
             live,
             orders,
+            runs,
             benchmarks,
             tasks,
             charts: Charts::new(store.clone(), objects.clone(), results.clone(), machine.clone(), registry.profile()),

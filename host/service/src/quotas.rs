@@ -8,6 +8,7 @@ use std::time::Duration;
 use crate::config::Ceilings;
 use crate::engine::Engine;
 use crate::model::{Owner, RunSpec, WorkloadSpec};
+use crate::runs::asking::Runs;
 use crate::runs::queue::Granted;
 use crate::runs::sql::RunRow;
 use crate::{EngineError, Result};
@@ -134,24 +135,26 @@ pub(crate) fn granted(spec: &RunSpec) -> f64 {
     spec.budget_seconds * spec.algorithms.len() as f64
 }
 
-impl Engine {
+impl Runs {
     /// # Errors
     /// `Invalid` when the run alone exceeds a limit, `TooMuch` when it does so together with the queued and running ones.
     pub(crate) async fn has_room_for_a_run(&self, row: &RunRow) -> Result<()> {
         let Some((owner, kind)) = row.owner.as_deref().and_then(|owner| Some((owner, kind(owner)?))) else {
             return Ok(());
         };
-        let ceilings = &self.inner.config.ceilings;
+        let ceilings = &self.ceilings;
         ceilings.may_be_asked_for(owner, &row.spec, row.expected_seconds)?;
-        let own = self.inner.store.granted_to(owner).await?;
+        let own = self.store.granted_to(owner).await?;
         room(kind, own, row, ceilings.of(kind))?;
         if let Some(address) = &row.address {
-            let all = self.inner.store.granted_at(address).await?;
+            let all = self.store.granted_at(address).await?;
             room(Kind::Address, all, row, ceilings.of(Kind::Address))?;
         }
         Ok(())
     }
+}
 
+impl Engine {
     /// # Errors
     /// `Busy` when the objects, saved configurations and recordings of this owner would have too many bytes with these.
     pub(crate) async fn has_room_for_a_file(&self, owner: Option<&str>, bytes: usize) -> Result<()> {

@@ -1,6 +1,7 @@
 //! Asking for runs, looking at them and ending them.
 
 pub mod accept;
+pub mod asking;
 pub mod benchmark;
 pub mod carry_out;
 pub mod current;
@@ -32,37 +33,16 @@ use std::time::{Duration, Instant};
 use crate::boxed;
 use crate::engine::Engine;
 use crate::locks::Lock;
-use crate::model::{AccountInfo, Cursor, Page, Part, Role, RunInfo, RunSpec, Stage, State, Visibility};
-use crate::quotas::{Visitor, granted, turn};
+use crate::model::{AccountInfo, Cursor, Page, Part, Role, RunInfo, RunSpec, Stage, State};
+use crate::quotas::{Visitor, granted};
+use crate::runs::asking::RunContext;
 use crate::runs::log::{fresh_stages, plain_event};
 use crate::runs::priority::INTERACTIVE;
 use crate::runs::sql::RunRow;
-use crate::store::now_us;
 use crate::{EngineError, Result};
 
 /// How long `cancel` waits for a run under way to end before it answers.
 const CANCEL_PATIENCE: Duration = Duration::from_secs(3);
-
-/// Who asks for a run, and what for.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct RunContext<'a> {
-    /// Who owns it; the service when nobody does.
-    pub owner: Option<&'a str>,
-    /// Network of the request.
-    pub address: Option<&'a str>,
-    /// Smaller is served first.
-    pub priority: i64,
-    /// For the start page.
-    pub featured: bool,
-    /// The request's name.
-    pub key: Option<&'a str>,
-    /// The suite that it belongs to.
-    pub suite: Option<&'a str>,
-    /// The campaign that it belongs to.
-    pub campaign: Option<&'a str>,
-    /// The run that it repeats there.
-    pub rerun_of: Option<&'a str>,
-}
 
 impl Engine {
     /// Checks the spec and queues the run.
@@ -80,74 +60,8 @@ impl Engine {
     }
 
     pub(crate) async fn queue(&self, spec: RunSpec, asking: RunContext<'_>) -> Result<(RunInfo, bool)> {
-        let (id, new) = self.enqueue(spec, asking).await?;
+        let (id, new) = self.inner.runs.enqueue(spec, asking).await?;
         self.run(&id, asking.owner).await.map(|run| (run, new))
-    }
-
-    /// The same, for who needs its id alone.
-    pub(crate) async fn enqueue(&self, spec: RunSpec, asking: RunContext<'_>) -> Result<(String, bool)> {
-        let RunContext { owner, address, priority, featured, key, suite, campaign, rerun_of } = asking;
-        let checked = self.check(&spec, owner).await?;
-        let asked_before = match (owner, key) {
-            (Some(owner), Some(key)) => self.inner.store.run_of_request(owner, key).await?.is_some(),
-            _ => false,
-        };
-        let expected = estimate::estimate_alone(&self.inner, &checked).await?;
-        let row = RunRow {
-            id: uuid::Uuid::now_v7().to_string(),
-            owner: owner.map(str::to_owned),
-            featured,
-            private: checked.algorithms.iter().any(|c| self.inner.registry.is_private(c)),
-            // The service's own runs are for everybody.
-            visibility: if priority == INTERACTIVE { Visibility::default() } else { Visibility::Public },
-            priority,
-            turn: owner.filter(|_| campaign.is_none()).map_or_else(String::new, |owner| turn(owner, address)),
-            address: address.map(str::to_owned),
-            granted_seconds: granted(&checked.spec),
-            suite: suite.map(str::to_owned),
-            campaign: campaign.map(str::to_owned),
-            rerun_of: rerun_of.map(str::to_owned),
-            state: State::Queued,
-            attempts: 0,
-            message: None,
-            object_a_name: checked.object_a.name,
-            object_b_name: checked.object_b.name,
-            set: None,
-            set_blob: None,
-            environment: None,
-            preview: None,
-            secret: Some(draw::secret()),
-            expected_seconds: expected.total_seconds,
-            created_us: now_us(),
-            finished_us: None,
-            spec: checked.spec,
-        };
-        // Two concurrent requests must not share the last of a quota.
-        let _alone = self.inner.store.locks.alone(Lock::Admission).await?;
-        if !asked_before && campaign.is_none() {
-            self.has_room_for_a_run(&row).await?;
-        }
-        if !self.inner.store.add_run(&row, &fresh_stages(&row.spec.algorithms), key).await? {
-            return self.asked_before(&row, key.unwrap_or_default()).await.map(|run| (run, false));
-        }
-        self.inner.run_events.queue_moved();
-        self.inner.work.call();
-        Ok((row.id, true))
-    }
-
-    /// The run that was asked for under the key of this one, or that repeats the same one in its campaign.
-    async fn asked_before(&self, row: &RunRow, key: &str) -> Result<String> {
-        let missing = || EngineError::Fault("The run was lost while it was being stored.".into());
-        if let (Some(campaign), Some(repeated)) = (&row.campaign, &row.rerun_of) {
-            return Ok(self.inner.store.repeat_of(campaign, repeated).await?.ok_or_else(missing)?.id);
-        }
-        let owner = row.owner.as_deref().unwrap_or_default();
-        let known = self.inner.store.run_of_request(owner, key).await?.ok_or_else(missing)?;
-        if known.spec != row.spec {
-            let told = format!("The key {key:?} was used for another run; use a new key for each run.");
-            return Err(EngineError::Invalid(told));
-        }
-        Ok(known.id)
     }
 
     /// Queues a preview's run for all of its configurations. It stays the same run; its numbers are a preview's until those
@@ -164,13 +78,13 @@ impl Engine {
             return Err(nothing());
         }
         let whole = RunSpec { precision: None, at_most: None, ..row.spec.clone() };
-        let checked = self.check(&whole, caller).await?;
-        let expected_seconds = estimate::estimate_alone(&self.inner, &checked).await?.total_seconds;
+        let checked = self.inner.runs.check(&whole, caller).await?;
+        let expected_seconds = self.inner.runs.estimate_alone(&checked).await?.total_seconds;
         // The old secret is known by now.
         let granted_seconds = granted(&checked.spec);
         let row = RunRow { spec: checked.spec, secret: Some(draw::secret()), expected_seconds, granted_seconds, ..row };
         let _alone = self.inner.store.locks.alone(Lock::Admission).await?;
-        self.has_room_for_a_run(&row).await?;
+        self.inner.runs.has_room_for_a_run(&row).await?;
         if !self.inner.store.queue_again(&row, &fresh_stages(&row.spec.algorithms)).await? {
             return Err(nothing());
         }

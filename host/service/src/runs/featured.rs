@@ -7,7 +7,7 @@ use crate::Result;
 use crate::engine::Engine;
 use crate::locks::Lock;
 use crate::model::RunSpec;
-use crate::runs::RunContext;
+use crate::runs::asking::RunContext;
 use crate::runs::priority::BACKGROUND;
 
 /// Configurations of the quick run.

@@ -10,7 +10,7 @@ use crate::idle::sql::Tried;
 use crate::locks::Lock;
 use crate::model::{AlgorithmInfo, PluginState, RunInfo, RunSpec, SuiteInfo, SuiteProgress};
 use crate::plugins::registry::Registry;
-use crate::runs::RunContext;
+use crate::runs::asking::RunContext;
 use crate::runs::priority::BACKGROUND;
 use crate::suite::known::{AllKnown, Known};
 use crate::{EngineError, Result};
