@@ -77,7 +77,7 @@ pub struct Inner {
     pub replays: Arc<Replays>,
     pub advices: Arc<Advices>,
     /// Whether this service does the work that one service does for all on the database.
-    pub house: House,
+    pub house: Arc<House>,
     pub outbox: Arc<Outbox>,
     pub owned: Owned,
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::advice::work::{Advices, Sources};
-use crate::attempts::{beat, lost};
+use crate::attempts::beat::Leases;
 use crate::blobs::Blobs;
 use crate::boxed;
 use crate::campaigns::course::Campaigns;
@@ -134,6 +134,7 @@ impl Engine {
             work: work.clone(),
             ceilings: config.ceilings,
         });
+        let house: Arc<House> = Arc::default();
         let recordings = Arc::new(Recordings::new(blobs.clone(), config.data.clone()));
         let replays = Arc::new(Replays {
             store: store.clone(),
@@ -157,6 +158,15 @@ impl Engine {
             quick: config.quick_advice,
         };
         let advices = Arc::new(Advices::new(sources, work.clone(), tasks.clone()));
+        let leases = Leases {
+            store: store.clone(),
+            work: work.clone(),
+            classes: classes.clone(),
+            house: house.clone(),
+            run_ends: run_ends.clone(),
+            advices: advices.clone(),
+            outbox: outbox.clone(),
+        };
         let inner = Arc::new(Inner {
             work,
             checks,
@@ -177,7 +187,7 @@ impl Engine {
             run_events,
             classes,
             suite,
-            house: House::default(),
+            house: house.clone(),
             owned: Owned {
                 store: store.clone(),
                 blobs: blobs.clone(),
@@ -199,7 +209,7 @@ impl Engine {
         engine.inner.classes.learn_from(&engine.inner.store).await?;
         if engine.inner.config.dispatch {
             engine.inner.store.believe_machines().await?;
-            lost::take_back(&engine.inner, Some(&engine.inner.work.worker)).await?;
+            leases.take_back(Some(&engine.inner.work.worker)).await?;
             engine.open_house().await?;
             engine.inner.tasks.spawn(dispatcher::work(engine.inner.clone()));
             engine.inner.tasks.spawn(engine.clone().sweep());
@@ -210,10 +220,16 @@ impl Engine {
                 engine.inner.tasks.spawn(engine.clone().supply(jobs));
             }
         }
-        engine.inner.tasks.spawn(beat::beat(engine.inner.clone()));
+        engine.inner.tasks.spawn(leases.beat());
         #[cfg(feature = "postgres")]
         if let Some(url) = engine.inner.config.postgres_url() {
-            engine.inner.tasks.listen(crate::runs::hear::hear(engine.inner.clone(), url.to_owned()));
+            let notifications = crate::runs::hear::Notifications {
+                work: engine.inner.work.clone(),
+                outbox: engine.inner.outbox.clone(),
+                live: engine.inner.live.clone(),
+                orders: engine.inner.orders.clone(),
+            };
+            engine.inner.tasks.listen(notifications.hear(url.to_owned()));
         }
         Ok(engine)
     }

@@ -3,35 +3,54 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::lost;
-use crate::engine::Inner;
+use crate::advice::work::Advices;
+use crate::classes::Classes;
+use crate::house::House;
+use crate::mail::outbox::Outbox;
+use crate::runs::current::Work;
+use crate::runs::ends::RunEnds;
+use crate::store::Store;
 
 /// How often leases are renewed: several beats may be late before a lease is over.
 const BEAT: Duration = Duration::from_secs(5);
 
-/// Renews the leases of this process and, while it keeps house, takes back attempts of workers that are gone; until the engine
-/// closes.
-pub async fn beat(inner: Arc<Inner>) {
-    while !inner.work.closing() {
-        tokio::select! {
-            () = tokio::time::sleep(BEAT) => {}
-            () = inner.work.holding.look.notified() => {}
-            () = inner.work.holding.closed.notified() => return,
-        }
-        for attempt in inner.work.holding.ids() {
-            match inner.store.beat(&attempt).await {
-                Ok(true) => {}
-                Ok(false) => inner.work.holding.stop(&attempt),
-                Err(e) => tracing::warn!("the lease of the attempt {attempt} was not renewed: {e}"),
+/// The leases of attempts: those of this process, and those of workers that may be gone.
+pub struct Leases {
+    pub store: Store,
+    pub work: Arc<Work>,
+    pub classes: Arc<Classes>,
+    pub house: Arc<House>,
+    /// Who hears of attempts that were lost.
+    pub run_ends: Arc<RunEnds>,
+    pub advices: Arc<Advices>,
+    pub outbox: Arc<Outbox>,
+}
+
+impl Leases {
+    /// Renews the leases of this process and, while it keeps house, takes back attempts of workers that are gone; until the engine
+    /// closes.
+    pub async fn beat(self) {
+        while !self.work.closing() {
+            tokio::select! {
+                () = tokio::time::sleep(BEAT) => {}
+                () = self.work.holding.look.notified() => {}
+                () = self.work.holding.closed.notified() => return,
             }
-        }
-        if let Err(e) = inner.classes.learn_from(&inner.store).await {
-            tracing::warn!("the hardware classes of the measuring machines are not known: {e}");
-        }
-        if inner.house.is_here()
-            && let Err(e) = lost::take_back(&inner, None).await
-        {
-            tracing::error!("attempts of lost workers could not be taken back: {e}");
+            for attempt in self.work.holding.ids() {
+                match self.store.beat(&attempt).await {
+                    Ok(true) => {}
+                    Ok(false) => self.work.holding.stop(&attempt),
+                    Err(e) => tracing::warn!("the lease of the attempt {attempt} was not renewed: {e}"),
+                }
+            }
+            if let Err(e) = self.classes.learn_from(&self.store).await {
+                tracing::warn!("the hardware classes of the measuring machines are not known: {e}");
+            }
+            if self.house.is_here()
+                && let Err(e) = self.take_back(None).await
+            {
+                tracing::error!("attempts of lost workers could not be taken back: {e}");
+            }
         }
     }
 }

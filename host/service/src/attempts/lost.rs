@@ -1,11 +1,9 @@
 //! Attempts whose worker is gone: their jobs wait again, or are given up.
 
-use std::sync::Arc;
-
+use super::beat::Leases;
 use super::worker::Worker;
 use super::{Attempt, Kind, MOST_LOST, sql};
 use crate::Result;
-use crate::engine::Inner;
 use crate::model::State;
 use crate::plugins::checks;
 use crate::runs::events_sql::append_event;
@@ -13,36 +11,38 @@ use crate::runs::log::plain_event;
 use crate::runs::sql::{find_run, state_name};
 use crate::store::{Store, now_us};
 
-/// Takes back attempts whose lease is over, and all of this machine if it has just started: its former process is dead then. What
-/// this process works on itself is never judged by a clock: a machine that slept goes on.
-pub async fn take_back(inner: &Arc<Inner>, just_started: Option<&Worker>) -> Result<()> {
-    inner.store.shorten_leases().await?;
-    let mut advice = just_started.is_some();
-    let mut checks = just_started.is_some();
-    for attempt in inner.store.silent_attempts(just_started).await? {
-        if inner.work.holding.has(&attempt) {
-            continue;
+impl Leases {
+    /// Takes back attempts whose lease is over, and all of this machine if it has just started: its former process is dead then.
+    /// What this process works on itself is never judged by a clock: a machine that slept goes on.
+    pub async fn take_back(&self, just_started: Option<&Worker>) -> Result<()> {
+        self.store.shorten_leases().await?;
+        let mut advice = just_started.is_some();
+        let mut checks = just_started.is_some();
+        for attempt in self.store.silent_attempts(just_started).await? {
+            if self.work.holding.has(&attempt) {
+                continue;
+            }
+            let Attempt { kind, job, number, .. } = &attempt;
+            let lost = match kind {
+                Kind::Prepare | Kind::Measure => self.run_ends.lose(&attempt, just_started).await?.is_some(),
+                Kind::Check => self.store.lose_check(&attempt, just_started).await?,
+                Kind::Stability | Kind::Replay | Kind::Advise => self.store.lose(&attempt, just_started).await?,
+            };
+            if lost {
+                tracing::warn!("the worker of attempt {number} at {job} ({}) is gone", kind.name());
+                advice |= *kind == Kind::Advise;
+                checks |= *kind == Kind::Check;
+                self.work.wake.notify_one();
+            }
         }
-        let Attempt { kind, job, number, .. } = &attempt;
-        let lost = match kind {
-            Kind::Prepare | Kind::Measure => inner.run_ends.lose(&attempt, just_started).await?.is_some(),
-            Kind::Check => inner.store.lose_check(&attempt, just_started).await?,
-            Kind::Stability | Kind::Replay | Kind::Advise => inner.store.lose(&attempt, just_started).await?,
-        };
-        if lost {
-            tracing::warn!("the worker of attempt {number} at {job} ({}) is gone", kind.name());
-            advice |= *kind == Kind::Advise;
-            checks |= *kind == Kind::Check;
-            inner.work.wake.notify_one();
+        if checks {
+            checks::give_up(&self.store, &self.outbox).await?;
         }
+        if advice {
+            self.advices.take_up().await?;
+        }
+        Ok(())
     }
-    if checks {
-        checks::give_up(&inner.store, &inner.outbox).await?;
-    }
-    if advice {
-        inner.advices.take_up().await?;
-    }
-    Ok(())
 }
 
 impl Store {

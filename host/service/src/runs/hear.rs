@@ -10,7 +10,10 @@ use sqlx::postgres::PgListener;
 use tokio::sync::{Notify, mpsc};
 
 use crate::Result;
-use crate::engine::Inner;
+use crate::machines::under_way::Orders;
+use crate::mail::outbox::Outbox;
+use crate::runs::current::Work;
+use crate::runs::live::LiveRuns;
 use crate::runs::preliminary::Shown;
 use crate::store::{Store, from_json};
 
@@ -26,91 +29,107 @@ const SHOWN: Duration = Duration::from_secs(120);
 /// How long until what failed is tried again.
 const AGAIN: Duration = Duration::from_secs(1);
 
-/// Wakes those who follow runs, those who work and those who bring mails, offers the plugins that others offer, and shows what
-/// machines tell others; until it is aborted.
-pub async fn hear(inner: Arc<Inner>, url: String) {
-    let plugins = Notify::new();
-    let (seen, mut shown) = mpsc::channel(MOST_SEEN);
-    let listening = async {
-        loop {
-            if let Err(e) = listen(&inner, &url, &plugins, &seen).await {
-                tracing::warn!("changes by other services are noticed late: {e}");
-            }
-            tokio::time::sleep(AGAIN).await;
-        }
-    };
-    // Apart, because files may have to be fetched.
-    let renewing = async {
-        loop {
-            plugins.notified().await;
-            if let Err(e) = inner.registry.renew().await {
-                tracing::error!("plugins that another service offers are not offered here yet: {e}");
+/// What notifications from other services concern.
+pub struct Notifications {
+    pub work: Arc<Work>,
+    pub outbox: Arc<Outbox>,
+    pub live: Arc<LiveRuns>,
+    pub orders: Arc<Orders>,
+}
+
+impl Notifications {
+    /// Wakes those who follow runs, those who work and those who bring mails, offers the plugins that others offer, and shows what
+    /// machines tell others; until it is aborted.
+    pub async fn hear(self, url: String) {
+        let plugins = Notify::new();
+        let (seen, mut shown) = mpsc::channel(MOST_SEEN);
+        let listening = async {
+            loop {
+                if let Err(e) = self.listen(&url, &plugins, &seen).await {
+                    tracing::warn!("changes by other services are noticed late: {e}");
+                }
                 tokio::time::sleep(AGAIN).await;
-                plugins.notify_one();
             }
-        }
-    };
-    // Apart, because it may be large.
-    let showing = async {
-        let mut elsewhere = HashMap::new();
-        while let Some(told) = shown.recv().await {
-            if let Err(e) = show(&inner, &mut elsewhere, &told).await {
-                tracing::warn!("what a machine told another service is not shown here: {e}");
-            }
-        }
-    };
-    tokio::join!(listening, renewing, showing);
-}
-
-async fn listen(inner: &Inner, url: &str, plugins: &Notify, seen: &mpsc::Sender<String>) -> sqlx::Result<()> {
-    let mut listener = PgListener::connect(url).await?;
-    listener.listen_all([RUNS, PLUGINS, MAILS, SEEN]).await?;
-    // Earlier changes were missed.
-    everything(inner, plugins);
-    loop {
-        // `None`: the connection was lost and made again.
-        let Some(told) = listener.try_recv().await? else {
-            everything(inner, plugins);
-            continue;
         };
-        match (told.channel(), told.payload()) {
-            (RUNS, "") => changed(inner),
-            (RUNS, run) => inner.run_events.ring(run),
-            (PLUGINS, _) => {
-                plugins.notify_one();
-                changed(inner);
+        // Apart, because files may have to be fetched.
+        let renewing = async {
+            loop {
+                plugins.notified().await;
+                if let Err(e) = self.live.registry.renew().await {
+                    tracing::error!("plugins that another service offers are not offered here yet: {e}");
+                    tokio::time::sleep(AGAIN).await;
+                    plugins.notify_one();
+                }
             }
-            (MAILS, _) => inner.outbox.post_soon(),
-            (SEEN, told) => drop(seen.try_send(told.to_owned())),
-            _ => {}
+        };
+        // Apart, because it may be large.
+        let showing = async {
+            let mut elsewhere = HashMap::new();
+            while let Some(told) = shown.recv().await {
+                if let Err(e) = self.show(&mut elsewhere, &told).await {
+                    tracing::warn!("what a machine told another service is not shown here: {e}");
+                }
+            }
+        };
+        tokio::join!(listening, renewing, showing);
+    }
+
+    async fn listen(&self, url: &str, plugins: &Notify, seen: &mpsc::Sender<String>) -> sqlx::Result<()> {
+        let mut listener = PgListener::connect(url).await?;
+        listener.listen_all([RUNS, PLUGINS, MAILS, SEEN]).await?;
+        // Earlier changes were missed.
+        self.everything(plugins);
+        loop {
+            // `None`: the connection was lost and made again.
+            let Some(told) = listener.try_recv().await? else {
+                self.everything(plugins);
+                continue;
+            };
+            match (told.channel(), told.payload()) {
+                (RUNS, "") => self.changed(),
+                (RUNS, run) => self.live.run_events.ring(run),
+                (PLUGINS, _) => {
+                    plugins.notify_one();
+                    self.changed();
+                }
+                (MAILS, _) => self.outbox.post_soon(),
+                (SEEN, told) => drop(seen.try_send(told.to_owned())),
+                _ => {}
+            }
         }
     }
-}
 
-/// A job is in another state: the queue has moved, and what this process works on may have been cancelled.
-fn changed(inner: &Inner) {
-    inner.run_events.queue_moved();
-    inner.work.wake.notify_one();
-    inner.work.holding.look.notify_one();
-}
+    fn everything(&self, plugins: &Notify) {
+        plugins.notify_one();
+        self.outbox.post_soon();
+        self.changed();
+    }
 
-/// Shows what a machine told another service: the words of its notification. `elsewhere` are the attempts that are shown so.
-async fn show(inner: &Inner, elsewhere: &mut HashMap<String, Shown>, told: &str) -> Result<()> {
-    let words: Vec<&str> = told.splitn(4, ' ').collect();
-    let &[run, place, attempt, service] = &words[..] else { return Ok(()) };
-    let Ok(place) = place.parse() else { return Ok(()) };
-    if service == inner.work.worker.machine {
-        return Ok(());
+    /// A job is in another state: the queue has moved, and what this process works on may have been cancelled.
+    fn changed(&self) {
+        self.live.run_events.queue_moved();
+        self.work.wake.notify_one();
+        self.work.holding.look.notify_one();
     }
-    let Some(Seen { place, preliminary }) = inner.store.seen(run, place, attempt).await? else { return Ok(()) };
-    // The machine may have been heard from here before.
-    if !inner.orders.heard(attempt) {
-        let row = inner.store.run_row(run).await?;
-        elsewhere.retain(|_, shown| shown.is_heard());
-        elsewhere.entry(attempt.to_owned()).or_insert_with(|| inner.live.show(&row)).heard(SHOWN);
+
+    /// Shows what a machine told another service: the words of its notification. `elsewhere` are the attempts that are shown so.
+    async fn show(&self, elsewhere: &mut HashMap<String, Shown>, told: &str) -> Result<()> {
+        let words: Vec<&str> = told.splitn(4, ' ').collect();
+        let &[run, place, attempt, service] = &words[..] else { return Ok(()) };
+        let Ok(place) = place.parse() else { return Ok(()) };
+        if service == self.work.worker.machine {
+            return Ok(());
+        }
+        let Some(Seen { place, preliminary }) = self.live.store.seen(run, place, attempt).await? else { return Ok(()) };
+        // The machine may have been heard from here before.
+        if !self.orders.heard(attempt) {
+            let row = self.live.store.run_row(run).await?;
+            elsewhere.retain(|_, shown| shown.is_heard());
+            elsewhere.entry(attempt.to_owned()).or_insert_with(|| self.live.show(&row)).heard(SHOWN);
+        }
+        self.live.seen(run, place, preliminary);
+        Ok(())
     }
-    inner.live.seen(run, place, preliminary);
-    Ok(())
 }
 
 impl Store {
@@ -121,10 +140,4 @@ impl Store {
         let found: Option<String> = query.fetch_optional(&self.pool).await?;
         found.as_deref().map(from_json).transpose()
     }
-}
-
-fn everything(inner: &Inner, plugins: &Notify) {
-    plugins.notify_one();
-    inner.outbox.post_soon();
-    changed(inner);
 }
