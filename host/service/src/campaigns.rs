@@ -20,7 +20,7 @@ use crate::boxed;
 use crate::campaigns::compare::side_by_side;
 use crate::campaigns::course::Campaigns;
 use crate::campaigns::sql::CampaignRow;
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::locks::Lock;
 use crate::model::{
     AccountInfo, CampaignInfo, CampaignPreview, CampaignRequest, CampaignRuns, Compared, Cursor, Owner, Page, Part,
@@ -139,7 +139,7 @@ impl Engine {
     pub async fn campaign(&self, id: &str, viewer: Option<&str>) -> Result<CampaignInfo> {
         // The state before the results: where it is the end, they are all of them.
         let info = self.inner.campaigns.campaign_info(self.inner.campaigns.campaign_row(id).await?).await?;
-        let Inner { store, objects, .. } = &*self.inner;
+        let (store, objects) = (&self.inner.store, &self.inner.objects);
         let results = side_by_side(store, objects, &store.campaign_runs(id).await?, viewer).await?;
         Ok(CampaignInfo { results, ..info })
     }

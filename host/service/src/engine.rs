@@ -14,18 +14,15 @@ use crate::machines::under_way::Orders;
 use crate::mail::outbox::Outbox;
 use crate::objects::Objects;
 use crate::owned::items::Owned;
-use crate::plugins::checks::Checks;
 use crate::plugins::registry::Registry;
 use crate::results::Results;
 use crate::runs::asking::Runs;
-use crate::runs::carry_out::Benchmarks;
 use crate::runs::current::Work;
 use crate::runs::ends::RunEnds;
 use crate::runs::live::LiveRuns;
 use crate::runs::log::RunEvents;
 use crate::runs::preliminary::UnderWay;
 use crate::sets::stored::Sets;
-use crate::stability::work::StabilityRuns;
 use crate::store::Store;
 use crate::suite::Suite;
 use crate::suite::known::SuiteRuns;
@@ -44,7 +41,7 @@ pub struct Engine {
     pub(crate) inner: Arc<Inner>,
 }
 
-/// What all parts of one engine share.
+/// The parts of one engine; each holds those that it needs.
 pub struct Inner {
     pub config: EngineConfig,
     pub store: Store,
@@ -67,9 +64,6 @@ pub struct Inner {
     pub work: Arc<Work>,
     pub tasks: Arc<Tasks>,
     pub runs: Arc<Runs>,
-    pub benchmarks: Arc<Benchmarks>,
-    pub checks: Arc<Checks>,
-    pub stability: Arc<StabilityRuns>,
     pub sets: Arc<Sets>,
     pub results: Arc<Results>,
     pub charts: Charts,

@@ -1,14 +1,14 @@
 //! The examples of the start page: measured on this machine while the service is idle, never stored pictures.
 
+use std::path::Path;
 use std::sync::LazyLock;
 
 use crate::boxed;
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::idle::sql::{Tried, TriedSet};
-use crate::machine::Machine;
 use crate::model::{Example, ExampleInfo, ExampleWork};
 use crate::plugins::registry::Registry;
-use crate::{EngineConfig, EngineError, Result};
+use crate::{EngineError, Result};
 
 static EXAMPLES: LazyLock<Vec<Example>> =
     LazyLock::new(|| serde_json::from_str(include_str!("examples/examples.json")).expect("examples.json is tested"));
@@ -17,10 +17,10 @@ impl Engine {
     /// The examples that this service has measured or will measure, each with its run where there is one.
     #[boxed]
     pub async fn examples(&self) -> Result<Vec<ExampleInfo>> {
-        let Inner { store, registry, config, machine, .. } = &*self.inner;
+        let (store, config) = (&self.inner.store, &self.inner.config);
         let mut all = Vec::new();
-        for example in possible_examples(registry, config) {
-            match store.run_that_tried(&as_tried(machine, &example)).await? {
+        for example in possible_examples(&self.inner.registry, &config.advisor) {
+            match store.run_that_tried(&as_tried(&self.inner.machine.hardware_class, &example)).await? {
                 Some(id) => match self.found(example, &id).await {
                     Ok(found) => all.push(found),
                     // It could not be queued, or was deleted.
@@ -49,30 +49,31 @@ impl Engine {
 /// runs, and comes after them.
 pub fn next_example(
     registry: &Registry,
-    config: &EngineConfig,
-    machine: &Machine,
+    advisor: &Path,
+    hardware_class: &str,
     tried: &TriedSet,
 ) -> Option<(ExampleWork, Tried)> {
-    let all =
-        possible_examples(registry, config).into_iter().map(|example| (as_tried(machine, &example), example.work));
+    let all = possible_examples(registry, advisor)
+        .into_iter()
+        .map(|example| (as_tried(hardware_class, &example), example.work));
     let (runs, advice): (Vec<_>, Vec<_>) =
         all.filter(|(entry, _)| !tried.contains(entry)).partition(|(_, work)| matches!(work, ExampleWork::Run { .. }));
     runs.into_iter().chain(advice).next().map(|(entry, work)| (work, entry))
 }
 
-/// Those whose algorithms are installed, or the advisor.
-fn possible_examples(registry: &Registry, config: &EngineConfig) -> Vec<Example> {
+/// Those whose algorithms are installed, or the advisor's program.
+fn possible_examples(registry: &Registry, advisor: &Path) -> Vec<Example> {
     let installed = registry.installed();
     let has = |id: &String| installed.iter().any(|algorithm| algorithm.id == *id);
     let possible = |example: &&Example| match &example.work {
         ExampleWork::Run { spec, .. } => spec.algorithms.iter().all(has),
-        ExampleWork::Advice { .. } => config.advisor.exists(),
+        ExampleWork::Advice { .. } => advisor.exists(),
     };
     EXAMPLES.iter().filter(possible).cloned().collect()
 }
 
-fn as_tried(machine: &Machine, example: &Example) -> Tried {
-    Tried::apart(&format!("example {}, class {}", example.id, machine.hardware_class))
+fn as_tried(hardware_class: &str, example: &Example) -> Tried {
+    Tried::apart(&format!("example {}, class {hardware_class}", example.id))
 }
 
 #[cfg(test)]

@@ -9,15 +9,20 @@ pub mod sql;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::engine::Inner;
+use crate::advice::work::Advices;
+use crate::classes::Classes;
 use crate::examples::next_example;
+use crate::house::House;
 use crate::idle::sql::{Tried, TriedSet};
 use crate::locks::Lock;
 use crate::model::{AlgorithmInfo, ExampleWork, RunSpec, StabilitySpec, State};
 use crate::plugins::registry::Registry;
-use crate::runs::asking::RunContext;
+use crate::runs::asking::{RunContext, Runs};
+use crate::runs::carry_out::Benchmarks;
+use crate::runs::current::Work;
 use crate::runs::priority::IDLE;
 use crate::stability::runs_sql::StabilityRow;
+use crate::stability::work::StabilityRuns;
 use crate::store::{Store, now_us};
 use crate::suite::known::SuiteRuns;
 use crate::suite::planning::AT_ONCE;
@@ -28,79 +33,91 @@ const LOOK: Duration = Duration::from_secs(300);
 /// Name of the stability test in the list of tried work.
 const STABILITY: &str = "stability";
 
-/// The dispatcher's part of it.
-#[derive(Default)]
-pub struct Filling {
+/// What is measured, tried and advised while nothing else is asked for.
+pub struct IdleWork {
+    pub store: Store,
+    pub registry: Arc<Registry>,
+    pub classes: Arc<Classes>,
+    pub house: Arc<House>,
+    pub work: Arc<Work>,
+    pub suite_runs: Arc<SuiteRuns>,
+    pub runs: Arc<Runs>,
+    pub benchmarks: Arc<Benchmarks>,
+    pub stability: Arc<StabilityRuns>,
+    pub advices: Arc<Advices>,
+    /// Whether there is any.
+    pub wanted: bool,
     /// When to look again for missing results.
-    next: Option<Instant>,
+    pub next: Option<Instant>,
 }
 
-impl Filling {
+impl IdleWork {
     /// Carries out one piece of idle work; false when there is none, or none may be done now. `asked` is the number of requests
     /// when the queue was found empty.
-    pub async fn work(&mut self, inner: &Arc<Inner>, asked: u64) -> bool {
-        if !inner.config.idle || inner.work.closing() || !inner.advices.is_empty() {
+    pub async fn work(&mut self, asked: u64) -> bool {
+        if !self.wanted || self.work.closing() || !self.advices.is_empty() {
             return false;
         }
-        self.go_on(inner, asked).await.unwrap_or_else(|e| {
+        self.go_on(asked).await.unwrap_or_else(|e| {
             tracing::error!("idle work: {e}");
             self.next = Some(Instant::now() + LOOK);
             false
         })
     }
 
-    async fn go_on(&mut self, inner: &Arc<Inner>, asked: u64) -> Result<bool> {
+    async fn go_on(&mut self, asked: u64) -> Result<bool> {
         // What was queued last, or gave way before.
-        if let Some(attempt) = inner.benchmarks.next(true).await? {
-            inner.benchmarks.carry_out(&attempt, Some(asked)).await?;
+        if let Some(attempt) = self.benchmarks.next(true).await? {
+            self.benchmarks.carry_out(&attempt, Some(asked)).await?;
             return Ok(true);
         }
-        if inner.stability.next(Some(asked)).await? || inner.advices.next_own(asked).await? {
+        if self.stability.next(Some(asked)).await? || self.advices.next_own(asked).await? {
             return Ok(true);
         }
         // Enough for every machine until the next look.
-        if inner.config.elsewhere && inner.store.idle_runs().await? >= 2 * inner.classes.machines() {
+        if self.benchmarks.elsewhere && self.store.idle_runs().await? >= 2 * self.classes.machines() {
             return Ok(false);
         }
-        if !inner.house.is_here() || self.next.is_some_and(|next| Instant::now() < next) {
+        if !self.house.is_here() || self.next.is_some_and(|next| Instant::now() < next) {
             return Ok(false);
         }
-        let queued = queue_next(inner).await?;
+        let queued = self.queue_next().await?;
         self.next = (!queued).then(|| Instant::now() + LOOK);
         Ok(queued)
     }
-}
 
-/// Queues the next missing work: the examples first, then the suite, then stability. False when nothing is missing.
-async fn queue_next(inner: &Arc<Inner>) -> Result<bool> {
-    // Another planner queues work, and then the service is not idle any more.
-    let Some(_alone) = inner.store.locks.try_alone(Lock::Planning).await? else { return Ok(false) };
-    let tried = inner.store.tried().await?;
-    if let Some((work, what)) = next_example(&inner.registry, &inner.config, &inner.machine, &tried) {
-        match work {
-            ExampleWork::Run { spec, .. } => queue_run(inner, *spec, &[what], None).await?,
-            ExampleWork::Advice { spec } => note(&inner.store, inner.advices.ask_own(spec).await, &[what]).await?,
+    /// Queues the next missing work: the examples first, then the suite, then stability. False when nothing is missing.
+    async fn queue_next(&self) -> Result<bool> {
+        // Another planner queues work, and then the service is not idle any more.
+        let Some(_alone) = self.store.locks.try_alone(Lock::Planning).await? else { return Ok(false) };
+        let tried = self.store.tried().await?;
+        let (advisor, class) = (&self.advices.from.program, &self.work.worker.class);
+        if let Some((work, what)) = next_example(&self.registry, advisor, class, &tried) {
+            match work {
+                ExampleWork::Run { spec, .. } => self.queue_run(*spec, &[what], None).await?,
+                ExampleWork::Advice { spec } => note(&self.store, self.advices.ask_own(spec).await, &[what]).await?,
+            }
+            return Ok(true);
         }
-        return Ok(true);
+        if let Some(spec) = self.suite_runs.next_missing(&self.registry.public(), &tried).await? {
+            self.suite_runs.keep_suite().await?;
+            let what = self.suite_runs.of_the_suite(&spec, &self.classes.waiting_for(&spec).class)?;
+            let algorithms =
+                self.registry.public().into_iter().filter(|algorithm| spec.algorithms.contains(&algorithm.id));
+            let tried: Vec<Tried> = algorithms.map(|algorithm| Tried::of(&what, &algorithm)).collect();
+            self.queue_run(spec, &tried, Some(&self.suite_runs.suite.sha256)).await?;
+            return Ok(true);
+        }
+        match next_for_stability(&self.store, &self.registry, &tried).await? {
+            Some(algorithm) => queue_stability(&self.store, algorithm).await.map(|()| true),
+            None => Ok(false),
+        }
     }
-    if let Some(spec) = inner.suite_runs.next_missing(&inner.registry.public(), &tried).await? {
-        inner.suite_runs.keep_suite().await?;
-        let what = inner.suite_runs.of_the_suite(&spec, &inner.classes.waiting_for(&spec).class)?;
-        let algorithms =
-            inner.registry.public().into_iter().filter(|algorithm| spec.algorithms.contains(&algorithm.id));
-        let tried: Vec<Tried> = algorithms.map(|algorithm| Tried::of(&what, &algorithm)).collect();
-        queue_run(inner, spec, &tried, Some(&inner.suite.sha256)).await?;
-        return Ok(true);
-    }
-    match next_for_stability(&inner.store, &inner.registry, &tried).await? {
-        Some(algorithm) => queue_stability(&inner.store, algorithm).await.map(|()| true),
-        None => Ok(false),
-    }
-}
 
-async fn queue_run(inner: &Arc<Inner>, spec: RunSpec, tried: &[Tried], suite: Option<&str>) -> Result<()> {
-    let context = RunContext { priority: IDLE, suite, ..RunContext::default() };
-    note(&inner.store, inner.runs.enqueue(spec, context).await.map(|(run, _)| run), tried).await
+    async fn queue_run(&self, spec: RunSpec, tried: &[Tried], suite: Option<&str>) -> Result<()> {
+        let context = RunContext { priority: IDLE, suite, ..RunContext::default() };
+        note(&self.store, self.runs.enqueue(spec, context).await.map(|(run, _)| run), tried).await
+    }
 }
 
 /// Notes what was tried and in which run or advice. What cannot be asked for is not asked for again.

@@ -11,6 +11,7 @@ use crate::charts::Charts;
 use crate::classes::Classes;
 use crate::engine::{Engine, Inner};
 use crate::house::House;
+use crate::idle::IdleWork;
 use crate::machine::{Machine, lock_data_folder};
 use crate::machines::under_way::Orders;
 use crate::mail::outbox::Outbox;
@@ -23,7 +24,7 @@ use crate::results::Results;
 use crate::runs::asking::Runs;
 use crate::runs::carry_out::Benchmarks;
 use crate::runs::current::Work;
-use crate::runs::dispatcher;
+use crate::runs::dispatcher::Dispatcher;
 use crate::runs::ends::RunEnds;
 use crate::runs::live::LiveRuns;
 use crate::runs::log::RunEvents;
@@ -167,10 +168,24 @@ impl Engine {
             advices: advices.clone(),
             outbox: outbox.clone(),
         };
+        let idle = IdleWork {
+            store: store.clone(),
+            registry: registry.clone(),
+            classes: classes.clone(),
+            house: house.clone(),
+            work: work.clone(),
+            suite_runs: suite_runs.clone(),
+            runs: runs.clone(),
+            benchmarks: benchmarks.clone(),
+            stability: stability.clone(),
+            advices: advices.clone(),
+            wanted: config.idle,
+            next: None,
+        };
+        let dispatcher =
+            Dispatcher { work: work.clone(), checks, stability, replays: replays.clone(), benchmarks, idle };
         let inner = Arc::new(Inner {
             work,
-            checks,
-            stability,
             recordings,
             replays,
             advices,
@@ -179,7 +194,6 @@ impl Engine {
             live,
             orders,
             runs,
-            benchmarks,
             tasks,
             charts: Charts::new(store.clone(), objects.clone(), results.clone(), machine.clone(), registry.profile()),
             suite_runs,
@@ -187,7 +201,7 @@ impl Engine {
             run_events,
             classes,
             suite,
-            house: house.clone(),
+            house,
             owned: Owned {
                 store: store.clone(),
                 blobs: blobs.clone(),
@@ -211,7 +225,7 @@ impl Engine {
             engine.inner.store.believe_machines().await?;
             leases.take_back(Some(&engine.inner.work.worker)).await?;
             engine.open_house().await?;
-            engine.inner.tasks.spawn(dispatcher::work(engine.inner.clone()));
+            engine.inner.tasks.spawn(dispatcher.work());
             engine.inner.tasks.spawn(engine.clone().sweep());
             engine.inner.tasks.spawn(engine.clone().look_after_campaigns());
             let inner = engine.inner.clone();

@@ -3,7 +3,7 @@
 use crate::board;
 use crate::board::runs::{measured_of, visible_runs};
 use crate::boxed;
-use crate::engine::{Engine, Inner};
+use crate::engine::Engine;
 use crate::model::{Board, BoardRequest};
 use crate::{Result, columns};
 
@@ -11,7 +11,7 @@ impl Engine {
     /// Results of the finished runs that the viewer may see, filtered until they may be compared.
     #[boxed]
     pub async fn board(&self, request: &BoardRequest, viewer: Option<&str>) -> Result<Board> {
-        let Inner { store, objects, .. } = &*self.inner;
+        let (store, objects) = (&self.inner.store, &self.inner.objects);
         let suites = store.suites().await?;
         let standings = store.standings().await?;
         let mut measured = Vec::new();

@@ -3,66 +3,80 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::engine::Inner;
-use crate::idle::Filling;
-use crate::runs::carry_out::BACK_OFF;
+use crate::idle::IdleWork;
+use crate::plugins::checks::Checks;
+use crate::runs::carry_out::{BACK_OFF, Benchmarks};
+use crate::runs::current::Work;
+use crate::stability::work::StabilityRuns;
+use crate::workloads::replay::Replays;
 
 /// The queue is looked at this often even if nobody rings.
 const IDLE: Duration = Duration::from_secs(30);
 /// After several of checks in succession at most.
 const LONGEST_BACK_OFF: Duration = Duration::from_secs(60);
 
-/// Works on the queue until the engine closes.
-pub async fn work(inner: Arc<Inner>) {
-    let (mut faults, mut next_check) = (0, Instant::now());
-    let mut filling = Filling::default();
-    while !inner.work.closing() {
-        let asked = inner.work.asked();
-        // In turn, so that neither waits for all of the other.
-        let mut checked = false;
-        if Instant::now() >= next_check {
-            match inner.checks.next().await {
-                Ok(done) => (checked, faults) = (done, 0),
-                Err(e) => {
-                    let pause = back_off(faults);
-                    (faults, next_check) = (faults + 1, Instant::now() + pause);
-                    tracing::error!("checking a plugin, again in {} s: {e}", pause.as_secs());
+/// Every kind of job of the queue.
+pub struct Dispatcher {
+    pub work: Arc<Work>,
+    pub checks: Arc<Checks>,
+    pub stability: Arc<StabilityRuns>,
+    pub replays: Arc<Replays>,
+    pub benchmarks: Arc<Benchmarks>,
+    pub idle: IdleWork,
+}
+
+impl Dispatcher {
+    /// Works on the queue until the engine closes.
+    pub async fn work(mut self) {
+        let (mut faults, mut next_check) = (0, Instant::now());
+        while !self.work.closing() {
+            let asked = self.work.asked();
+            // In turn, so that neither waits for all of the other.
+            let mut checked = false;
+            if Instant::now() >= next_check {
+                match self.checks.next().await {
+                    Ok(done) => (checked, faults) = (done, 0),
+                    Err(e) => {
+                        let pause = back_off(faults);
+                        (faults, next_check) = (faults + 1, Instant::now() + pause);
+                        tracing::error!("checking a plugin, again in {} s: {e}", pause.as_secs());
+                    }
                 }
             }
-        }
-        let tried = match inner.stability.next(None).await {
-            Ok(tried) => tried,
-            Err(e) => {
-                tracing::error!("a stability run: {e}");
-                tokio::time::sleep(BACK_OFF).await;
-                // It is tried again, whoever else comes.
-                true
-            }
-        };
-        let replayed = match inner.replays.next().await {
-            Ok(replayed) => replayed,
-            Err(e) => {
-                tracing::error!("a replay: {e}");
-                tokio::time::sleep(BACK_OFF).await;
-                true
-            }
-        };
-        match inner.benchmarks.next(false).await {
-            Ok(Some(attempt)) => {
-                if let Err(e) = inner.benchmarks.carry_out(&attempt, None).await {
-                    tracing::error!("run {}: {e}", attempt.job);
+            let tried = match self.stability.next(None).await {
+                Ok(tried) => tried,
+                Err(e) => {
+                    tracing::error!("a stability run: {e}");
+                    tokio::time::sleep(BACK_OFF).await;
+                    // It is tried again, whoever else comes.
+                    true
+                }
+            };
+            let replayed = match self.replays.next().await {
+                Ok(replayed) => replayed,
+                Err(e) => {
+                    tracing::error!("a replay: {e}");
+                    tokio::time::sleep(BACK_OFF).await;
+                    true
+                }
+            };
+            match self.benchmarks.next(false).await {
+                Ok(Some(attempt)) => {
+                    if let Err(e) = self.benchmarks.carry_out(&attempt, None).await {
+                        tracing::error!("run {}: {e}", attempt.job);
+                        tokio::time::sleep(BACK_OFF).await;
+                    }
+                }
+                Ok(None) if checked || tried || replayed => {}
+                Ok(None) if self.idle.work(asked).await => {}
+                Ok(None) => {
+                    let idle = if faults > 0 { next_check.saturating_duration_since(Instant::now()) } else { IDLE };
+                    let _ = tokio::time::timeout(idle, self.work.wake.notified()).await;
+                }
+                Err(e) => {
+                    tracing::error!("reading the queue: {e}");
                     tokio::time::sleep(BACK_OFF).await;
                 }
-            }
-            Ok(None) if checked || tried || replayed => {}
-            Ok(None) if filling.work(&inner, asked).await => {}
-            Ok(None) => {
-                let idle = if faults > 0 { next_check.saturating_duration_since(Instant::now()) } else { IDLE };
-                let _ = tokio::time::timeout(idle, inner.work.wake.notified()).await;
-            }
-            Err(e) => {
-                tracing::error!("reading the queue: {e}");
-                tokio::time::sleep(BACK_OFF).await;
             }
         }
     }
