@@ -9,9 +9,8 @@ use ocb_core::pose::Pose;
 use ocb_core::scene::{Geometry, around, tessellate};
 
 use super::body::Body;
-use super::grown::grown;
-use super::{Make, Simplified};
-use crate::model::{BodyKind, ReduceTerms};
+use super::{Make, Simplified, grown};
+use crate::model::{BodyKind, FRONTIER, ReduceTerms};
 use crate::scene_file::SceneFile;
 use crate::{LabError, Result};
 
@@ -23,8 +22,6 @@ const FINEST: f64 = 1.0 / 50.0;
 const HULL: f64 = 1e-9;
 /// So are the hulls of parts, which have to overlap where the object was cut.
 const PART: f64 = 1e-6;
-/// A level grows by one of these shares of the tolerance, so that it contains its object.
-const GROWTH: [f64; 8] = [0.03125, 0.0625, 0.125, 0.25, 0.5, 1.0, 2.0, 4.0];
 
 /// A body that may stand for an object, or the object itself.
 #[derive(Clone, Debug)]
@@ -79,7 +76,7 @@ pub fn of<E: From<LabError>>(
     all.extend(parts.iter().filter_map(|parts| contains(hulls(parts)?, &own)));
     for level in levels.into_iter().filter(|level| level.triangles().len() < object.triangles().len()) {
         match terms.outside_only {
-            true => all.extend(containing(&level, &own, terms)),
+            true => all.extend(containing(&level, &own, &used, terms)),
             false => all.push(mesh(BodyKind::Level, level, *solid)),
         }
     }
@@ -158,10 +155,9 @@ fn hulls(parts: &[Arc<Mesh>]) -> Option<StandIn> {
 }
 
 /// A level that has grown just so far that it contains the object; nothing where it would have to grow too much.
-fn containing(level: &Mesh, own: &StandIn, terms: ReduceTerms) -> Option<StandIn> {
-    let larger = |share: f64| {
-        let larger = Arc::new(grown(level, share * terms.tolerance)?);
-        contains(mesh(BodyKind::Level, larger, true), own)
-    };
-    GROWTH.into_iter().find_map(larger)
+fn containing(level: &Mesh, own: &StandIn, corners: &[Point3<f64>], terms: ReduceTerms) -> Option<StandIn> {
+    let largest = FRONTIER.into_iter().fold(1.0, f64::max);
+    let most = terms.tolerance * if terms.frontier { largest } else { 1.0 };
+    let grown = grown::around(level, &own.body.outer, corners, most)?;
+    contains(mesh(BodyKind::Level, grown, true), own)
 }
