@@ -12,8 +12,9 @@ use rayon::prelude::*;
 
 /// A corner moves by at most the reciprocal of this times as far as its triangles.
 const SHARPEST: f64 = 0.3;
-/// Where a triangle has to grow, it does by this share of the most at least.
-const STEP: f64 = 1.0 / 64.0;
+/// Where a triangle has to grow, it does by this share of the most at least, and by this share of what it has grown.
+const STEP: f64 = 1.0 / 512.0;
+const MORE: f64 = 0.25;
 /// After so many steps it is given up.
 const MOST_STEPS: usize = 24;
 
@@ -44,7 +45,7 @@ pub fn around(level: &Mesh, object: &Shape, corners: &[Point3<f64>], most: f64) 
         let mut step = vec![0.0_f64; by.len()];
         for (triangle, length) in more {
             for corner in level.triangles()[triangle as usize].map(|v| growing.first[v as usize] as usize) {
-                step[corner] = step[corner].max(length + STEP * most);
+                step[corner] = step[corner].max(length.max(MORE * by[corner]) + STEP * most);
             }
         }
         by.iter_mut().zip(step).for_each(|(by, step)| *by += step);

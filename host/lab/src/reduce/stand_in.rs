@@ -156,8 +156,8 @@ fn hulls(parts: &[Arc<Mesh>]) -> Option<StandIn> {
 
 /// A level that has grown just so far that it contains the object; nothing where it would have to grow too much.
 fn containing(level: &Mesh, own: &StandIn, corners: &[Point3<f64>], terms: ReduceTerms) -> Option<StandIn> {
-    let largest = FRONTIER.into_iter().fold(1.0, f64::max);
-    let most = terms.tolerance * if terms.frontier { largest } else { 1.0 };
+    // Where nothing comes near, more than the tolerance does no harm.
+    let most = FRONTIER.into_iter().fold(1.0, f64::max) * terms.tolerance;
     let grown = grown::around(level, &own.body.outer, corners, most)?;
     contains(mesh(BodyKind::Level, grown, true), own)
 }
