@@ -65,6 +65,8 @@ struct Locked {
 
 class Bullet {
   public:
+    static constexpr bool scene = true;
+
     static ocb::About about() {
         return {"bullet" OCB_VARIANT,
                 "Bullet (GImpact)" OCB_VARIANT,

@@ -50,6 +50,8 @@ Kernel::Aff_transformation_3 transform(ocb::Pose pose) {
 
 class Cgal {
   public:
+    static constexpr bool scene = true;
+
     static ocb::About about() {
         return {"cgal",
                 "CGAL",

@@ -45,6 +45,8 @@ ocb::Vector vector(const coal::Vec3s &p) { return {p[0], p[1], p[2]}; }
 
 class Coal {
   public:
+    static constexpr bool scene = true;
+
     static ocb::About about() {
         return {"coal" OCB_VARIANT,
                 "Coal" OCB_VARIANT,

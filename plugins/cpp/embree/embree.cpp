@@ -92,6 +92,8 @@ struct Model {
 
 class Embree {
   public:
+    static constexpr bool scene = true;
+
     static ocb::About about() {
         return {"embree",
                 "Embree (rtcCollide)",

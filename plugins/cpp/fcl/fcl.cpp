@@ -41,6 +41,8 @@ ocb::Vector vector(const fcl::Vector3d &p) { return {p[0], p[1], p[2]}; }
 
 class Fcl {
   public:
+    static constexpr bool scene = true;
+
     static ocb::About about() {
         return {"fcl" OCB_VARIANT,
                 "FCL" OCB_VARIANT,

@@ -36,6 +36,8 @@ struct Place {
 
 class Pqp {
   public:
+    static constexpr bool scene = true;
+
     static ocb::About about() {
         const uint32_t precision = sizeof(PQP_REAL) == sizeof(float) ? OCB_CAPABILITY_SINGLE_PRECISION : 0;
         return {"pqp",

@@ -34,6 +34,8 @@ struct Place {
 
 class Rapid {
   public:
+    static constexpr bool scene = true;
+
     static ocb::About about() {
         return {"rapid",
                 "RAPID",

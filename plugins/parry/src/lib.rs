@@ -4,4 +4,4 @@
 pub use ocb_methods::parry::double::Parry as Double;
 pub use ocb_methods::parry::single::Parry as Single;
 
-opencollbench_plugin::export!(Double: distance contacts counts, Single: distance contacts counts);
+opencollbench_plugin::export!(Double: distance contacts counts scene, Single: distance contacts counts scene);

@@ -8,6 +8,7 @@ mod liars;
 mod near_contact;
 mod own_copies;
 mod real_input;
+mod scenes;
 mod settings;
 mod single_pairs;
 mod support;

@@ -6,7 +6,8 @@ use super::library::query::{self, ClosestPoints, ShapeDistance, Unsupported};
 use super::library::shape::TriMesh;
 use super::{narrow, widen};
 use opencollbench_plugin::{
-    About, Algorithm, Answer, Collision, ContactList, Contacts, Count, Distance, Mesh, Placed, Refusal, Separation,
+    About, Algorithm, Answer, Collision, ContactList, Contacts, Count, Distance, Mesh, Placed, Refusal, Scene,
+    Separation,
 };
 
 /// parry's triangle mesh against parry's triangle mesh.
@@ -93,6 +94,9 @@ impl Distance for Parry {
         Ok(Separation { distance: widen(answer.distance), points, triangles })
     }
 }
+
+/// A mesh knows nothing of others.
+impl Scene for Parry {}
 
 /// parry keeps rotations as quaternions.
 fn pose(placed: &Placed<'_, Parry>) -> Pose {
