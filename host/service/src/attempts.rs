@@ -11,12 +11,17 @@ pub mod lost;
 pub mod sql;
 pub mod worker;
 
+use std::time::Duration;
+
 use crate::EngineError;
 
 /// The lease: a worker that is silent for so long is believed lost.
 pub const LEASE_US: i64 = 20_000_000;
 /// A job that so many attempts lost is not tried again: it may be what ends the service.
 pub const MOST_LOST: i64 = 3;
+
+/// After a fault of the database a worker waits so long.
+pub const BACK_OFF: Duration = Duration::from_secs(2);
 
 /// What is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

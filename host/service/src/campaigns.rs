@@ -30,7 +30,7 @@ use crate::notices::notice;
 use crate::plugins::sql::THE_SERVICE;
 use crate::requests::Made;
 use crate::runs::asking::RunContext;
-use crate::runs::log::plain_event;
+use crate::runs::events::plain_event;
 use crate::runs::priority::BACKGROUND;
 use crate::store::now_us;
 use crate::{EngineError, Result};

@@ -18,7 +18,7 @@ use crate::locks::Lock;
 use crate::model::{AlgorithmInfo, ExampleWork, RunSpec, StabilitySpec, State};
 use crate::plugins::registry::Registry;
 use crate::runs::asking::{RunContext, Runs};
-use crate::runs::carry_out::Benchmarks;
+use crate::runs::benchmarks::Benchmarks;
 use crate::runs::current::Work;
 use crate::runs::priority::IDLE;
 use crate::stability::runs_sql::StabilityRow;

@@ -31,6 +31,7 @@ mod notices;
 mod objects;
 mod open;
 mod owned;
+mod parts;
 mod plugins;
 mod quotas;
 mod rate_limits;

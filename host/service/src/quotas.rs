@@ -6,11 +6,10 @@
 use std::time::Duration;
 
 use crate::config::Ceilings;
-use crate::engine::Engine;
 use crate::model::{Owner, RunSpec, WorkloadSpec};
-use crate::runs::asking::Runs;
 use crate::runs::queue::Granted;
 use crate::runs::sql::RunRow;
+use crate::store::Store;
 use crate::{EngineError, Result};
 
 /// The sender of a request over the network.
@@ -135,39 +134,36 @@ pub(crate) fn granted(spec: &RunSpec) -> f64 {
     spec.budget_seconds * spec.algorithms.len() as f64
 }
 
-impl Runs {
+impl Ceilings {
     /// # Errors
     /// `Invalid` when the run alone exceeds a limit, `TooMuch` when it does so together with the queued and running ones.
-    pub(crate) async fn has_room_for_a_run(&self, row: &RunRow) -> Result<()> {
+    pub(crate) async fn have_room_for_a_run(&self, store: &Store, row: &RunRow) -> Result<()> {
         let Some((owner, kind)) = row.owner.as_deref().and_then(|owner| Some((owner, kind(owner)?))) else {
             return Ok(());
         };
-        let ceilings = &self.ceilings;
-        ceilings.may_be_asked_for(owner, &row.spec, row.expected_seconds)?;
-        let own = self.store.granted_to(owner).await?;
-        room(kind, own, row, ceilings.of(kind))?;
+        self.may_be_asked_for(owner, &row.spec, row.expected_seconds)?;
+        let own = store.granted_to(owner).await?;
+        room(kind, own, row, self.of(kind))?;
         if let Some(address) = &row.address {
-            let all = self.store.granted_at(address).await?;
-            room(Kind::Address, all, row, ceilings.of(Kind::Address))?;
+            let all = store.granted_at(address).await?;
+            room(Kind::Address, all, row, self.of(Kind::Address))?;
         }
         Ok(())
     }
 }
 
-impl Engine {
-    /// # Errors
-    /// `Busy` when the objects, saved configurations and recordings of this owner would have too many bytes with these.
-    pub(crate) async fn has_room_for_a_file(&self, owner: Option<&str>, bytes: usize) -> Result<()> {
-        let Some((owner, kind)) = owner.and_then(|owner| Some((owner, kind(owner)?))) else { return Ok(()) };
-        let most = if kind == Kind::Guest { GUEST_OBJECTS } else { ACCOUNT_OBJECTS };
-        if self.inner.store.uploaded_bytes(owner).await? + bytes as u64 <= most {
-            return Ok(());
-        }
-        Err(EngineError::Busy(format!(
-            "With this file, your objects, saved configurations and recordings would exceed {} MiB; delete some of them.",
-            most >> 20
-        )))
+/// # Errors
+/// `Busy` when the objects, saved configurations and recordings of this owner would have too many bytes with these.
+pub(crate) async fn has_room_for_a_file(store: &Store, owner: Option<&str>, bytes: usize) -> Result<()> {
+    let Some((owner, kind)) = owner.and_then(|owner| Some((owner, kind(owner)?))) else { return Ok(()) };
+    let most = if kind == Kind::Guest { GUEST_OBJECTS } else { ACCOUNT_OBJECTS };
+    if store.uploaded_bytes(owner).await? + bytes as u64 <= most {
+        return Ok(());
     }
+    Err(EngineError::Busy(format!(
+        "With this file, your objects, saved configurations and recordings would exceed {} MiB; delete some of them.",
+        most >> 20
+    )))
 }
 
 /// Can a guest's run finish within its time limit?

@@ -3,12 +3,14 @@
 pub mod accept;
 pub mod asking;
 pub mod benchmark;
+pub mod benchmarks;
 pub mod carry_out;
 pub mod current;
 pub mod dispatcher;
 pub mod draw;
 pub mod ends;
 pub mod estimate;
+pub mod events;
 pub mod events_sql;
 pub mod featured;
 pub mod follow;
@@ -36,7 +38,8 @@ use crate::locks::Lock;
 use crate::model::{AccountInfo, Cursor, Page, Part, Role, RunInfo, RunSpec, Stage, State};
 use crate::quotas::{Visitor, granted};
 use crate::runs::asking::RunContext;
-use crate::runs::log::{fresh_stages, plain_event};
+use crate::runs::events::plain_event;
+use crate::runs::log::fresh_stages;
 use crate::runs::priority::INTERACTIVE;
 use crate::runs::sql::RunRow;
 use crate::{EngineError, Result};
@@ -84,7 +87,7 @@ impl Engine {
         let granted_seconds = granted(&checked.spec);
         let row = RunRow { spec: checked.spec, secret: Some(draw::secret()), expected_seconds, granted_seconds, ..row };
         let _alone = self.inner.store.locks.alone(Lock::Admission).await?;
-        self.inner.runs.has_room_for_a_run(&row).await?;
+        self.inner.config.ceilings.have_room_for_a_run(&self.inner.store, &row).await?;
         if !self.inner.store.queue_again(&row, &fresh_stages(&row.spec.algorithms)).await? {
             return Err(nothing());
         }

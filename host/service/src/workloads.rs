@@ -10,17 +10,19 @@ mod work;
 use std::sync::Arc;
 
 use ocb_core::mesh::Mesh;
+use ocb_lab::workload::{Progress, Replayed};
 
 use crate::attempts::Kind;
 use crate::blocking::blocking;
 use crate::boxed;
 use crate::engine::Engine;
 use crate::locks::Lock;
+use crate::measure::Stop;
 use crate::model::{
     AccountInfo, Cursor, Page, Part, PosedGroup, PosedScene, RecordingInfo, Role, State, Stretch, StretchResult,
     WhichGroup, WorkloadInfo, WorkloadSpec,
 };
-use crate::quotas::{Visitor, turn};
+use crate::quotas::{Visitor, has_room_for_a_file, turn};
 use crate::requests::Made;
 use crate::runs::current::Work;
 use crate::store::{Store, now_us};
@@ -35,6 +37,21 @@ const MOST_IN_ALL: i64 = 200;
 const RETRY_SECONDS: u32 = 120;
 
 impl Engine {
+    /// Replays a recording with algorithms that answer at least one of its kinds of query.
+    #[boxed]
+    pub async fn replay_workload(
+        &self,
+        recording: Arc<Recording>,
+        spec: WorkloadSpec,
+        stop: Stop,
+        tell: impl Fn(Progress) + Send + 'static,
+        waits: impl FnOnce() + Send + 'static,
+    ) -> Result<Replayed> {
+        spec.check().map_err(EngineError::Invalid)?;
+        let algorithms = replay::algorithms_for(&self.inner.registry, &recording, &spec.algorithms, None)?;
+        self.inner.replays.replay(recording, spec, algorithms, stop, tell, waits).await
+    }
+
     /// Keeps an uploaded recording and queues its replay; of a scene without queries nothing is replayed. True when it is new: the
     /// same request under the same key returns the existing one.
     ///
@@ -50,7 +67,7 @@ impl Engine {
         key: Option<&str>,
     ) -> Result<(WorkloadInfo, bool)> {
         let owner = visitor.owner.as_str();
-        self.has_room_for_a_file(Some(owner), bytes.len()).await?;
+        has_room_for_a_file(&self.inner.store, Some(owner), bytes.len()).await?;
         let (name, folder) = (name.to_owned(), self.inner.config.data.clone());
         let (bytes, recording, told) = blocking(move || {
             let recording = parsed(&name, &bytes, &folder)?;

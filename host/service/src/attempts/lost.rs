@@ -6,8 +6,8 @@ use super::{Attempt, Kind, MOST_LOST, sql};
 use crate::Result;
 use crate::model::State;
 use crate::plugins::checks;
+use crate::runs::events::plain_event;
 use crate::runs::events_sql::append_event;
-use crate::runs::log::plain_event;
 use crate::runs::sql::{find_run, state_name};
 use crate::store::{Store, now_us};
 

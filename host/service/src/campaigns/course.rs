@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::mail::outbox::Outbox;
 use crate::objects::Objects;
 use crate::plugins::registry::Registry;
-use crate::runs::log::RunEvents;
+use crate::runs::events::RunEvents;
 use crate::store::Store;
 use crate::suite::known::SuiteRuns;
 

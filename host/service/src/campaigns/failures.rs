@@ -10,7 +10,8 @@ use crate::campaigns::sql::CampaignRow;
 use crate::model::{AlgorithmResult, OutcomeName, PluginState, RunSpec, State};
 use crate::plugins::notices::to_author;
 use crate::plugins::sql::{PluginRow, THE_SERVICE};
-use crate::runs::log::{fresh_stages, plain_event};
+use crate::runs::events::plain_event;
+use crate::runs::log::fresh_stages;
 use crate::runs::sql::RunRow;
 
 impl Campaigns {

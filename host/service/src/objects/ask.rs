@@ -6,6 +6,7 @@ use ocb_core::mesh::Mesh;
 
 use crate::engine::Engine;
 use crate::model::{ObjectInfo, Page, Part};
+use crate::quotas::has_room_for_a_file;
 use crate::{Result, boxed};
 
 impl Engine {
@@ -26,7 +27,7 @@ impl Engine {
     /// Nothing is kept on error.
     #[boxed]
     pub async fn add_object(&self, name: &str, bytes: Vec<u8>, owner: Option<&str>) -> Result<ObjectInfo> {
-        self.has_room_for_a_file(owner, bytes.len()).await?;
+        has_room_for_a_file(&self.inner.store, owner, bytes.len()).await?;
         self.inner.objects.add(name, bytes, owner).await
     }
 

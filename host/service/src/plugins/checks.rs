@@ -8,7 +8,7 @@ use std::time::Duration;
 use ocb_lab::check::{Extent, Step, Term, check_plugin};
 use tokio::runtime::Handle;
 
-use crate::attempts::{Attempt, MOST_LOST, superseded};
+use crate::attempts::{Attempt, BACK_OFF, MOST_LOST, superseded};
 use crate::audit::Note;
 use crate::blobs::Blobs;
 use crate::mail::outbox::Outbox;
@@ -19,7 +19,6 @@ use crate::plugins::conflict;
 use crate::plugins::notices::of_check;
 use crate::plugins::registry::{Registry, submitted};
 use crate::plugins::sql::{PluginRow, THE_SERVICE};
-use crate::runs::carry_out::BACK_OFF;
 use crate::runs::current::Work;
 use crate::store::Store;
 use crate::{EngineError, Result};

@@ -8,8 +8,8 @@ use crate::attempts::{Attempt, Outcome};
 use crate::locks::Keeping;
 use crate::model::{Environment, Preview, RunEvent, State};
 use crate::results::sql::{StoredResult, keep_result};
+use crate::runs::events::plain_event;
 use crate::runs::events_sql::append_event;
-use crate::runs::log::plain_event;
 use crate::runs::sql::state_name;
 use crate::store::{Store, now_us, to_json};
 

@@ -11,7 +11,8 @@ use crate::plugins::registry::Registry;
 use crate::quotas::{granted, turn};
 use crate::runs::current::Work;
 use crate::runs::draw;
-use crate::runs::log::{RunEvents, fresh_stages};
+use crate::runs::events::RunEvents;
+use crate::runs::log::fresh_stages;
 use crate::runs::priority::INTERACTIVE;
 use crate::runs::sql::RunRow;
 use crate::store::{Store, now_us};
@@ -92,7 +93,7 @@ impl Runs {
         // Two concurrent requests must not share the last of a quota.
         let _alone = self.store.locks.alone(Lock::Admission).await?;
         if !asked_before && campaign.is_none() {
-            self.has_room_for_a_run(&row).await?;
+            self.ceilings.have_room_for_a_run(&self.store, &row).await?;
         }
         if !self.store.add_run(&row, &fresh_stages(&row.spec.algorithms), key).await? {
             return self.asked_before(&row, key.unwrap_or_default()).await.map(|run| (run, false));

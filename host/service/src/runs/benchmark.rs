@@ -19,7 +19,7 @@ use crate::machine::MakingWay;
 use crate::measure::{Part, Preliminary, Stop, Task};
 use crate::model::{RunSpec, SetInfo, State};
 use crate::runs::accept::End;
-use crate::runs::carry_out::Benchmarks;
+use crate::runs::benchmarks::Benchmarks;
 use crate::runs::draw;
 use crate::runs::log::RunLog;
 use crate::runs::looking::Looking;

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use crate::attempts::BACK_OFF;
 use crate::idle::IdleWork;
 use crate::plugins::checks::Checks;
-use crate::runs::carry_out::{BACK_OFF, Benchmarks};
+use crate::runs::benchmarks::Benchmarks;
 use crate::runs::current::Work;
 use crate::stability::work::StabilityRuns;
 use crate::workloads::replay::Replays;

@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::attempts::Attempt;
 use crate::attempts::worker::Worker;
+use crate::attempts::{Attempt, BACK_OFF};
 use crate::campaigns::course::Campaigns;
 use crate::model::State;
 use crate::runs::accept::{End, RunEnd};
-use crate::runs::carry_out::BACK_OFF;
 use crate::runs::current::Work;
-use crate::runs::log::RunEvents;
+use crate::runs::events::RunEvents;
 use crate::runs::preliminary::Shown;
 use crate::runs::sql::RunRow;
 use crate::store::Store;

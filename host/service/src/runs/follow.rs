@@ -10,7 +10,7 @@ use crate::Result;
 use crate::boxed;
 use crate::engine::Engine;
 use crate::model::{RunEvent, State};
-use crate::runs::log::{QUEUE, plain_event};
+use crate::runs::events::{QUEUE, plain_event};
 use crate::runs::share::OfClass;
 use crate::store::now_us;
 

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use crate::measure::Preliminary;
 use crate::plugins::registry::Registry;
-use crate::runs::log::RunEvents;
+use crate::runs::events::RunEvents;
 use crate::runs::preliminary::{Shown, UnderWay};
 use crate::runs::spec::reference;
 use crate::runs::sql::RunRow;

@@ -5,63 +5,18 @@ use std::time::{Duration, Instant};
 
 use ocb_lab::job::Step;
 use tokio::runtime::Handle;
-use tokio::sync::broadcast;
 
 use crate::Result;
 use crate::attempts::{Attempt, superseded};
 use crate::model::{RunEvent, Stage, StageKind, State};
+use crate::runs::events::plain_event;
 use crate::runs::live::LiveRuns;
-use crate::store::Store;
 
 /// So often a page learns of progress.
 const TELL_EVERY: Duration = Duration::from_millis(200);
 
 /// The stage of the first algorithm: behind those of the objects and of the configurations.
 pub const FIRST_MEASURING: usize = 2;
-
-/// What is rung when the queue moves; no run has this id.
-pub const QUEUE: &str = "";
-
-/// Wakes those who follow runs: the id of a run that has a new event.
-#[derive(Clone)]
-pub struct RunEvents {
-    sender: broadcast::Sender<Arc<str>>,
-}
-
-impl RunEvents {
-    /// With room for a burst; whoever misses some rings reads the events from the database anyway.
-    pub fn new() -> Self {
-        Self { sender: broadcast::Sender::new(256) }
-    }
-
-    /// Hears of every run from now on.
-    pub fn listen(&self) -> broadcast::Receiver<Arc<str>> {
-        self.sender.subscribe()
-    }
-
-    /// The queue has moved: those who follow a waiting run look at its place anew.
-    pub fn queue_moved(&self) {
-        let _ = self.sender.send(QUEUE.into());
-    }
-
-    /// There is something new of a run that no event has.
-    pub fn ring(&self, run: &str) {
-        let _ = self.sender.send(run.into());
-    }
-
-    /// Writes an event and rings.
-    pub async fn tell(&self, store: &Store, run: &str, mut event: RunEvent) -> Result<()> {
-        store.add_event(run, &mut event).await?;
-        // Nobody listening is no error.
-        self.ring(run);
-        Ok(())
-    }
-}
-
-/// An event without stage and result.
-pub fn plain_event(state: State, runs_ahead: u32) -> RunEvent {
-    RunEvent { seq: 0, at_us: 0, state, runs_ahead, stage: None, result: None, seconds_left: None }
-}
 
 /// The stages of a run that waits for its turn.
 pub fn fresh_stages(algorithms: &[String]) -> Vec<Stage> {

@@ -11,7 +11,7 @@ use ocb_lab::pairing::Pairing;
 use crate::machine::MeasuringRight;
 use crate::measure::{self, Part, Preliminary, Stop, Task};
 use crate::model::RunSpec;
-use crate::runs::carry_out::Benchmarks;
+use crate::runs::benchmarks::Benchmarks;
 use crate::runs::draw;
 use crate::runs::sql::RunRow;
 

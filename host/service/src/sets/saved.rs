@@ -7,6 +7,7 @@ use crate::engine::Engine;
 use crate::model::{Cursor, OwnedItem, OwnedItems, Page, Part, SavedConfigurations};
 use crate::objects::clean_name;
 use crate::owned::sql::OwnedIds;
+use crate::quotas::has_room_for_a_file;
 use crate::results::not_yet;
 use crate::store::{Store, now_us};
 use crate::{EngineError, Result};
@@ -28,7 +29,7 @@ impl Engine {
         })
         .await?;
         let length = bytes.len();
-        self.has_room_for_a_file(Some(owner), length).await?;
+        has_room_for_a_file(&self.inner.store, Some(owner), length).await?;
         let _keeping = self.inner.store.locks.keeping().await?;
         let blob = self.inner.blobs.put(bytes).await?;
         self.inner.store.add_blob(&blob, length, "application/octet-stream").await?;
@@ -43,7 +44,7 @@ impl Engine {
         let _keeping = self.inner.store.locks.keeping().await?;
         let blob = row.set_blob.clone().ok_or_else(|| not_yet(run))?;
         let bytes = self.inner.blobs.get(&blob).await?;
-        self.has_room_for_a_file(Some(owner), bytes.len()).await?;
+        has_room_for_a_file(&self.inner.store, Some(owner), bytes.len()).await?;
         let file = blocking(move || Ok(read_file(&bytes)?)).await?;
         let name = format!("{} x {}", row.object_a_name, row.object_b_name);
         self.inner.store.keep_saved(&name, blob, &file, owner).await

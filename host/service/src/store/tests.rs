@@ -40,7 +40,8 @@ use super::*;
 use crate::blobs::tests::from_harness;
 use crate::model::{AlgorithmInfo, Cursor, Draw, Environment, Estimated, ObjectInfo, Reference, Stability, State};
 use crate::runs::accept::{Handed, RunEnd};
-use crate::runs::log::{fresh_stages, plain_event};
+use crate::runs::events::plain_event;
+use crate::runs::log::fresh_stages;
 use rows::*;
 
 /// How many rows there are of blobs, objects, sets, runs and results.

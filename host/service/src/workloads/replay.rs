@@ -10,9 +10,7 @@ use ocb_lab::workload::{self, Progress, Replayed, Wanted};
 
 use super::recordings::Recordings;
 use crate::blobs::Blobs;
-use crate::boxed;
 use crate::config::Ceilings;
-use crate::engine::Engine;
 use crate::machine::Machine;
 use crate::measure::Stop;
 use crate::model::WorkloadSpec;
@@ -20,23 +18,6 @@ use crate::plugins::registry::Registry;
 use crate::runs::current::Work;
 use crate::store::Store;
 use crate::{EngineError, Result};
-
-impl Engine {
-    /// Replays a recording with algorithms that answer at least one of its kinds of query.
-    #[boxed]
-    pub async fn replay_workload(
-        &self,
-        recording: Arc<Recording>,
-        spec: WorkloadSpec,
-        stop: Stop,
-        tell: impl Fn(Progress) + Send + 'static,
-        waits: impl FnOnce() + Send + 'static,
-    ) -> Result<Replayed> {
-        spec.check().map_err(EngineError::Invalid)?;
-        let algorithms = algorithms_for(&self.inner.registry, &recording, &spec.algorithms, None)?;
-        self.inner.replays.replay(recording, spec, algorithms, stop, tell, waits).await
-    }
-}
 
 /// The replays that wait, and what carries them out.
 pub struct Replays {
