@@ -14,7 +14,6 @@ import fcl
 import numpy as np
 from planner import SHARE, Checker, Robot, model
 
-
 #: The state of the robot, as MoveIt calls it home.
 HOME = np.array([0, -0.785398, 0, -2.35619, 0, 1.5707, 0.785398])
 MESHES, SIZES = 100, (0.3, 1.0)

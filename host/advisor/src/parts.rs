@@ -4,11 +4,12 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use nalgebra::{Point3, Vector3};
 use ocb_core::mesh::Mesh;
+use ocb_core::scene::around::mean;
 use ocb_methods::convex_parts::decompose;
 use rayon::prelude::*;
 
 use crate::ladder::simplified;
-use crate::proxy::{hull, hull_of};
+use crate::proxy::{hull, hull_of, planes};
 
 /// How often an object is cut in two at most: into 4 parts, and into 16.
 const DEPTHS: [u32; 2] = [2, 4];
@@ -42,12 +43,8 @@ fn parts(object: &Mesh, depth: u32) -> Option<Vec<Mesh>> {
 fn simpler(whole: &Mesh) -> Mesh {
     let fewer = || {
         let fewer = hull(&simplified(whole, SIMPLE)?)?;
-        let middle = centre(&fewer);
-        let plane = |t: u32| {
-            let [a, b, c] = fewer.corners(t);
-            Some(((b - a).cross(&(c - a)).try_normalize(0.0)?, a))
-        };
-        let planes: Vec<(Vector3<f64>, Point3<f64>)> = (0..fewer.triangles().len() as u32).filter_map(plane).collect();
+        let middle = Point3::from(mean(fewer.positions())?);
+        let planes = planes(&fewer);
         let beyond = |p: &Point3<f64>| {
             let share =
                 |(normal, on): &(Vector3<f64>, Point3<f64>)| normal.dot(&(p - middle)) / normal.dot(&(on - middle));
@@ -58,11 +55,6 @@ fn simpler(whole: &Mesh) -> Mesh {
         Mesh::new(positions, fewer.triangles().to_vec()).ok()
     };
     fewer().filter(|fewer| fewer.triangles().len() < whole.triangles().len()).unwrap_or_else(|| whole.clone())
-}
-
-fn centre(mesh: &Mesh) -> Point3<f64> {
-    let sum: Vector3<f64> = mesh.positions().iter().map(|p| p.coords).sum();
-    Point3::from(sum / mesh.positions().len() as f64)
 }
 
 #[cfg(test)]
@@ -78,7 +70,7 @@ mod tests {
         let sizes: Vec<[usize; 2]> =
             cuts.iter().map(|hulls| [hulls.len(), hulls.iter().map(|hull| hull.triangles().len()).sum()]).collect();
         assert_eq!(sizes.len(), 2 * DEPTHS.len());
-        for (simple, whole) in cuts.iter().step_by(2).zip(cuts.iter().skip(1).step_by(2)) {
+        for [simple, whole] in cuts.as_chunks::<2>().0 {
             assert_eq!(simple.len(), whole.len());
             for (simple, whole) in simple.iter().zip(whole) {
                 assert!(simple.triangles().len() <= whole.triangles().len().min(2 * SIMPLE), "{sizes:?}");

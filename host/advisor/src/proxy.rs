@@ -41,11 +41,7 @@ impl Proxy {
     }
 
     fn convex(mesh: Mesh) -> Option<Self> {
-        let plane = |t: u32| {
-            let [a, b, c] = mesh.corners(t);
-            Some(((b - a).cross(&(c - a)).try_normalize(0.0)?, a))
-        };
-        let planes = (0..mesh.triangles().len() as u32).filter_map(plane).collect();
+        let planes = planes(&mesh);
         Some(Self { lod: Lod::exact(Shape::new(Arc::new(mesh))), planes })
     }
 
@@ -57,6 +53,15 @@ impl Proxy {
     fn contains(&self, point: &Point3<f64>) -> bool {
         self.planes.iter().all(|(normal, on)| normal.dot(&(point - on)) <= 0.0)
     }
+}
+
+/// Outward normals and points of the planes of all triangles.
+pub(crate) fn planes(mesh: &Mesh) -> Vec<(Vector3<f64>, Point3<f64>)> {
+    let plane = |t: u32| {
+        let [a, b, c] = mesh.corners(t);
+        Some(((b - a).cross(&(c - a)).try_normalize(0.0)?, a))
+    };
+    (0..mesh.triangles().len() as u32).filter_map(plane).collect()
 }
 
 /// The convex hull of a mesh; `None` where there is none.

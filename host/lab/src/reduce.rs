@@ -122,7 +122,7 @@ fn stand_ins<E: From<LabError>>(
             }
             before.insert((sha256, *solid), done);
         }
-        let own = stand_in::of(&recording.scene, &object.geometry, &object.name, terms, make)?;
+        let own = stand_in::of(&recording.scene, &object.geometry, &object.name, terms, make, watch)?;
         let Some(own) = own.filter(|_| !watch.stopped()) else { return Ok(None) };
         all.push(own);
     }

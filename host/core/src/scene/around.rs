@@ -72,7 +72,8 @@ pub fn capsule(points: &[Point3<f64>]) -> Option<Placed> {
     Some((Geometry::Capsule { radius: radius + slack(points), length }, Pose { linear, translation }))
 }
 
-fn mean(points: &[Point3<f64>]) -> Option<Vector3<f64>> {
+/// The mean of some points, which is in their convex hull.
+pub fn mean(points: &[Point3<f64>]) -> Option<Vector3<f64>> {
     let sum: Vector3<f64> = points.iter().map(|p| p.coords).sum();
     (!points.is_empty()).then(|| sum / points.len() as f64)
 }

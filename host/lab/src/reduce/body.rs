@@ -18,16 +18,14 @@ pub const ROUNDING: f64 = 1e-11;
 enum Inside {
     /// Only its surface counts.
     Nothing,
-    /// What its closed surface encloses.
+    /// What its surface encloses; of a surface that is not closed nothing is known.
     Enclosed,
     /// What any of these encloses. Together they are the whole surface, and they may overlap.
     Parts(Vec<Shape>),
-    /// It is a solid that is not closed: nothing is known of any point.
-    Unknown,
 }
 
 /// Is a body in another one?
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Contains {
     /// Certainly not.
     No,
@@ -64,8 +62,7 @@ impl Body {
 
     /// A mesh that stands for a solid body.
     pub fn solid(mesh: Arc<Mesh>) -> Self {
-        let inside = if mesh.is_closed() { Inside::Enclosed } else { Inside::Unknown };
-        Self::of(mesh, None, inside)
+        Self::of(mesh, None, Inside::Enclosed)
     }
 
     /// A mesh that consists of these closed ones, each of which is solid.
@@ -83,7 +80,7 @@ impl Body {
     pub fn surrounds(&self, mesh: &Self) -> bool {
         let here = Configuration { pose_a: Pose::identity(), pose_b: Pose::identity() };
         match &self.inside {
-            Inside::Nothing | Inside::Unknown => false,
+            Inside::Nothing => false,
             Inside::Parts(parts) => cover::covers(parts, &mesh.outer),
             Inside::Enclosed => {
                 let pair = Pair::new(&self.outer, &mesh.outer);
@@ -106,21 +103,17 @@ impl Body {
     /// Is part of another body, whose outer surface does not meet this one's, inside it? This one's pose and the other's are given.
     pub fn contains(&self, own: &Pose, other: &Self, its: &Pose) -> Contains {
         let configuration = Configuration { pose_a: *own, pose_b: *its };
-        let in_it = |solid: &Shape| {
-            let parts = Pair::new(solid, &other.outer).parts_of_b_in_a(&configuration);
-            parts.is_none_or(|parts| parts.contains(&true))
-        };
-        let found = match &self.inside {
-            Inside::Nothing => false,
-            Inside::Unknown => return Contains::Perhaps,
-            Inside::Enclosed => in_it(&self.outer),
-            Inside::Parts(parts) => parts.iter().any(in_it),
-        };
-        match found {
-            false => Contains::No,
+        let in_it = |solid: &Shape| match Pair::new(solid, &other.outer).parts_of_b_in_a(&configuration) {
+            None => Contains::Perhaps,
+            Some(parts) if !parts.contains(&true) => Contains::No,
             // What is in its outer polyhedron need not be in the body.
-            true if self.is_between() => Contains::Perhaps,
-            true => Contains::Yes,
+            Some(_) if self.is_between() => Contains::Perhaps,
+            Some(_) => Contains::Yes,
+        };
+        match &self.inside {
+            Inside::Nothing => Contains::No,
+            Inside::Enclosed => in_it(&self.outer),
+            Inside::Parts(parts) => parts.iter().map(in_it).max().unwrap_or(Contains::No),
         }
     }
 }
@@ -167,6 +160,10 @@ mod tests {
             assert_eq!(surface.contains(&at(0.0), &grain, &at(x)), Contains::No);
         }
         let open = Arc::new(Mesh::new(ring.positions().to_vec(), ring.triangles()[1..].to_vec()).expect("a mesh"));
-        assert_eq!(Body::solid(open).contains(&at(0.0), &grain, &at(2.0)), Contains::Perhaps);
+        assert_eq!(Body::solid(open.clone()).contains(&at(0.0), &grain, &at(2.0)), Contains::Perhaps);
+        // Of several parts, the one that is known to contain it decides.
+        for (parts, inside) in [(vec![open.clone()], Contains::Perhaps), (vec![open.clone(), ring], Contains::Yes)] {
+            assert_eq!(Body::union(open.clone(), &parts).contains(&at(0.0), &grain, &at(1.0)), inside);
+        }
     }
 }

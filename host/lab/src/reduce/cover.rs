@@ -7,6 +7,7 @@ use nalgebra::{Point3, Vector3};
 use ocb_core::configuration::Configuration;
 use ocb_core::oracle::{Pair, Shape};
 use ocb_core::pose::Pose;
+use ocb_core::scene::around;
 use rayon::prelude::*;
 
 use super::body::ROUNDING;
@@ -62,8 +63,7 @@ impl Region {
             Some(Plane { most: normal.dot(&a.coords) - rounding, normal })
         };
         let planes: Vec<Plane> = part.triangles().iter().filter_map(plane).collect();
-        let sum: Vector3<f64> = part.positions().iter().map(|p| p.coords).sum();
-        let middle = Point3::from(sum / part.positions().len() as f64);
+        let middle = Point3::from(around::mean(part.positions())?);
         let here = Configuration { pose_a: Pose::identity(), pose_b: Pose::identity() };
         let behind = planes.iter().all(|plane| plane.beyond(&middle) < -rounding);
         let inside = || Pair::new(part, &Shape::from_triangles(&[[middle; 3]])).parts_of_b_in_a(&here);
@@ -166,7 +166,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(200))]
 
-        /// Boxes in a row against a triangle: covered exactly when points of it, sampled densely, are all in some box.
+        /// A triangle among boxes: where a point of it is outside all of them, it is not called covered; and where none of many
+        /// points is, larger boxes cover it.
         #[test]
         fn what_is_called_covered_has_no_point_outside(
             corners in prop::array::uniform3(prop::array::uniform3(-1.0..1.0f64)),
@@ -187,7 +188,7 @@ mod tests {
             });
             let called = covers(&parts, &mesh);
             prop_assert!(sampled || !called);
-            // The other way round only where nothing is near: boxes larger by a hundredth cover what seemed covered.
+            // Larger by more than the points are apart.
             let larger = shapes(boxes.iter().map(|(size, at)| cuboid(size.map(|x| x + 0.1), *at)));
             prop_assert!(!sampled || covers(&larger, &mesh));
         }

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use nalgebra::{Point3, Vector3};
+use ocb_advice::Watch;
 use ocb_core::configuration::Configuration;
 use ocb_core::mesh::Mesh;
 use ocb_core::oracle::{Pair, Shape};
@@ -15,17 +16,32 @@ const SHARPEST: f64 = 0.3;
 /// Where a triangle has to grow, it does by this share of the most at least, and by this share of what it has grown.
 const STEP: f64 = 1.0 / 512.0;
 const MORE: f64 = 0.25;
+/// Around an object with more corners nothing is grown: it takes minutes.
+const MOST_CORNERS: usize = 20_000;
 /// After so many steps it is given up.
 const MOST_STEPS: usize = 24;
 
 /// A level whose triangles are moved outwards by `most` at most, so that its surface does not meet the object's and none of the
-/// object's corners is outside; nothing where that is not enough. Whether it contains the object has to be found out.
-pub fn around(level: &Mesh, object: &Shape, corners: &[Point3<f64>], most: f64) -> Option<Arc<Mesh>> {
+/// object's corners is outside; nothing where that is not enough, and when it was stopped. Whether it contains the object has to be
+/// found out.
+pub fn around(
+    level: &Mesh,
+    object: &Shape,
+    corners: &[Point3<f64>],
+    most: f64,
+    watch: &dyn Watch,
+) -> Option<Arc<Mesh>> {
+    if corners.len() > MOST_CORNERS {
+        return None;
+    }
     let here = Configuration { pose_a: Pose::identity(), pose_b: Pose::identity() };
     let growing = Growing::of(level)?;
     // Corners of a level are corners of its object, and on its surface nothing is inside or outside.
     let mut by = vec![STEP * most; level.positions().len()];
     for _ in 0..MOST_STEPS {
+        if watch.stopped() {
+            return None;
+        }
         let grown = growing.grown(&by)?;
         let shape = Shape::new(grown.clone());
         if !shape.is_closed() {
@@ -123,6 +139,7 @@ fn volume(mesh: &Mesh) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use ocb_advice::Unwatched;
     use ocb_core::scene::{Geometry, tessellate};
 
     use super::*;
@@ -138,17 +155,17 @@ mod tests {
         let turned = small.triangles().iter().map(|[a, b, c]| [*a, *c, *b]).collect();
         let turned = Mesh::new(small.positions().to_vec(), turned).expect("a mesh");
         for mesh in [&small, &turned] {
-            let grown = around(mesh, &object, object.positions(), 0.5).expect("it can");
+            let grown = around(mesh, &object, object.positions(), 0.5, &Unwatched).expect("it can");
             let sides = grown.bounds().sides();
             assert!(sides.x > 1.4 && sides.x < 1.7, "{sides:?}");
-            assert_eq!(around(mesh, &object, object.positions(), 0.1), None);
+            assert_eq!(around(mesh, &object, object.positions(), 0.1, &Unwatched), None);
         }
         // What moves a corner moves all sides at it, but a corner elsewhere stays.
         let bump = Shape::from_triangles(&[[[0.6, 0.9, 1.4], [0.4, 0.9, 1.4], [0.4, 0.8, 1.4]].map(Point3::from)]);
-        let grown = around(&small, &bump, bump.positions(), 0.5).expect("it can");
+        let grown = around(&small, &bump, bump.positions(), 0.5, &Unwatched).expect("it can");
         let far = grown.positions().iter().filter(|p| p.x < 0.0 && p.y < 0.0 && p.z < 0.0);
         assert!(far.clone().count() > 0 && far.into_iter().all(|p| (p - Point3::new(-0.5, -1.0, -1.5)).norm() < 0.02));
         let flat = Mesh::new(vec![[0.0; 3].into(), [1.0, 0.0, 0.0].into(), [0.0, 1.0, 0.0].into()], vec![[0, 1, 2]]);
-        assert_eq!(around(&flat.expect("a mesh"), &object, object.positions(), 1.0), None);
+        assert_eq!(around(&flat.expect("a mesh"), &object, object.positions(), 1.0, &Unwatched), None);
     }
 }

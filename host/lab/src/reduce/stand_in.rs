@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use nalgebra::Point3;
+use ocb_advice::Watch;
 use ocb_core::mesh::Mesh;
 use ocb_core::pose::Pose;
 use ocb_core::scene::{Geometry, around, tessellate};
@@ -48,6 +49,7 @@ pub fn of<E: From<LabError>>(
     name: &str,
     terms: ReduceTerms,
     make: Make<E>,
+    watch: &dyn Watch,
 ) -> Result<Option<Vec<StandIn>>, E> {
     let Geometry::Mesh { sha256, solid } = geometry else {
         // A primitive is as simple as an object can be.
@@ -76,7 +78,7 @@ pub fn of<E: From<LabError>>(
     all.extend(parts.iter().filter_map(|parts| contains(hulls(parts)?, &own)));
     for level in levels.into_iter().filter(|level| level.triangles().len() < object.triangles().len()) {
         match terms.outside_only {
-            true => all.extend(containing(&level, &own, &used, terms)),
+            true => all.extend(containing(&level, &own, &used, terms, watch)),
             false => all.push(mesh(BodyKind::Level, level, *solid)),
         }
     }
@@ -133,9 +135,9 @@ fn contains(stand_in: StandIn, own: &StandIn) -> Option<StandIn> {
     stand_in.body.surrounds(&own.body).then_some(stand_in)
 }
 
-/// Larger by this share, seen from the middle.
+/// A convex mesh larger by this share.
 fn scaled(mesh: &Mesh, by: f64) -> Option<Arc<Mesh>> {
-    let centre = mesh.bounds().center();
+    let centre = Point3::from(around::mean(mesh.positions())?);
     let positions = mesh.positions().iter().map(|p| centre + (p - centre) * (1.0 + by)).collect();
     Mesh::new(positions, mesh.triangles().to_vec()).ok().map(Arc::new)
 }
@@ -155,9 +157,15 @@ fn hulls(parts: &[Arc<Mesh>]) -> Option<StandIn> {
 }
 
 /// A level that has grown just so far that it contains the object; nothing where it would have to grow too much.
-fn containing(level: &Mesh, own: &StandIn, corners: &[Point3<f64>], terms: ReduceTerms) -> Option<StandIn> {
+fn containing(
+    level: &Mesh,
+    own: &StandIn,
+    corners: &[Point3<f64>],
+    terms: ReduceTerms,
+    watch: &dyn Watch,
+) -> Option<StandIn> {
     // Where nothing comes near, more than the tolerance does no harm.
     let most = FRONTIER.into_iter().fold(1.0, f64::max) * terms.tolerance;
-    let grown = grown::around(level, &own.body.outer, corners, most)?;
+    let grown = grown::around(level, &own.body.outer, corners, most, watch)?;
     contains(mesh(BodyKind::Level, grown, true), own)
 }

@@ -125,8 +125,9 @@ fn of_several_hulls_each_is_an_element() {
     };
     let mut after = done(&before, terms, &halves);
     let base = &before.scene.scene.objects[0];
-    let all =
-        stand_in::of(&before.scene, &base.geometry, "", terms, &halves).expect("bodies").expect("nothing stops it");
+    let all = stand_in::of(&before.scene, &base.geometry, "", terms, &halves, &Unwatched)
+        .expect("bodies")
+        .expect("nothing stops it");
     after.stand_ins[0] = all.into_iter().find(|it| it.kind == BodyKind::Hulls).expect("they cover the knot");
     let written = Robot::read(&path, &Wanted::default(), &before).expect("a robot").with(&after);
     let out = folder.path().join("out.urdf");
