@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::Result;
 use crate::model::State;
+use crate::runs::priority::BACKGROUND;
 use crate::runs::share::OfClass;
 use crate::runs::share::{QueueShare, Since};
 use crate::runs::sql::named_state;
@@ -37,7 +38,11 @@ impl Store {
     /// it does not wait. Where many wait, others may have moved for a second.
     pub async fn runs_before(&self, id: &str, of: &OfClass) -> Result<Option<u32>> {
         let Some(waiting) = self.waiting_before(id, of).await? else { return Ok(None) };
-        Ok(Some(waiting + self.running(of).await?.len() as u32))
+        // It may have begun since it was looked at.
+        let text = "SELECT COUNT(*) FROM runs \
+                    WHERE state = 'running' AND priority <= $1 AND COALESCE(hardware_class, $2) = $3 AND id <> $4";
+        let query = sqlx::query_scalar::<_, i64>(text).bind(BACKGROUND).bind(&of.usual).bind(&of.class).bind(id);
+        Ok(Some(waiting + query.fetch_one(&self.pool).await? as u32))
     }
 
     async fn waiting_before(&self, id: &str, of: &OfClass) -> Result<Option<u32>> {
