@@ -26,7 +26,7 @@ use crate::model::{
     AccountInfo, CampaignInfo, CampaignPreview, CampaignRequest, CampaignRuns, Compared, Cursor, Owner, Page, Part,
     State,
 };
-use crate::notices::notice;
+use crate::notices::telling::notice;
 use crate::plugins::sql::THE_SERVICE;
 use crate::requests::Made;
 use crate::runs::asking::RunContext;

@@ -4,6 +4,7 @@ mod algorithms;
 pub mod checks;
 pub mod checks_sql;
 pub mod lists;
+pub mod names;
 pub mod notices;
 pub mod registry;
 pub mod signature;
@@ -25,6 +26,7 @@ use crate::locks::Lock;
 use crate::model::{
     AccountInfo, Action, CheckLine, CheckVerdict, Cursor, Decision, Manifest, Page, Part, PluginInfo, PluginState, Role,
 };
+use crate::plugins::names::{ids, taken};
 use crate::plugins::notices::of_decision;
 use crate::plugins::sql::PluginRow;
 use crate::sha256_hex;
@@ -377,37 +379,10 @@ fn step(action: Action) -> Step {
     Step { by, wants_reason, from, to, word }
 }
 
-fn ids(row: &PluginRow) -> impl Iterator<Item = &str> {
-    row.algorithms.iter().map(|a| a.id.as_str())
-}
-
-/// An algorithm id of this plugin that another account's plugin, which is or was public, has as well.
-fn taken(row: &PluginRow, all: &[PluginRow]) -> Option<String> {
-    let others = || all.iter().filter(|other| other.account != row.account && other.state.is_shown());
-    ids(row).find(|id| others().any(|other| ids(other).any(|known| known == *id))).map(str::to_owned)
-}
-
 /// A public version of the same author that offers one of the same algorithms and came before.
 fn is_version_before(other: &PluginRow, row: &PluginRow) -> bool {
     let same = ids(row).any(|id| ids(other).any(|known| known == id));
     other.account == row.account && other.state.is_shown() && same && other.created_us < row.created_us
-}
-
-/// Why a finished check must not count: names that are taken, or a version that is there already.
-pub fn conflict(row: &PluginRow, all: &[PluginRow], installed: impl Fn(&str) -> bool) -> Option<String> {
-    if let Some(id) = ids(row).find(|id| installed(id)) {
-        return Some(format!("The algorithm id {id:?} belongs to a plugin of this service; choose another id."));
-    }
-    if let Some(id) = taken(row, all) {
-        return Some(format!("The algorithm id {id:?} belongs to another author's plugin; choose another id."));
-    }
-    let version = &row.manifest.version;
-    let again = |other: &&PluginRow| {
-        let same = ids(row).any(|id| ids(other).any(|known| known == id));
-        let kept = !matches!(other.state, PluginState::Failed | PluginState::Rejected);
-        other.id != row.id && other.account == row.account && kept && same && other.manifest.version == *version
-    };
-    all.iter().find(again).map(|_| format!("Version {version} of this plugin already exists; choose another version."))
 }
 
 /// What a curator should look at.

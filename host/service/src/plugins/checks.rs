@@ -15,7 +15,7 @@ use crate::mail::outbox::Outbox;
 use crate::measure::Stop;
 use crate::model::{CheckVerdict, PluginReport, PluginState};
 use crate::plugins::checks_sql::CheckEnd;
-use crate::plugins::conflict;
+use crate::plugins::names::conflict;
 use crate::plugins::notices::of_check;
 use crate::plugins::registry::{Registry, submitted};
 use crate::plugins::sql::{PluginRow, THE_SERVICE};

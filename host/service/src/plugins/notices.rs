@@ -1,7 +1,7 @@
 //! What authors are told of their plugins.
 
 use crate::model::{Action, NoticeInfo, PluginState};
-use crate::notices::notice;
+use crate::notices::telling::notice;
 use crate::plugins::sql::PluginRow;
 
 /// What the author of a plugin is told of a curator's decision; nothing of the steps that are the author's alone.
