@@ -12,6 +12,9 @@ pub enum LabError {
     /// Whoever asked for it ended it; nothing is wrong.
     #[error("Stopped before its end; what was not finished was discarded.")]
     Stopped,
+    /// A program of ours came to a bad end at its work; the sentence says nothing of this machine.
+    #[error("{0}")]
+    Ended(String),
     /// Ours or the machine's fault.
     #[error("{0}")]
     Fault(String),

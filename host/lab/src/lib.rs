@@ -3,6 +3,7 @@
 //! It knows no store, no account and nothing of HTTP, so that a machine that only measures can be built from it.
 #![forbid(unsafe_code)]
 
+pub mod advisor;
 pub mod algorithm;
 pub mod check;
 pub mod columns;

@@ -15,6 +15,7 @@ mod stretch;
 mod table;
 mod tally;
 mod timeline;
+mod whole;
 
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -43,6 +44,7 @@ pub use stretch::stretch;
 pub use table::{WorkloadRow, workload_parquet};
 use tally::{Answered, Tally};
 use timeline::Parts;
+pub use whole::{Asked, Far, Found, Site};
 
 /// A part gets this time at least, however few queries it has.
 const LEAST: Duration = Duration::from_secs(1);

@@ -1,8 +1,6 @@
 //! Asking for advice, looking at it, taking it away.
 
-pub mod jailed;
 mod own;
-mod shelf;
 pub mod sql;
 pub mod work;
 
@@ -10,10 +8,10 @@ use std::sync::Arc;
 
 use ocb_advice::Paper;
 use ocb_core::mesh::{Mesh, obj};
+use ocb_lab::advisor::{Advisor, Found, SHELF};
 
-use crate::advice::jailed::{Advisor, SHELF};
 use crate::advice::sql::{AdviceRow, StoredPaper};
-use crate::advice::work::{Advices, Found, Job, extent};
+use crate::advice::work::{Advices, Job, extent};
 use crate::attempts::{Attempt, MOST_LOST, superseded};
 use crate::boxed;
 use crate::engine::Engine;

@@ -5,8 +5,8 @@ use std::time::Duration;
 
 pub use ocb_sandbox::Profile;
 
-use crate::advice::jailed::PROGRAM;
 use crate::mail::MailServer;
+use ocb_lab::advisor::PROGRAM;
 use ocb_lab::check::CHECK_LIMIT;
 
 /// Limits of the measuring time that visitors may have queued and running: budget times algorithms.

@@ -58,6 +58,7 @@ impl From<ocb_lab::LabError> for EngineError {
             ocb_lab::LabError::Invalid(sentence) => Self::Invalid(sentence),
             ocb_lab::LabError::Busy(sentence) => Self::Busy(sentence),
             ocb_lab::LabError::Stopped => Self::Busy(e.to_string()),
+            ocb_lab::LabError::Ended(sentence) => Self::Ended(sentence),
             ocb_lab::LabError::Fault(sentence) => Self::Fault(sentence),
         }
     }

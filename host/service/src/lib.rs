@@ -55,7 +55,6 @@ pub use ocb_lab::{LabError, sha256_hex};
 use ocb_lab::{columns, configurations, machine, measure, replay};
 
 pub use accounts::SESSION;
-pub use advice::jailed as advising;
 pub use board::ask::board_csv;
 pub use campaigns::campaign_csv;
 pub use charts::ask::{chart_csv, chart_parquet};
@@ -64,6 +63,7 @@ pub use error::{EngineError, Result};
 pub use machines::Handing;
 pub use mail::{MailServer, Pace};
 pub use ocb_chart as chart;
+pub use ocb_lab::advisor as advising;
 pub use ocb_lab::algorithm::Runner;
 pub use ocb_lab::check::Extent;
 pub use ocb_lab::measure::Stop;

@@ -2,7 +2,6 @@
 
 mod heatmaps;
 pub mod recordings;
-mod reduce;
 pub mod replay;
 pub mod sql;
 mod work;
@@ -28,6 +27,7 @@ use crate::runs::current::Work;
 use crate::store::{Store, now_us};
 use crate::{EngineError, Recording, Result, sha256_hex};
 use recordings::parsed;
+use replay::Order;
 use sql::WorkloadRow;
 
 /// So many of one account, or of the guests of one address, may be queued or running, and so many in all.
@@ -49,7 +49,8 @@ impl Engine {
     ) -> Result<Replayed> {
         spec.check().map_err(EngineError::Invalid)?;
         let algorithms = replay::algorithms_for(&self.inner.registry, &recording, &spec.algorithms, None)?;
-        self.inner.replays.replay(recording, spec, algorithms, stop, tell, waits).await
+        let order = Order { recording, spec, algorithms };
+        self.inner.replays.here(order, stop, move |asked, site| asked.replay(site, &tell, waits)).await
     }
 
     /// Keeps an uploaded recording and queues its replay; of a scene without queries nothing is replayed. True when it is new: the

@@ -2,22 +2,22 @@
 //!
 //! Such work is no run: no plugin is loaded and nothing is ranked. Its times are taken while this process holds the machine's
 //! right to measure, so nothing is measured beside them; the rest of the work is kept off a run's CPU as all threads of this
-//! process are. The work itself is done in the jail: `jailed.rs`.
+//! process are. The work itself is done in the jail, by the lab's advisor.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use ocb_advice::{Advice, CONFIGURATIONS, HELD_OUT, Paper, Question, Watch, usual_distances};
+use ocb_advice::{CONFIGURATIONS, HELD_OUT, Watch};
 use ocb_core::mesh::Mesh;
+use ocb_lab::advisor::{Advisor, Found, Request};
 use tokio::sync::{Notify, Semaphore};
 
-use super::jailed::{Advised, Advisor, Level, Request};
 use crate::Result;
 use crate::blobs::Blobs;
 use crate::machine::Machine;
 use crate::measure::Stop;
-use crate::model::{AdviceInfo, Asked, State};
+use crate::model::{AdviceInfo, State};
 use crate::objects::Objects;
 use crate::runs::current::Work;
 use crate::store::Store;
@@ -60,9 +60,6 @@ pub struct Job {
 pub fn extent(quick: bool) -> [u32; 2] {
     if quick { [48, 96] } else { [CONFIGURATIONS, HELD_OUT] }
 }
-
-/// What came out: the advice and, of A and of B, what can be taken away: reduced meshes with their certificates.
-pub type Found = (Advice, [Vec<(Paper, Arc<Mesh>)>; 2]);
 
 impl Advices {
     /// Nothing waits yet.
@@ -124,17 +121,13 @@ impl Job {
         advisor: &Advisor,
         counts: [u32; 2],
     ) -> Result<Option<Found>> {
-        locked(&self.info).state = State::Running;
-        let side = meshes[0].longest_side();
-        let question = match locked(&self.info).spec.question {
-            Asked::Distance { tolerance } => Question::Distance { tolerance: tolerance * side },
-            Asked::Clearance { clearance } => Question::Clearance { clearance: clearance * side },
+        let question = {
+            let mut info = locked(&self.info);
+            info.state = State::Running;
+            info.spec.question
         };
-        let distances = usual_distances(question, side);
-        let request = Request { names: names.clone(), meshes, question, distances, counts, seed: 0 };
-        let Some(Advised { advice, ladders }) = advisor.advise(&request, self)? else { return Ok(None) };
-        let papers = [0, 1].map(|side| papers_of(side, &names[side], &ladders[side], &advice));
-        Ok(Some((advice, papers)))
+        let request = Request::of(question, names.clone(), meshes, counts);
+        Ok(advisor.advise(&request, self)?.map(|advised| advised.found(names)))
     }
 }
 
@@ -152,18 +145,6 @@ impl Watch for Job {
     fn stopped(&self) -> bool {
         self.stop.asked()
     }
-}
-
-fn papers_of(side: usize, name: &str, levels: &[Level], advice: &Advice) -> Vec<(Paper, Arc<Mesh>)> {
-    let level = |stage: &[usize; 2]| {
-        let level = &levels[stage[side]];
-        let file = format!("{}-{}.obj", ["a", "b"][side], level.mesh.triangles().len());
-        Some((
-            Paper { object_file: name.to_owned(), file, certificate: level.certificate.clone()? },
-            level.mesh.clone(),
-        ))
-    };
-    advice.stages.iter().filter_map(level).collect()
 }
 
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

@@ -4,9 +4,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use ocb_lab::LabError;
+use ocb_lab::advisor::{Advisor, SHELF};
 use ocb_lab::algorithm::Algorithm;
 use ocb_lab::recording::Recording;
-use ocb_lab::workload::{self, Progress, Replayed, Wanted};
+use ocb_lab::workload::{Asked, Site};
 
 use super::recordings::Recordings;
 use crate::blobs::Blobs;
@@ -34,34 +35,40 @@ pub struct Replays {
     pub data: PathBuf,
 }
 
+/// What is replayed, and how.
+pub(super) struct Order {
+    pub recording: Arc<Recording>,
+    pub spec: WorkloadSpec,
+    pub algorithms: Vec<Arc<Algorithm>>,
+}
+
 impl Replays {
-    /// On a thread of its own: a jail ends with the thread that started it.
-    pub(super) async fn replay(
+    /// Does this with a replay on a thread of its own: a jail ends with the thread that started it.
+    pub(super) async fn here<T: Send + 'static>(
         &self,
-        recording: Arc<Recording>,
-        spec: WorkloadSpec,
-        algorithms: Vec<Arc<Algorithm>>,
+        order: Order,
         stop: Stop,
-        tell: impl Fn(Progress) + Send + 'static,
-        waits: impl FnOnce() + Send + 'static,
-    ) -> Result<Replayed> {
-        let (registry, machine) = (self.registry.clone(), self.machine.clone());
-        let (sender, replayed) = tokio::sync::oneshot::channel();
-        let work = move || {
-            let _right = stop.right_to_measure(waits)?.ok_or(LabError::Stopped)?;
-            let wanted = Wanted {
-                algorithms: &algorithms,
-                tracks: &spec.tracks,
-                passes: spec.passes,
-                budget: std::time::Duration::from_secs_f64(spec.budget_seconds),
-                seed: spec.seed.unwrap_or_else(|| uuid::Uuid::new_v4().as_u64_pair().0 >> 11),
-            };
-            workload::replay(&recording, &wanted, registry.runner(), &machine, &stop, &tell)
+        work: impl FnOnce(&Asked<'_>, &Site<'_>) -> std::result::Result<T, LabError> + Send + 'static,
+    ) -> Result<T> {
+        let (registry, machine, data) = (self.registry.clone(), self.machine.clone(), self.data.clone());
+        let advisor = Advisor::new(&self.advisor, &machine, &data.join(SHELF));
+        let (sender, ended) = tokio::sync::oneshot::channel();
+        let thread = move || {
+            let Order { recording, spec, algorithms } = order;
+            let asked = Asked { recording: &recording, algorithms: &algorithms, seed: seed_of(&spec), spec: &spec };
+            let (runner, machine, stop) = (registry.runner(), &machine, &stop);
+            let site = Site { runner, machine, stop, advisor: &advisor, folder: &data };
+            drop(sender.send(work(&asked, &site)));
         };
-        let thread = std::thread::Builder::new().name("workload".into()).spawn(move || drop(sender.send(work())));
+        let thread = std::thread::Builder::new().name("workload".into()).spawn(thread);
         thread.map_err(|e| EngineError::fault("Starting the replay's thread failed", e))?;
-        Ok(replayed.await.map_err(|_| EngineError::Fault("The replay failed; see the log.".into()))??)
+        Ok(ended.await.map_err(|_| EngineError::Fault("The replay failed; see the log.".into()))??)
     }
+}
+
+/// The seed that was asked for, or one that is drawn.
+pub(super) fn seed_of(spec: &WorkloadSpec) -> u64 {
+    spec.seed.unwrap_or_else(|| uuid::Uuid::new_v4().as_u64_pair().0 >> 11)
 }
 
 /// The algorithms of these names, or the usual ones, that answer at least one kind of query of the recording.

@@ -1,16 +1,15 @@
 //! Workloads at work: one replay at a time, begun anew after a restart.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use ocb_lab::workload::{Progress, workload_parquet};
+use ocb_lab::workload::{Far, Found};
 use tokio::time::sleep;
 
-use super::reduce::{Doing, Reducing};
-use super::replay::{Replays, algorithms_for};
+use super::replay::{Order, Replays, algorithms_for};
 use super::sql::WorkloadRow;
 use crate::attempts::sql::end;
+use crate::attempts::worker::Worker;
 use crate::attempts::{Attempt, MOST_LOST, Outcome};
 use crate::measure::Stop;
 use crate::model::State;
@@ -24,14 +23,7 @@ const NOTE: Duration = Duration::from_secs(1);
 impl Replays {
     /// Replays the recording whose turn it is; false when none waits.
     pub async fn next(&self) -> Result<bool> {
-        let Some((attempt, row)) = self.store.begin_replay(&self.work.worker).await? else { return Ok(false) };
-        if row.attempts > MOST_LOST {
-            let message = format!(
-                "The service ended {MOST_LOST} times in the middle of this replay, so it is not tried again; its log says why."
-            );
-            self.store.give_up_replay(&attempt, State::Failed, Some(&message)).await?;
-            return Ok(true);
-        }
+        let Some((attempt, row)) = self.begin(&self.work.worker).await? else { return Ok(false) };
         let stop = Stop::default();
         let _held = self.work.begin(&attempt, &stop, None);
         // Who ended it between the beginning and the line above found nothing to stop.
@@ -39,94 +31,122 @@ impl Replays {
         if !open {
             stop.stop();
         }
-        let ended = self.carry_out(&attempt, &row, &stop).await;
+        let how = self.carry_out(&attempt, &row, &stop).await;
         self.work.unset_current();
-        match ended {
-            Ok(()) => {}
-            // Its time is over.
-            Err(_) if stop.asked() && stop.reason().is_some() => {
-                self.store.give_up_replay(&attempt, State::Cancelled, stop.reason().as_deref()).await?;
-            }
-            Err(_) if stop.asked() => self.store.put_back_replay(&attempt).await?,
-            // Ours: it is tried again, after the dispatcher has waited a little.
-            Err(e @ EngineError::Fault(_)) => {
-                let mut connection = self.store.pool.acquire().await?;
-                end(&mut connection, &attempt, Outcome::Lost).await?;
-                return Err(e);
-            }
-            Err(e) => {
-                tracing::warn!("workload {}: {e}", row.id);
-                self.store.give_up_replay(&attempt, State::Failed, Some(&e.for_visitors().to_string())).await?;
-            }
+        match how {
+            Err(_) if stop.asked() => self.stopped(&attempt, stop.reason().as_deref()).await?,
+            how => self.settle(&attempt, &row, how).await?,
         }
         Ok(true)
     }
 
-    async fn carry_out(&self, attempt: &Attempt, row: &WorkloadRow, stop: &Stop) -> Result<()> {
-        let told = self.store.workload_row(&row.id).await?.recording;
-        let recording = self.recordings.get(&told).await?;
-        let algorithms = algorithms_for(&self.registry, &recording, &row.spec.algorithms, row.owner.as_deref())?;
-        let done = Arc::new(AtomicU64::new(0));
-        let doing = Arc::new(Doing::default());
-        let told = (done.clone(), doing.clone());
-        let tell = move |progress: Progress| match progress {
-            Progress::Scene { algorithm, process, of } => {
-                told.1.say(Some(format!("Asking {algorithm} about the whole scene: process {process} of {of}.")));
+    /// Begins the next replay for a worker. One that was lost too often is given up.
+    pub(super) async fn begin(&self, worker: &Worker) -> Result<Option<(Attempt, WorkloadRow)>> {
+        while let Some((attempt, row)) = self.store.begin_replay(worker).await? {
+            if row.attempts <= MOST_LOST {
+                return Ok(Some((attempt, row)));
             }
-            Progress::Pairs { done, .. } => {
-                told.1.say(None);
-                told.0.store(done, Ordering::Relaxed);
+            let message = format!(
+                "The service or a measuring machine ended or failed {MOST_LOST} times in the middle of this replay, so it is not tried again; the \
+                 service's log says why."
+            );
+            self.store.give_up_replay(&attempt, State::Failed, Some(&message)).await?;
+        }
+        Ok(None)
+    }
+
+    /// It was stopped: because its time is over, which its owner is told, or for now.
+    pub(super) async fn stopped(&self, attempt: &Attempt, reason: Option<&str>) -> Result<()> {
+        match reason {
+            Some(_) => self.store.give_up_replay(attempt, State::Cancelled, reason).await.map(|_| ()),
+            None => self.store.put_back_replay(attempt).await,
+        }
+    }
+
+    /// Notes how an attempt ended that was not stopped.
+    pub(super) async fn settle(&self, attempt: &Attempt, row: &WorkloadRow, how: Result<bool>) -> Result<()> {
+        match how {
+            Ok(_) => Ok(()),
+            // Ours: it is tried again, after the dispatcher has waited a little.
+            Err(e @ EngineError::Fault(_)) => {
+                let mut connection = self.store.pool.acquire().await?;
+                end(&mut connection, attempt, Outcome::Lost).await?;
+                Err(e)
+            }
+            Err(e) => {
+                tracing::warn!("workload {}: {e}", row.id);
+                let message = e.for_visitors().to_string();
+                self.store.give_up_replay(attempt, State::Failed, Some(&message)).await.map(|_| ())
+            }
+        }
+    }
+
+    /// The time of a replay, and what its owner is told when it is over.
+    pub(super) fn limit(&self, row: &WorkloadRow) -> Option<(Duration, String)> {
+        let longest = self.ceilings.longest_of(row.owner.as_deref())?;
+        let reason = format!(
+            "Stopped after {}, the time limit for guests. Choose fewer algorithms or a smaller budget, or log in.",
+            time(longest.as_secs_f64())
+        );
+        Some((longest, reason))
+    }
+
+    /// What is to be replayed.
+    pub(super) async fn order(&self, row: &WorkloadRow) -> Result<Order> {
+        let recording = self.recordings.get(&row.recording).await?;
+        let spec = row.spec.clone();
+        let algorithms = algorithms_for(&self.registry, &recording, &spec.algorithms, row.owner.as_deref())?;
+        Ok(Order { recording, spec, algorithms })
+    }
+
+    async fn carry_out(&self, attempt: &Attempt, row: &WorkloadRow, stop: &Stop) -> Result<bool> {
+        let order = self.order(row).await?;
+        let far: Arc<Mutex<(u64, Option<String>)>> = Arc::default();
+        let told = far.clone();
+        let tell = move |now: Far| {
+            let mut far = told.lock().unwrap_or_else(PoisonError::into_inner);
+            match now {
+                Far::Pairs(done) => *far = (done, None),
+                Far::Doing(what) => far.1 = Some(what),
             }
         };
-        let replaying = async {
-            let of = (recording.clone(), row.spec.clone(), algorithms.clone());
-            let mut replayed = self.replay(of.0, of.1, of.2, stop.clone(), tell, || {}).await?;
-            let Some(terms) = row.spec.reduce else { return Ok::<_, EngineError>((replayed, None)) };
-            let track = replayed.result.tracks[0].track;
-            let (spec, doing) = (&row.spec, &doing);
-            let reducing =
-                Reducing { replays: self, recording: &recording, spec, algorithms: &algorithms, stop, doing, track };
-            let (reduced, file) = reducing.reduced(terms, &replayed.result).await?;
-            replayed.result.reduced = Some(reduced);
-            Ok((replayed, Some(file)))
-        };
+        let replaying = self.here(order, stop.clone(), move |asked, site| asked.carry_out(site, &tell));
         tokio::pin!(replaying);
         let noted = async {
             loop {
                 tokio::select! {
-                    replayed = &mut replaying => break replayed,
+                    found = &mut replaying => break found,
                     () = sleep(NOTE) => {
-                        let (done, doing) = (done.load(Ordering::Relaxed), doing.now());
+                        let (done, doing) = far.lock().unwrap_or_else(PoisonError::into_inner).clone();
                         self.store.replay_is_at(&row.id, done, doing.as_deref()).await?;
                     }
                 }
             }
         };
-        let limit = self.ceilings.longest_of(row.owner.as_deref()).map(|longest| {
-            let reason = format!(
-                "Stopped after {}, the time limit for guests. Choose fewer algorithms or a smaller budget, or log in.",
-                time(longest.as_secs_f64())
-            );
-            (longest, reason)
-        });
-        let (replayed, reduced) = in_time(noted, stop, limit).await?;
-        let table = workload_parquet(&replayed.rows, &recording.queries)?;
-        let length = table.len();
+        let found = in_time(noted, stop, self.limit(row)).await?;
+        self.accept(attempt, row, found).await
+    }
+
+    /// Keeps what was found; false when the attempt is not the current one.
+    pub(super) async fn accept(&self, attempt: &Attempt, row: &WorkloadRow, found: Found) -> Result<bool> {
+        let Found { result, queries, reduced } = found;
         let _keeping = self.store.locks.keeping().await?;
-        let queries = self.blobs.put(table).await?;
-        self.store.add_blob(&queries, length, "application/vnd.apache.parquet").await?;
+        let queries = self.keep(queries, "application/vnd.apache.parquet").await?;
         let reduced = match reduced {
-            Some(file) => {
-                let length = file.len();
-                let reduced = self.blobs.put(file).await?;
-                self.store.add_blob(&reduced, length, "application/zip").await?;
-                Some(reduced)
-            }
+            Some(file) => Some(self.keep(file, "application/zip").await?),
             None => None,
         };
-        if !self.store.accept_replay(attempt, &replayed.result, &queries, reduced.as_deref()).await? {
+        let accepted = self.store.accept_replay(attempt, &result, &queries, reduced.as_deref()).await?;
+        if !accepted {
             tracing::warn!("workload {}: the result of attempt {} is not kept", row.id, attempt.number);
         }
-        Ok(())
+        Ok(accepted)
+    }
+
+    async fn keep(&self, file: Vec<u8>, kind: &str) -> Result<String> {
+        let length = file.len();
+        let name = self.blobs.put(file).await?;
+        self.store.add_blob(&name, length, kind).await?;
+        Ok(name)
     }
 }

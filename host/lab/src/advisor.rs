@@ -3,6 +3,9 @@
 //! Each object's levels are made in a process of their own, and the advice in another one. What they send back is read as
 //! hostile input (`ocb_advice::work`); how they may end badly is one sentence.
 
+mod asked;
+mod shelf;
+
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,14 +14,16 @@ use std::time::Duration;
 use ocb_advice::work::{Object, Order, Parts, Reply, Rung, STEPS, Scene, Simpler, Task};
 use ocb_advice::{Advice, Certificate, Question, Watch};
 use ocb_core::mesh::Mesh;
-use ocb_lab::reduce::Simplified;
 use ocb_sandbox::text::one_line;
 use ocb_sandbox::work::{Seen, Work};
 use ocb_sandbox::{Ending, Outcome, Policy};
 
-use super::shelf::Shelf;
+pub use asked::Found;
+use shelf::Shelf;
+
 use crate::machine::{Machine, MeasuringRight};
-use crate::{EngineError, Result};
+use crate::reduce::Simplified;
+use crate::{LabError, Result};
 
 /// The program's name, beside the runner.
 pub const PROGRAM: &str = "ocb-advisor";
@@ -131,11 +136,11 @@ impl Advisor {
         let mut advice = match reply {
             Reply::Advice(advice) => *advice,
             Reply::NeverThatClose => {
-                return Err(EngineError::Invalid("B never comes that close to A; choose other distances.".to_owned()));
+                return Err(LabError::Invalid("B never comes that close to A; choose other distances.".to_owned()));
             }
             Reply::Impossible(why) => {
                 let why = one_line(&why, TEXT);
-                return Err(EngineError::Invalid(format!("These configurations are not possible: {why}.")));
+                return Err(LabError::Invalid(format!("These configurations are not possible: {why}.")));
             }
             Reply::Ladder(_) | Reply::Simpler(_) => return Err(nonsense("it sent something else than advice")),
         };
@@ -189,7 +194,7 @@ impl Advisor {
             return Ok(None);
         }
         let order = serde_json::to_vec(&Order { threads: self.threads, task })
-            .map_err(|e| EngineError::fault("Writing the advisor's order failed", e))?;
+            .map_err(|e| LabError::fault("Writing the advisor's order failed", e))?;
         let mut work = Work::start(&self.program, &self.policy, &order, ROOM).map_err(ended)?;
         drop(order);
         let mut right = None;
@@ -226,7 +231,7 @@ impl Advisor {
 fn right_to_measure(work: &mut Work, watch: &dyn Watch) -> Result<Option<MeasuringRight>> {
     let work = RefCell::new(work);
     let waits = || watch.step("waiting for a measurement to end", 0, 0);
-    Ok(MeasuringRight::wait(|| watch.stopped() || work.borrow_mut().look().is_err(), waits)?)
+    MeasuringRight::wait(|| watch.stopped() || work.borrow_mut().look().is_err(), waits)
 }
 
 fn object(levels: &[Level]) -> Object {
@@ -247,16 +252,16 @@ fn clean(advice: &mut Advice) {
 }
 
 /// What came back is nothing that the program would send by itself.
-fn nonsense(what: &str) -> EngineError {
+fn nonsense(what: &str) -> LabError {
     tracing::error!("the advisor's reply is not used: {what}");
-    EngineError::Ended("The advisor failed: its reply makes no sense.".to_owned())
+    LabError::Ended("The advisor failed: its reply makes no sense.".to_owned())
 }
 
 /// How the program ended, as a fact without a cause that is not known.
-fn ended(ending: Ending) -> EngineError {
+fn ended(ending: Ending) -> LabError {
     let Ending { outcome, stderr, .. } = ending;
     if let Outcome::SandboxFault { step, reason } = &outcome {
-        return EngineError::Fault(format!("The advisor cannot be started (step {step}): {reason}."));
+        return LabError::Fault(format!("The advisor cannot be started (step {step}): {reason}."));
     }
     tracing::error!(?outcome, stderr, "the advisor failed");
     let how = match outcome {
@@ -266,5 +271,5 @@ fn ended(ending: Ending) -> EngineError {
         Outcome::SyscallDenied { call, .. } => format!("it made the forbidden system call {}", call.name),
         _ => "its process ended too early".to_owned(),
     };
-    EngineError::Ended(format!("The advisor failed: {how}."))
+    LabError::Ended(format!("The advisor failed: {how}."))
 }
