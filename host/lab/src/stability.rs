@@ -18,7 +18,7 @@ use ocb_stability::{corpus, families as catalogue};
 use crate::algorithm::{Algorithm, Runner};
 use crate::machine::Machine;
 use crate::measure::{Stop, precision};
-use crate::model::{FailureInfo, FamilyInfo, RelationInfo, Stability, StabilityTable};
+use crate::model::{FailureInfo, FamilyInfo, RelationInfo, Stability, StabilitySpec, StabilityTable};
 use crate::now_us;
 use crate::{LabError, Result};
 use ask::Asker;
@@ -42,6 +42,11 @@ pub struct Selection {
 pub const SEEDS: u32 = 3;
 
 impl Selection {
+    /// What a stability run of the service asks.
+    pub fn of(spec: &StabilitySpec) -> Self {
+        Self { parts: spec.parts.clone(), seeds: spec.seeds.unwrap_or(0), ..Self::default() }
+    }
+
     /// Names that stand for nothing are refused.
     pub fn check(&self) -> Result<()> {
         let known: Vec<&str> = names().collect();

@@ -183,13 +183,8 @@ fn curates(account: &AccountInfo) -> Result<()> {
     Ok(())
 }
 
-/// What is asked, for the lab.
-pub(super) fn selection(spec: &StabilitySpec) -> Selection {
-    Selection { parts: spec.parts.clone(), seeds: spec.seeds.unwrap_or(0), ..Selection::default() }
-}
-
 fn check(spec: &StabilitySpec) -> Result<()> {
-    selection(spec).check()?;
+    Selection::of(spec).check()?;
     match spec.seeds {
         Some(seeds) if !(1..=MOST_SEEDS).contains(&seeds) => {
             Err(EngineError::Invalid(format!("Seeds per value must be from 1 to {MOST_SEEDS}, not {seeds}.")))
@@ -199,7 +194,7 @@ fn check(spec: &StabilitySpec) -> Result<()> {
 }
 
 fn info(row: StabilityRow, runs_ahead: u32) -> StabilityRunInfo {
-    let parts = stability::parts(&selection(&row.spec));
+    let parts = stability::parts(&Selection::of(&row.spec));
     let open = matches!(row.state, State::Queued | State::Running);
     StabilityRunInfo {
         step: parts.get(row.done.len()).filter(|_| open).map(|part| (*part).to_owned()),

@@ -98,17 +98,17 @@ impl Store {
     }
 
     /// Keeps the findings of the finished parts, and their time, and ends the run with the last part; a run that was cancelled
-    /// meanwhile stays as it is. True when this has ended it, false also when the attempt is not the current one.
+    /// meanwhile stays as it is. Whether this has ended it; nothing when the attempt is not the current one.
     pub async fn accept_part(
         &self,
         attempt: &Attempt,
         done: &[String],
         found: &Stability,
         seconds: f64,
-    ) -> Result<bool> {
+    ) -> Result<Option<bool>> {
         let mut transaction = self.pool.begin().await?;
         if !end(&mut transaction, attempt, Outcome::Accepted).await? {
-            return Ok(false);
+            return Ok(None);
         }
         let text = "UPDATE stability_runs SET attempts = 0, done = $1, found = $2, spent_seconds = $3 \
                     WHERE id = $4 AND state = 'running'";
@@ -116,7 +116,7 @@ impl Store {
         query.bind(&attempt.job).execute(&mut *transaction).await?;
         let ended = found.complete && end_open(&mut transaction, &attempt.job, State::Done, None).await?;
         transaction.commit().await?;
-        Ok(ended)
+        Ok(Some(ended))
     }
 
     /// Ends the run of an attempt, for a reason that this came upon; false when the attempt is not the current one.

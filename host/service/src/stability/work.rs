@@ -6,10 +6,10 @@ use std::time::Duration;
 
 use ocb_lab::LabError;
 use ocb_lab::algorithm::Algorithm;
-use ocb_lab::stability;
+use ocb_lab::stability::{self, Selection};
 
-use super::runs::selection;
 use super::runs_sql::StabilityRow;
+use crate::attempts::worker::Worker;
 use crate::attempts::{Attempt, MOST_LOST};
 use crate::config::Ceilings;
 use crate::machine::Machine;
@@ -22,6 +22,17 @@ use crate::runs::priority::{IDLE, INTERACTIVE};
 use crate::store::Store;
 use crate::time_limit::in_time;
 use crate::{EngineError, Result};
+
+/// What is to be tried next.
+struct Next {
+    algorithm: Arc<Algorithm>,
+    /// Nothing when all parts are done.
+    part: Option<&'static str>,
+    /// The parts before it.
+    done: Vec<String>,
+    /// What these have found.
+    found: Stability,
+}
 
 /// The stability runs that wait, and what carries them out.
 pub struct StabilityRuns {
@@ -42,15 +53,7 @@ impl StabilityRuns {
 
     async fn try_next(&self, idle: Option<u64>) -> Result<bool> {
         let priority = if idle.is_some() { IDLE } else { INTERACTIVE };
-        let begun = self.store.begin_part(priority, &self.work.worker).await?;
-        let Some((attempt, row)) = begun else { return Ok(false) };
-        if row.attempts > MOST_LOST {
-            let message = format!(
-                "This run failed {MOST_LOST} times in the same part and is not tried again; the service's log says why."
-            );
-            self.store.give_up_part(&attempt, State::Failed, Some(&message)).await?;
-            return Ok(true);
-        }
+        let Some((attempt, row)) = self.begin(priority, &self.work.worker).await? else { return Ok(false) };
         let stop = Stop::default();
         let _held = self.work.begin(&attempt, &stop, idle);
         // Who ended it between the beginning and the line above found nothing to stop.
@@ -58,67 +61,106 @@ impl StabilityRuns {
         if !open {
             stop.stop();
         }
-        match self.part_in_time(&attempt, &row, &stop).await {
-            Ok(()) => {}
-            // Its time is over.
-            Err(LabError::Stopped) if stop.reason().is_some() => {
-                self.store.give_up_part(&attempt, State::Cancelled, stop.reason().as_deref()).await?;
+        let how = in_time(self.one_part(&attempt, &row, &stop), &stop, self.limit(&row)).await;
+        self.settle(&attempt, &row, how, stop.reason().as_deref()).await?;
+        Ok(true)
+    }
+
+    /// Begins the next part for a worker. A run whose part was lost too often is given up.
+    async fn begin(&self, priority: i64, worker: &Worker) -> Result<Option<(Attempt, StabilityRow)>> {
+        while let Some((attempt, row)) = self.store.begin_part(priority, worker).await? {
+            if row.attempts <= MOST_LOST {
+                return Ok(Some((attempt, row)));
             }
-            Err(LabError::Stopped) => self.store.put_back_part(&attempt).await?,
+            let message = format!(
+                "This run failed {MOST_LOST} times in the same part and is not tried again; the service's log says why."
+            );
+            self.store.give_up_part(&attempt, State::Failed, Some(&message)).await?;
+        }
+        Ok(None)
+    }
+
+    /// Notes how an attempt at a part ended; the reason is that for which it was stopped.
+    async fn settle(
+        &self,
+        attempt: &Attempt,
+        row: &StabilityRow,
+        how: std::result::Result<(), LabError>,
+        reason: Option<&str>,
+    ) -> Result<()> {
+        match how {
+            Ok(()) => Ok(()),
+            // Its time is over.
+            Err(LabError::Stopped) if reason.is_some() => {
+                self.store.give_up_part(attempt, State::Cancelled, reason).await.map(|_| ())
+            }
+            Err(LabError::Stopped) => self.store.put_back_part(attempt).await,
             // Ours: the part is tried again, after the dispatcher has waited a little.
             Err(e @ LabError::Fault(_)) => {
-                self.store.lose_part(&attempt).await?;
-                return Err(e.into());
+                self.store.lose_part(attempt).await?;
+                Err(e.into())
             }
             Err(e) => {
                 tracing::warn!("stability run {}: {e}", row.id);
                 let message = EngineError::from(e).for_visitors().to_string();
-                self.store.give_up_part(&attempt, State::Failed, Some(&message)).await?;
+                self.store.give_up_part(attempt, State::Failed, Some(&message)).await.map(|_| ())
             }
         }
-        Ok(true)
     }
 
-    /// Tries a part, and stops it when the time of its run is over.
-    async fn part_in_time(
-        &self,
-        attempt: &Attempt,
-        row: &StabilityRow,
-        stop: &Stop,
-    ) -> std::result::Result<(), LabError> {
-        let limit = self.ceilings.longest_of(row.owner.as_deref()).map(|longest| {
-            let reason = format!(
-                "Stopped after {}, the time limit for guests. Choose fewer tests or seeds, or log in.",
-                time(longest.as_secs_f64())
-            );
-            (longest.saturating_sub(Duration::from_secs_f64(row.spent_seconds)), reason)
-        });
-        in_time(self.one_part(attempt, row, stop), stop, limit).await
+    /// What is left of the time of a run, and what its owner is told when it is over.
+    fn limit(&self, row: &StabilityRow) -> Option<(Duration, String)> {
+        let longest = self.ceilings.longest_of(row.owner.as_deref())?;
+        let reason = format!(
+            "Stopped after {}, the time limit for guests. Choose fewer tests or seeds, or log in.",
+            time(longest.as_secs_f64())
+        );
+        Some((longest.saturating_sub(Duration::from_secs_f64(row.spent_seconds)), reason))
     }
 
     async fn one_part(&self, attempt: &Attempt, row: &StabilityRow, stop: &Stop) -> std::result::Result<(), LabError> {
-        let fault = |e: EngineError| LabError::Fault(e.to_string());
+        let mut next = self.next_part(row).await?;
+        if let Some(part) = next.part {
+            next.found = self.tried(&next.algorithm, row, part, next.found, stop).await?;
+        }
+        let accepted = self.accept(attempt, row, next, stop.worked().as_secs_f64()).await;
+        accepted.map(|_| ()).map_err(|e| LabError::Fault(e.to_string()))
+    }
+
+    /// What is to be tried next, and on what.
+    async fn next_part(&self, row: &StabilityRow) -> std::result::Result<Next, LabError> {
         let algorithm = self
             .registry
             .named(&row.spec.algorithm, row.owner.as_deref())
             .map_err(|e| LabError::Invalid(e.to_string()))?;
-        let selection = selection(&row.spec);
-        let kept = self.store.stability_found(&row.id).await.map_err(fault)?;
+        let selection = Selection::of(&row.spec);
+        let kept = self.store.stability_found(&row.id).await.map_err(|e| LabError::Fault(e.to_string()))?;
         // What another file found is no part of this result.
         let kept = kept.filter(|found| found.plugin_sha256 == algorithm.info.plugin_sha256);
-        let mut done = if kept.is_some() { row.done.clone() } else { Vec::new() };
-        let mut found = kept.unwrap_or_else(|| stability::begin(&algorithm, &selection));
-        let parts = stability::parts(&selection);
-        if let Some(part) = parts.iter().find(|part| done.iter().all(|done| done != *part)) {
-            found = self.tried(&algorithm, row, part, found, stop).await?;
-            done.push((*part).to_owned());
+        let done = if kept.is_some() { row.done.clone() } else { Vec::new() };
+        let part = stability::parts(&selection).into_iter().find(|part| done.iter().all(|done| done != part));
+        let found = kept.unwrap_or_else(|| stability::begin(&algorithm, &selection));
+        Ok(Next { algorithm, part, done, found })
+    }
+
+    /// Keeps what was found with this part, in so many seconds; false when the attempt is not the current one.
+    async fn accept(
+        &self,
+        attempt: &Attempt,
+        row: &StabilityRow,
+        tried: Next,
+        seconds: f64,
+    ) -> Result<bool> {
+        let Next { algorithm, part, mut done, mut found } = tried;
+        done.extend(part.map(str::to_owned));
+        found.complete = done.len() == stability::parts(&Selection::of(&row.spec)).len();
+        let Some(ended) = self.store.accept_part(attempt, &done, &found, row.spent_seconds + seconds).await? else {
+            return Ok(false);
+        };
+        if ended {
+            publish(&self.store, &self.registry, row, &algorithm, &found).await?;
         }
-        found.complete = done.len() == parts.len();
-        let seconds = row.spent_seconds + stop.worked().as_secs_f64();
-        if self.store.accept_part(attempt, &done, &found, seconds).await.map_err(fault)? {
-            publish(&self.store, &self.registry, row, &algorithm, &found).await.map_err(fault)?;
-        }
-        Ok(())
+        Ok(true)
     }
 
     /// Tries a part on a thread of its own: a jail ends with the thread that started it.
@@ -131,7 +173,7 @@ impl StabilityRuns {
         stop: &Stop,
     ) -> std::result::Result<Stability, LabError> {
         let (registry, machine) = (self.registry.clone(), self.machine.clone());
-        let (algorithm, stop, selection) = (algorithm.clone(), stop.clone(), selection(&row.spec));
+        let (algorithm, stop, selection) = (algorithm.clone(), stop.clone(), Selection::of(&row.spec));
         let (sender, ended) = tokio::sync::oneshot::channel();
         let work = move || {
             let _right = stop.right_to_measure(|| {})?.ok_or(LabError::Stopped)?;

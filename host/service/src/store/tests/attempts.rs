@@ -287,10 +287,11 @@ pub async fn lost_checks_parts_and_advice_change_nothing(store: Store) {
 
     let second = store.begin_part(1, &other).await.unwrap().unwrap().0;
     let found = super::stability_of(1);
-    assert!(!store.accept_part(&part, &["x".into()], &found, 1.0).await.unwrap());
+    assert_eq!(store.accept_part(&part, &["x".into()], &found, 1.0).await.unwrap(), None);
     assert!(!store.give_up_part(&part, State::Failed, None).await.unwrap());
     assert!(store.stability_run("s").await.unwrap().unwrap().done.is_empty());
-    assert!(store.accept_part(&second, &["x".into()], &found, 1.0).await.unwrap(), "it was the last one");
+    let ended = store.accept_part(&second, &["x".into()], &found, 1.0).await.unwrap();
+    assert_eq!(ended, Some(true), "it was the last one");
 
     let (second, row) = store.begin_replay(&other).await.unwrap().unwrap();
     assert_eq!((row.attempts, row.done), (2, 0), "it begins anew");
