@@ -1,5 +1,6 @@
 //! `ocb work`: this machine measures for a service that runs elsewhere.
 
+mod job;
 mod link;
 mod reports;
 
@@ -8,7 +9,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ocb_service::doctor::examine;
-use ocb_service::model::{Ended, NextWork, OrderedAlgorithm, Sentinel, WorkOrder};
+use ocb_service::model::{Ended, NextWork, OrderedAlgorithm, Sentinel};
 use ocb_service::worker::{Handed, Worker};
 use ocb_service::{LabError, Runner, Stop, in_time};
 use tokio::runtime::Handle;
@@ -18,6 +19,7 @@ use crate::args::{Store, WorkArgs};
 use crate::failure::{Failure, Result};
 use crate::open;
 use crate::serve::stop_signal;
+use job::Job;
 use link::{Link, Refused};
 use reports::Reports;
 
@@ -30,7 +32,7 @@ const MOST_FAULTS: u32 = 10;
 /// A job of a cluster rests for so long at most.
 const REST: Duration = Duration::from_secs(60);
 
-/// Takes runs of the service and measures them, one after the other, until it is stopped; with `--once`, the next one alone.
+/// Takes work of the service and does it, one piece after the other, until it is stopped; with `--once`, the next one alone.
 pub async fn work(store: &Store, args: &WorkArgs) -> Result<ExitCode> {
     let runner = Runner { program: open::runner(store), profile: store.profile() };
     if !examine(&runner.program).allows(runner.profile) {
@@ -52,7 +54,11 @@ pub async fn work(store: &Store, args: &WorkArgs) -> Result<ExitCode> {
         match next {
             Ok(NextWork::Run(order)) => {
                 said = None;
-                carry_out(worker, &link, *order, &stopped).await?;
+                carry_out(worker, &link, Job::run(*order), &stopped).await?;
+            }
+            Ok(NextWork::Errand(errand)) => {
+                said = None;
+                carry_out(worker, &link, Job::errand(*errand), &stopped).await?;
             }
             Ok(NextWork::Sentinel(algorithm)) => {
                 sentinel(worker, &link, *algorithm, &stopped).await?;
@@ -126,25 +132,26 @@ async fn sentinel(
     Ok(())
 }
 
-/// Measures one run and hands it in.
-async fn carry_out(worker: Worker, link: &Arc<Link>, order: WorkOrder, stopped: &watch::Receiver<bool>) -> Result<()> {
-    let (stop, reports, order) = (Stop::default(), Reports::default(), Arc::new(order));
-    eprintln!("ocb: measuring the run {}", order.run);
+/// Does one job and hands it in.
+async fn carry_out(worker: Worker, link: &Arc<Link>, job: Job, stopped: &watch::Receiver<bool>) -> Result<()> {
+    let (stop, reports) = (Stop::default(), Reports::default());
+    let Job { attempt, name, most_seconds, doing } = job;
+    eprintln!("ocb: at work on {name}");
     let measuring = {
-        let (link, order, stop, reports) = (link.clone(), order.clone(), stop.clone(), reports.clone());
+        let (link, attempt, stop, reports) = (link.clone(), attempt.clone(), stop.clone(), reports.clone());
         let (handle, stopped) = (Handle::current(), stopped.clone());
         tokio::task::spawn_blocking(move || {
             let fetch = |name: &str| {
-                let fetched = handle.block_on(fetched(&link, &order.attempt, name, &stopped));
-                fetched.map_err(|e| LabError::Fault(format!("The file {name:?} of the run cannot be had. {e}")))
+                let fetched = handle.block_on(fetched(&link, &attempt, name, &stopped));
+                fetched.map_err(|e| LabError::Fault(format!("The file {name:?} cannot be had. {e}")))
             };
-            worker.measure(&order, &stop, &fetch, &mut |report| reports.note(report))
+            doing(&worker, &stop, &fetch, &mut |report| reports.note(report))
         })
     };
-    let beating = tokio::spawn(reports.clone().beat(link.clone(), order.attempt.clone(), stop.clone()));
-    let showing = tokio::spawn(reports.clone().show(link.clone(), order.attempt.clone()));
+    let beating = tokio::spawn(reports.clone().beat(link.clone(), attempt.clone(), stop.clone()));
+    let showing = tokio::spawn(reports.clone().show(link.clone(), attempt.clone()));
     let watching = tokio::spawn(watch_over(stop.clone(), stopped.clone()));
-    let limit = order.most_seconds.map(|most| (Duration::from_secs_f64(most), "Its time is over.".to_owned()));
+    let limit = most_seconds.map(|most| (Duration::from_secs_f64(most), "Its time is over.".to_owned()));
     let measured = in_time(measuring, &stop, limit)
         .await
         .map_err(|e| Failure::Fault(format!("the measuring thread ended: {e}.")))?;
@@ -158,29 +165,31 @@ async fn carry_out(worker: Worker, link: &Arc<Link>, order: WorkOrder, stopped: 
         // The service has ended the attempt.
         Ok(None) => {
             beating.abort();
-            eprintln!("ocb: the run {} was ended by the service", order.run);
+            eprintln!("ocb: {name} was ended by the service");
             return Ok(());
         }
+        Err(LabError::Invalid(message) | LabError::Ended(message)) => {
+            eprintln!("ocb: {name} is not possible: {message}");
+            plain(Ended::Impossible { message })
+        }
         Err(e) => {
-            eprintln!("ocb: the run {} could not be measured: {e}", order.run);
+            eprintln!("ocb: {name} failed: {e}");
             plain(Ended::Failed { message: e.to_string() })
         }
     };
-    let handed = match hand_in(link, &order.attempt, &ended, &files, stopped).await {
+    let handed = match hand_in(link, &attempt, &ended, &files, stopped).await {
         Err(refused) => {
-            eprintln!("ocb: the run {} cannot be handed in: {refused}", order.run);
+            eprintln!("ocb: {name} cannot be handed in: {refused}");
             let ended = Ended::Failed { message: format!("The results could not be handed in. {refused}") };
-            link.end(&order.attempt, &ended, &[]).await
+            link.end(&attempt, &ended, &[]).await
         }
         handed => handed,
     };
     beating.abort();
     match handed {
-        Ok(true) => eprintln!("ocb: the run {} is handed in", order.run),
-        Ok(false) => {
-            eprintln!("ocb: the run {} comes too late: it was cancelled, or another machine has it", order.run)
-        }
-        Err(refused) => eprintln!("ocb: the run {} is given up: {refused}", order.run),
+        Ok(true) => eprintln!("ocb: {name} is handed in"),
+        Ok(false) => eprintln!("ocb: {name} comes too late: it was cancelled, or another machine has it"),
+        Err(refused) => eprintln!("ocb: {name} is given up: {refused}"),
     }
     Ok(())
 }

@@ -1,11 +1,15 @@
 //! A measuring machine: it turns the order of a service and the files that the order names into results.
 
+mod advise;
+mod errand;
+mod replay;
 mod sentinel;
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use ocb_core::mesh::Mesh;
 use serde::{Deserialize, Serialize};
 use tempfile::TempDir;
 
@@ -52,6 +56,9 @@ pub enum Report {
     /// What there is to see.
     Seen(Box<Seen>),
 }
+
+/// Hears what a machine tells.
+pub type Tell<'a> = &'a mut (dyn FnMut(Report) + Send);
 
 /// Gives the file that an order names.
 pub type Fetch<'a> = dyn Fn(&str) -> Result<Vec<u8>> + 'a;
@@ -102,7 +109,7 @@ impl Worker {
         let pairing = pairing(order, fetch)?;
         let bytes = fetch("set")?;
         let set = read_set(&checked("configuration set", &order.set.sha256, sha256_hex(&bytes), bytes)?)?;
-        let brought = tempfile::tempdir().map_err(|e| LabError::fault("Making a temporary folder failed", e))?;
+        let brought = temporary_folder()?;
         let algorithms: Vec<Arc<Algorithm>> =
             order.algorithms.iter().map(|it| self.algorithm(it, &brought, fetch)).collect::<Result<_>>()?;
         let reference = order.reference.as_ref().map(|it| self.algorithm(it, &brought, fetch)).transpose()?;
@@ -143,14 +150,19 @@ fn governor(cpu: usize) -> String {
 }
 
 fn pairing(order: &WorkOrder, fetch: &Fetch<'_>) -> Result<Pairing> {
-    let mesh = |name: &str, sha256: &str| -> Result<_> {
-        let mesh = from_bytes(&fetch(name)?)?;
-        let found = mesh.sha256();
-        Ok(Arc::new(checked("mesh", sha256, found, mesh)?))
-    };
-    let a = mesh("a", &order.mesh_a)?;
-    let b = order.mesh_b.as_ref().map(|sha256| mesh("b", sha256)).transpose()?;
+    let a = mesh("a", &order.mesh_a, fetch)?;
+    let b = order.mesh_b.as_ref().map(|sha256| mesh("b", sha256, fetch)).transpose()?;
     Ok(Pairing::new(a, b))
+}
+
+fn mesh(name: &str, sha256: &str, fetch: &Fetch<'_>) -> Result<Arc<Mesh>> {
+    let mesh = from_bytes(&fetch(name)?)?;
+    let found = mesh.sha256();
+    Ok(Arc::new(checked("mesh", sha256, found, mesh)?))
+}
+
+fn temporary_folder() -> Result<TempDir> {
+    tempfile::tempdir().map_err(|e| LabError::fault("Making a temporary folder failed", e))
 }
 
 fn write_plugin(folder: &Path, sha256: &str, fetch: &Fetch<'_>) -> Result<PathBuf> {

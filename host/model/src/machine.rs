@@ -1,9 +1,13 @@
 //! What the service and its measuring machines tell each other at `/internal/v1`.
 
+use ocb_advice::{Advice, Paper};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use crate::{AlgorithmInfo, AlgorithmResult, Draw, Environment, Preview, RunSpec, SetInfo};
+use crate::{
+    AlgorithmInfo, AlgorithmResult, CheckLine, Draw, Environment, Errand, PluginReport, Preview, RunSpec, SetInfo,
+    Stability, WorkloadResult,
+};
 
 /// A machine that waits asks again every 15 seconds.
 const SILENT_US: i64 = 60_000_000;
@@ -61,7 +65,7 @@ pub struct MachineInfo {
     pub seen_us: Option<i64>,
     /// When its token was revoked.
     pub revoked_us: Option<i64>,
-    /// The run that it works on.
+    /// The run, plugin, stability run, workload or advice that it works on.
     pub run: Option<String>,
     /// Why it gets no run.
     pub trouble: Option<String>,
@@ -86,10 +90,13 @@ pub enum Sentinel {
 }
 
 /// What a machine has to do next.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum NextWork {
     /// A run.
     Run(Box<WorkOrder>),
+    /// Something else.
+    Errand(Box<Errand>),
     /// The sentinel, with this algorithm; then it asks again.
     Sentinel(Box<OrderedAlgorithm>),
     /// To ask again.
@@ -213,6 +220,31 @@ pub enum Told {
         /// Time at work, microseconds.
         worked_us: u64,
     },
+    /// The report of a check has another line.
+    Line {
+        /// Counts the lines from one.
+        number: u32,
+        /// The line.
+        line: Box<CheckLine>,
+    },
+    /// A plugin that is checked loads in the jail.
+    Loads,
+    /// How far a replay is.
+    Replaying {
+        /// Queries that are done.
+        done: u64,
+        /// What it does besides asking pair by pair, in a sentence.
+        doing: Option<String>,
+    },
+    /// How far advice is.
+    Step {
+        /// What is being done.
+        what: String,
+        /// Steps of it that are done.
+        done: u64,
+        /// All of them.
+        total: u64,
+    },
 }
 
 /// A sign of life of an attempt.
@@ -225,7 +257,7 @@ pub struct Beat {
 /// The answer to a beat or to results.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GoOn {
-    /// False when the attempt has ended at the service: the run was cancelled, or another machine has it.
+    /// False when the attempt has ended at the service: it was cancelled, or another machine has it.
     pub current: bool,
 }
 
@@ -242,9 +274,38 @@ pub enum Ended {
         /// What the results are a preview of.
         preview: Option<Box<Preview>>,
     },
-    /// The time limit of the run is over.
+    /// A plugin was checked.
+    Checked {
+        /// The whole report.
+        report: Box<PluginReport>,
+    },
+    /// A part of a stability run was tried.
+    Tried {
+        /// What it and the parts before have found.
+        found: Box<Stability>,
+        /// Seconds of work.
+        seconds: f64,
+    },
+    /// A recording was replayed. Files follow: the queries, and the reduced scene if there is one.
+    Replayed {
+        /// The result.
+        result: Box<WorkloadResult>,
+    },
+    /// Advice was made. The reduced meshes follow, those of A first.
+    Advised {
+        /// The advice.
+        advice: Box<Advice>,
+        /// Of A and of B, the certificates of the reduced meshes.
+        papers: [Vec<Paper>; 2],
+    },
+    /// What was asked for cannot be done, on whatever machine.
+    Impossible {
+        /// Why.
+        message: String,
+    },
+    /// Its time limit is over.
     TooLong,
-    /// The machine stops working, and the run waits again.
+    /// The machine stops working, and the job waits again.
     PutBack,
     /// Something went wrong on the machine that is not the fault of a plugin.
     Failed {

@@ -182,7 +182,7 @@ fn runs_of_machines_that_are_silent_are_measured_by_another() {
     killed.signal(Signal::SIGKILL);
     let begun = Instant::now();
     let delta = machine(&delta);
-    delta.says(&format!("measuring the run {second}"), 2 * LEASE + Duration::from_secs(15));
+    delta.says(&format!("at work on the run {second}"), 2 * LEASE + Duration::from_secs(15));
     println!("from the kill to the next attempt, behind another run: {:.1} s", begun.elapsed().as_secs_f64());
     assert!(!Path::new(&format!("/proc/{runner}")).exists(), "its runner has ended with it");
     let done = [zeroth, first, second].map(|run| site.ended(&run));
@@ -205,7 +205,7 @@ fn runs_of_machines_that_are_silent_are_measured_by_another() {
     // It takes the next run, if it is the only one.
     drop((still, delta));
     let next = site.submit(0.5);
-    cut.says(&format!("measuring the run {next}"), Duration::from_secs(30));
+    cut.says(&format!("at work on the run {next}"), Duration::from_secs(30));
     assert_eq!(site.ended(&next)["attempts"], 1);
 }
 

@@ -154,7 +154,7 @@ fn nodes_measure_while_runs_wait_and_a_killed_job_costs_no_run() {
     }
     // The next job of that node has forgotten what the killed one had, which waits again at once.
     assert_eq!(attempts, [1, 1, 1, 1], "{}", log());
-    let begun_twice = |run: &&String| log().matches(&format!("measuring the run {run}")).count() == 2;
+    let begun_twice = |run: &&String| log().matches(&format!("at work on the run {run}")).count() == 2;
     assert_eq!(runs.iter().filter(begun_twice).count(), 1, "{}", log());
     println!("four runs on two nodes, one of them twice: {:.1} s", begun.elapsed().as_secs_f64());
     // Slurm's own process that watches over a job is killed alone: the job goes on, or another one does.

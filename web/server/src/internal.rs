@@ -6,7 +6,6 @@ use std::time::Duration;
 use axum::extract::{DefaultBodyLimit, FromRequestParts, Multipart, Path, State};
 use axum::http::request::Parts;
 use axum::http::{StatusCode, header};
-use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Json, Router};
 use ocb_service::Handing;
@@ -63,13 +62,13 @@ impl FromRequestParts<App> for Machine {
     }
 }
 
-/// The next run for the machine; 202 with the algorithm of the sentinel, which comes first; or 204 when none waits.
-async fn begin(State(app): State<App>, Machine(name): Machine, Json(facts): Json<MachineFacts>) -> Result<Response> {
-    Ok(match app.engine.next_order(&name, &facts, WAIT).await? {
-        NextWork::Run(order) => Json(order).into_response(),
-        NextWork::Sentinel(algorithm) => (StatusCode::ACCEPTED, Json(algorithm)).into_response(),
-        NextWork::Nothing => StatusCode::NO_CONTENT.into_response(),
-    })
+/// What the machine has to do next.
+async fn begin(
+    State(app): State<App>,
+    Machine(name): Machine,
+    Json(facts): Json<MachineFacts>,
+) -> Result<Json<NextWork>> {
+    Ok(Json(app.engine.next_order(&name, &facts, WAIT).await?))
 }
 
 /// What the sentinel took.

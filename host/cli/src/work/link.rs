@@ -71,11 +71,7 @@ impl Link {
     pub async fn next(&self, facts: &MachineFacts) -> Answer<NextWork> {
         let request = self.client.post(self.at("/attempts")).json(facts).timeout(PATIENCE);
         let response = self.granted(request).await?;
-        match response.status() {
-            StatusCode::NO_CONTENT => Ok(NextWork::Nothing),
-            StatusCode::ACCEPTED => self.read(response).await.map(NextWork::Sentinel),
-            _ => self.read(response).await.map(NextWork::Run),
-        }
+        self.read(response).await
     }
 
     /// What the sentinel took here.

@@ -34,8 +34,13 @@ impl Reports {
         self.with(|next| match report {
             _ if next.ended => {}
             Report::Told(told) => {
-                if let Told::Progress { place: of, .. } = &told {
-                    next.steps.retain(|known| !matches!(known, Told::Progress { place, .. } if place == of));
+                match &told {
+                    Told::Progress { place: of, .. } => {
+                        next.steps.retain(|known| !matches!(known, Told::Progress { place, .. } if place == of));
+                    }
+                    Told::Replaying { .. } => next.steps.retain(|known| !matches!(known, Told::Replaying { .. })),
+                    Told::Step { .. } => next.steps.retain(|known| !matches!(known, Told::Step { .. })),
+                    _ => {}
                 }
                 next.steps.push(told);
             }

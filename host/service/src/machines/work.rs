@@ -140,7 +140,7 @@ impl Engine {
             let mut log = working.log.lock().unwrap_or_else(PoisonError::into_inner);
             let reference = spec::reference(&row.spec, &live.registry);
             let name = reference.as_ref().map_or("", |reference| reference.info.name.as_str());
-            for step in steps.into_iter().map(told) {
+            for step in steps.into_iter().filter_map(told) {
                 if let Step::Progress { place, done, total, worked } = step {
                     live.progress(&row.id, place, done, total, worked);
                 }
@@ -236,7 +236,14 @@ impl Engine {
                 let reason = inner.config.ceilings.longest_run(row).map(too_long);
                 inner.run_ends.ended(attempt, row, &Ok(End::Stopped), reason.as_deref(), None).await
             }
+            Ended::Impossible { message } => {
+                let why = Err(EngineError::Invalid(message));
+                inner.run_ends.ended(attempt, row, &why, None, None).await
+            }
             Ended::PutBack => inner.store.put_back_run(attempt).await,
+            Ended::Checked { .. } | Ended::Tried { .. } | Ended::Replayed { .. } | Ended::Advised { .. } => {
+                Err(wrong("a run was ordered"))
+            }
             Ended::Failed { message } => self.failed(machine, attempt, row, &message).await,
         }
     }
@@ -307,11 +314,13 @@ fn readable(algorithms: &[MeasuredAlgorithm], files: Vec<Vec<u8>>) -> Result<Vec
 }
 
 /// A step as the run's log takes it.
-fn told(step: Told) -> Step {
+fn told(step: Told) -> Option<Step> {
     match step {
-        Told::Waiting { waiting } => Step::Waiting(waiting),
+        Told::Waiting { waiting } => Some(Step::Waiting(waiting)),
         Told::Progress { place, done, total, worked_us } => {
-            Step::Progress { place, done, total, worked: Duration::from_micros(worked_us) }
+            Some(Step::Progress { place, done, total, worked: Duration::from_micros(worked_us) })
         }
+        // Of something else.
+        Told::Line { .. } | Told::Loads | Told::Replaying { .. } | Told::Step { .. } => None,
     }
 }

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use ocb_core::query::Query;
-use ocb_service::model::{MachineFacts, Manifest, NextWork, RunEvent, RunInfo, RunSpec, Sentinel, WorkOrder};
+use ocb_service::model::{Ended, MachineFacts, Manifest, NextWork, RunEvent, RunInfo, RunSpec, Sentinel, WorkOrder};
 use ocb_service::worker::{Handed, Report, Seen, Worker};
-use ocb_service::{Engine, EngineConfig, EngineError, LabError, Runner, Stop};
+use ocb_service::{Engine, EngineConfig, EngineError, Handing, LabError, Runner, Stop};
 use tokio::runtime::Handle;
 
 /// The folder where cargo puts binaries and plugins; test binaries lie in `deps` below it.
@@ -136,6 +136,14 @@ pub async fn next(
     loop {
         match engine.next_order(machine, facts, wait).await? {
             NextWork::Run(order) => return Ok(Some(*order)),
+            // What an idle service asks of its machines besides runs.
+            NextWork::Errand(errand) => {
+                engine.hand_in(machine, &errand.attempt, Handing { ended: Ended::PutBack, files: Vec::new() }).await?;
+                if wait.is_zero() {
+                    return Ok(None);
+                }
+                tokio::time::sleep(Duration::from_millis(50)).await;
+            }
             NextWork::Nothing => return Ok(None),
             NextWork::Sentinel(_) => engine.sentinel_of(machine, Sentinel::Measured { median_ns: 1000.0 }).await?,
         }
