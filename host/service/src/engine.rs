@@ -14,6 +14,7 @@ use crate::machines::under_way::Orders;
 use crate::mail::outbox::Outbox;
 use crate::objects::Objects;
 use crate::owned::items::Owned;
+use crate::plugins::checks::Checks;
 use crate::plugins::registry::Registry;
 use crate::results::Results;
 use crate::runs::asking::Runs;
@@ -23,6 +24,7 @@ use crate::runs::events::RunEvents;
 use crate::runs::live::LiveRuns;
 use crate::runs::preliminary::UnderWay;
 use crate::sets::stored::Sets;
+use crate::stability::work::StabilityRuns;
 use crate::store::Store;
 use crate::suite::Suite;
 use crate::suite::known::SuiteRuns;
@@ -69,6 +71,8 @@ pub(crate) struct Inner {
     pub charts: Charts,
     pub recordings: Arc<Recordings>,
     pub replays: Arc<Replays>,
+    pub checks: Arc<Checks>,
+    pub stability: Arc<StabilityRuns>,
     pub advices: Arc<Advices>,
     /// Whether this service does the work that one service does for all on the database.
     pub house: Arc<House>,

@@ -1,11 +1,14 @@
-//! Machines that measure for this service: each has a token, asks for prepared runs, and hands in what it found.
+//! Machines that measure for this service: each has a token, asks for prepared runs, checks of plugins and parts of stability runs, and
+//! hands in what it found.
 //!
 //! The token is shown once and known by its hash. It opens the machine's own attempts and the files that their orders name, and
 //! nothing else.
 
 mod elsewhere;
+mod errands;
 mod files;
-mod orders;
+mod handing;
+pub mod orders;
 mod sentinel;
 mod slurm;
 pub mod sql;
@@ -22,8 +25,8 @@ use crate::runs::draw;
 use crate::store::now_us;
 use crate::{EngineError, Result, sha256_hex};
 
+pub use handing::Handing;
 use sentinel::drift;
-pub use work::Handing;
 
 /// Longest name of a machine.
 const MAX_NAME: usize = 80;
@@ -65,7 +68,7 @@ impl Engine {
             )));
         }
         self.inner.store.forget_readings(name.trim()).await?;
-        self.put_back_runs_of(name.trim()).await
+        self.put_back_work_of(name.trim()).await
     }
 
     /// The machine of a token that was not revoked.
@@ -121,11 +124,11 @@ impl Engine {
         }
     }
 
-    /// The runs that a machine has wait again; it hears of that with its next beat.
-    pub(crate) async fn put_back_runs_of(&self, machine: &str) -> Result<()> {
+    /// What a machine works on waits again; it hears of that with its next beat.
+    pub(crate) async fn put_back_work_of(&self, machine: &str) -> Result<()> {
         let inner = &self.inner;
         for attempt in inner.store.attempts_of(machine).await? {
-            inner.store.put_back_run(&attempt).await?;
+            self.put_back(&attempt).await?;
             inner.orders.forget(&attempt.id);
             inner.run_events.ring(&attempt.job);
             inner.work.prepared.notify_waiters();

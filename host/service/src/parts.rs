@@ -115,6 +115,25 @@ impl Inner {
                 advisor: config.advisor.clone(),
                 data: config.data.clone(),
             }),
+            checks: Arc::new(Checks {
+                store: store.clone(),
+                blobs: blobs.clone(),
+                registry: registry.clone(),
+                outbox: outbox.clone(),
+                work: work.clone(),
+                data: config.data.clone(),
+                quick: config.quick_checks,
+                limit: config.check_limit,
+                elsewhere: config.elsewhere,
+            }),
+            stability: Arc::new(StabilityRuns {
+                store: store.clone(),
+                registry: registry.clone(),
+                work: work.clone(),
+                machine: machine.clone(),
+                ceilings: config.ceilings,
+                elsewhere: config.elsewhere,
+            }),
             owned: Owned {
                 store: store.clone(),
                 blobs: blobs.clone(),
@@ -149,23 +168,6 @@ impl Inner {
 
     /// What works on the queue.
     pub fn dispatcher(&self) -> Dispatcher {
-        let checks = Arc::new(Checks {
-            store: self.store.clone(),
-            blobs: self.blobs.clone(),
-            registry: self.registry.clone(),
-            outbox: self.outbox.clone(),
-            work: self.work.clone(),
-            data: self.config.data.clone(),
-            quick: self.config.quick_checks,
-            limit: self.config.check_limit,
-        });
-        let stability = Arc::new(StabilityRuns {
-            store: self.store.clone(),
-            registry: self.registry.clone(),
-            work: self.work.clone(),
-            machine: self.machine.clone(),
-            ceilings: self.config.ceilings,
-        });
         let benchmarks = Arc::new(Benchmarks {
             store: self.store.clone(),
             blobs: self.blobs.clone(),
@@ -190,13 +192,19 @@ impl Inner {
             suite_runs: self.suite_runs.clone(),
             runs: self.runs.clone(),
             benchmarks: benchmarks.clone(),
-            stability: stability.clone(),
+            stability: self.stability.clone(),
             advices: self.advices.clone(),
             wanted: self.config.idle,
             next: None,
         };
-        let (work, replays) = (self.work.clone(), self.replays.clone());
-        Dispatcher { work, checks, stability, replays, benchmarks, idle }
+        Dispatcher {
+            work: self.work.clone(),
+            checks: self.checks.clone(),
+            stability: self.stability.clone(),
+            replays: self.replays.clone(),
+            benchmarks,
+            idle,
+        }
     }
 
     /// What keeps the attempts of this process.

@@ -1,5 +1,6 @@
 //! Where methods fail.
 
+mod errands;
 mod runs;
 pub mod runs_sql;
 pub mod sql;

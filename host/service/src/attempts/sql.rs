@@ -28,7 +28,7 @@ macro_rules! at_rest {
 pub(crate) use {at_rest, while_current};
 
 /// Id, kind, job, number.
-type Columns = (String, String, String, i64);
+pub(crate) type Columns = (String, String, String, i64);
 
 impl Store {
     /// Renews the lease; false when the attempt has ended.
@@ -122,6 +122,6 @@ pub(crate) async fn forget(connection: impl Executor<'_, Database = Any>, job: &
     Ok(())
 }
 
-fn read((id, kind, job, number): Columns) -> Result<Attempt> {
+pub(crate) fn read((id, kind, job, number): Columns) -> Result<Attempt> {
     Ok(Attempt { id, kind: Kind::named(&kind)?, job, number })
 }

@@ -2,19 +2,26 @@
 
 use ocb_lab::mesh_file::to_bytes;
 
+use crate::attempts::Kind;
 use crate::blocking::blocking;
 use crate::boxed;
 use crate::engine::Engine;
+use crate::model::{Errand, WorkOrder};
 use crate::{EngineError, Result};
 
 impl Engine {
-    /// A file of the machine's current attempt: the mesh `a` or `b`, the configuration `set` as Parquet, or `plugin-` with the
-    /// SHA-256 of a plugin file that the run measures.
+    /// A file of the machine's current attempt: the mesh `a` or `b`, the configuration `set` as Parquet, the `recording`, or
+    /// `plugin-` with the SHA-256 of a plugin file that is measured, checked or tried.
     #[boxed]
     pub async fn file_of_order(&self, machine: &str, attempt: &str, name: &str) -> Result<Vec<u8>> {
         let inner = &self.inner;
         let unknown = || EngineError::NotFound(format!("The work of this machine has no file {name:?}."));
-        let (attempt, order) = inner.store.order_of(machine, attempt).await?.ok_or_else(unknown)?;
+        let attempt = inner.store.attempt_of(machine, attempt).await?;
+        if attempt.as_ref().is_some_and(|attempt| attempt.kind != Kind::Measure) {
+            let (_, errand) = inner.store.with_order::<Errand>(attempt).await?.ok_or_else(unknown)?;
+            return self.file_of_errand(&errand, name).await?.ok_or_else(unknown);
+        }
+        let (attempt, order) = inner.store.with_order::<WorkOrder>(attempt).await?.ok_or_else(unknown)?;
         let row = inner.store.run_row(&attempt.job).await?;
         match name {
             "a" | "b" => {
@@ -30,6 +37,15 @@ impl Engine {
                 // Installed files are on the machine; submitted ones are stored, also when they are no longer offered.
                 inner.blobs.get(hash).await
             }
+        }
+    }
+
+    async fn file_of_errand(&self, errand: &Errand, name: &str) -> Result<Option<Vec<u8>>> {
+        let inner = &self.inner;
+        let plugins = errand.wanted.plugins();
+        match name.strip_prefix("plugin-").filter(|hash| plugins.contains(hash)) {
+            Some(plugin) => inner.blobs.get(plugin).await.map(Some),
+            None => Ok(None),
         }
     }
 }

@@ -55,7 +55,7 @@ impl Engine {
         let mut all = Ok(());
         for (partition, slurm) in partitions {
             let class = class_of(&machines, partition).unwrap_or_else(|| usual.clone());
-            let waiting = self.inner.store.prepared_runs(&OfClass { class, usual: usual.clone() }).await?;
+            let waiting = self.inner.store.waiting_for_machines(&OfClass { class, usual: usual.clone() }).await?;
             let slurm = slurm.clone();
             let settled = blocking(move || {
                 let settled = slurm.settle(waiting as usize).map_err(|e| EngineError::Fault(e.to_string()))?;

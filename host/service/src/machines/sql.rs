@@ -1,6 +1,10 @@
 //! The table of machines, and whose an attempt is.
 
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
 use crate::Result;
+use crate::attempts::sql::{Columns, read};
 use crate::attempts::worker::Worker;
 use crate::attempts::{Attempt, Kind, LEASE_US};
 use crate::model::{MachineFacts, MachineInfo, WorkOrder};
@@ -91,10 +95,9 @@ impl Store {
 
     /// The current attempts of a machine.
     pub async fn attempts_of(&self, machine: &str) -> Result<Vec<Attempt>> {
-        let text = "SELECT id, job, number FROM attempts WHERE machine = $1 AND ended_us IS NULL";
-        let worker = worker(machine, "");
-        let rows: Vec<(String, String, i64)> = sqlx::query_as(text).bind(&worker.machine).fetch_all(&self.pool).await?;
-        Ok(rows.into_iter().map(|(id, job, number)| Attempt { id, kind: Kind::Measure, job, number }).collect())
+        let text = "SELECT id, kind, job, number FROM attempts WHERE machine = $1 AND ended_us IS NULL";
+        let rows: Vec<Columns> = sqlx::query_as(text).bind(worker(machine, "").machine).fetch_all(&self.pool).await?;
+        rows.into_iter().map(read).collect()
     }
 
     /// Machines have a whole lease again: a service that starts was not there to hear their beats.
@@ -105,19 +108,33 @@ impl Store {
         Ok(())
     }
 
-    /// Keeps what the machine of this attempt is told to do.
-    pub async fn keep_order(&self, order: &WorkOrder) -> Result<()> {
+    /// What this machine began last.
+    pub async fn last_kind_of(&self, worker: &Worker) -> Result<Option<Kind>> {
+        let text =
+            "SELECT id, kind, job, number FROM attempts WHERE machine = $1 ORDER BY begun_us DESC, id DESC LIMIT 1";
+        let row: Option<Columns> = sqlx::query_as(text).bind(&worker.machine).fetch_optional(&self.pool).await?;
+        Ok(row.map(read).transpose()?.map(|attempt| attempt.kind))
+    }
+
+    /// Keeps what the machine of this attempt is told to do: a [`WorkOrder`] for a run, an `Errand` otherwise.
+    pub async fn keep_order<T: Serialize>(&self, attempt: &str, order: &T) -> Result<()> {
         let text = "UPDATE attempts SET work = $1 WHERE id = $2";
-        sqlx::query(text).bind(to_json(order)?).bind(&order.attempt).execute(&self.pool).await?;
+        sqlx::query(text).bind(to_json(order)?).bind(attempt).execute(&self.pool).await?;
         Ok(())
     }
 
-    /// The current attempt with this id and its order, if it is of this machine.
+    /// The current attempt with this id and its order, if it is of this machine, which measures a run.
     pub async fn order_of(&self, machine: &str, attempt: &str) -> Result<Option<(Attempt, WorkOrder)>> {
-        let Some(found) = self.attempt_of(machine, attempt).await? else { return Ok(None) };
+        let found = self.attempt_of(machine, attempt).await?.filter(|found| found.kind == Kind::Measure);
+        self.with_order(found).await
+    }
+
+    /// What the machine of this current attempt was told to do.
+    pub async fn with_order<T: DeserializeOwned>(&self, attempt: Option<Attempt>) -> Result<Option<(Attempt, T)>> {
+        let Some(attempt) = attempt else { return Ok(None) };
         let text = "SELECT work FROM attempts WHERE id = $1";
-        let work: Option<String> = sqlx::query_scalar(text).bind(attempt).fetch_one(&self.pool).await?;
-        work.map(|work| Ok((found, from_json(&work)?))).transpose()
+        let work: Option<String> = sqlx::query_scalar(text).bind(&attempt.id).fetch_one(&self.pool).await?;
+        work.map(|work| Ok((attempt, from_json(&work)?))).transpose()
     }
 
     /// The hardware class of who began this attempt.
@@ -128,10 +145,9 @@ impl Store {
 
     /// The current attempt with this id, if it is of this machine.
     pub async fn attempt_of(&self, machine: &str, attempt: &str) -> Result<Option<Attempt>> {
-        let text = "SELECT job, number FROM attempts WHERE id = $1 AND machine = $2 AND ended_us IS NULL";
-        let worker = worker(machine, "");
-        let row: Option<(String, i64)> =
-            sqlx::query_as(text).bind(attempt).bind(&worker.machine).fetch_optional(&self.pool).await?;
-        Ok(row.map(|(job, number)| Attempt { id: attempt.to_owned(), kind: Kind::Measure, job, number }))
+        let text = "SELECT id, kind, job, number FROM attempts WHERE id = $1 AND machine = $2 AND ended_us IS NULL";
+        let query = sqlx::query_as(text).bind(attempt).bind(worker(machine, "").machine);
+        let row: Option<Columns> = query.fetch_optional(&self.pool).await?;
+        row.map(read).transpose()
     }
 }

@@ -7,9 +7,12 @@ use ocb_lab::job::{Found, Results, Step};
 use ocb_lab::worker::Seen;
 use tokio::time::Instant;
 
+use super::errands::in_turn;
+use super::handing::Handing;
 use super::sentinel::sentinel_due;
 use super::sql::worker;
-use crate::attempts::Attempt;
+use crate::attempts::worker::Worker;
+use crate::attempts::{Attempt, Kind};
 use crate::blocking::blocking;
 use crate::boxed;
 use crate::columns::{read_records, read_triangle_tests};
@@ -21,6 +24,7 @@ use crate::model::{
 };
 use crate::runs::accept::End;
 use crate::runs::carry_out::too_long;
+use crate::runs::priority::{IDLE, INTERACTIVE};
 use crate::runs::sql::RunRow;
 use crate::runs::{draw, spec};
 use crate::{EngineError, Result};
@@ -28,17 +32,9 @@ use crate::{EngineError, Result};
 /// How often a machine that waits for work looks into the queue, unless a run is prepared here.
 const LOOK: Duration = Duration::from_secs(1);
 
-/// How a machine ended an attempt, with the files.
-pub struct Handing {
-    /// How.
-    pub ended: Ended,
-    /// Records, then tests per triangle, of each algorithm that has them, in the order of the algorithms.
-    pub files: Vec<Vec<u8>>,
-}
-
 impl Engine {
-    /// The sentinel, about once an hour, or the next prepared run for this machine; waits so long for one. A run that it had waits
-    /// again: it has forgotten that.
+    /// The sentinel, about once an hour, or the next prepared run for this machine, or another kind of work in turn; waits so long for
+    /// one. What it had waits again: it has forgotten that.
     ///
     /// # Errors
     /// `Busy` when the machine does not measure the same as this service, or not the same as before; `TooMuch` while it rests after
@@ -49,25 +45,43 @@ impl Engine {
         if !self.inner.config.elsewhere {
             return Err(EngineError::Busy("This service measures by itself; start it with --internal.".into()));
         }
-        self.put_back_runs_of(machine).await?;
+        self.put_back_work_of(machine).await?;
         if let Some(algorithm) =
             sentinel_due(&self.inner.store, &self.inner.registry, self.inner.config.most_drift, machine, facts).await?
         {
             return Ok(NextWork::Sentinel(Box::new(algorithm)));
         }
         let (asked, worker) = (Instant::now(), worker(machine, &facts.hardware_class));
+        let last = self.inner.store.last_kind_of(&worker).await?;
         while !self.inner.work.closing() {
             let prepared = self.inner.work.prepared.notified();
-            if let Some(attempt) = self.inner.store.begin_prepared_run(&worker, &self.inner.classes.usual()).await? {
-                match self.begun(machine, &attempt).await? {
-                    Some(order) => return Ok(NextWork::Run(Box::new(order))),
-                    None => continue,
-                }
+            if let Some(work) = self.next_in_turn(&worker, machine, last).await? {
+                return Ok(work);
             }
             let Some(left) = wait.checked_sub(asked.elapsed()) else { break };
             let _ = tokio::time::timeout(left.min(LOOK), prepared).await;
         }
         Ok(NextWork::Nothing)
+    }
+
+    /// What is next for a machine, if anything waits: each kind in turn, and last what nobody asked for. All but
+    /// runs are for machines of the usual class.
+    async fn next_in_turn(&self, worker: &Worker, machine: &str, last: Option<Kind>) -> Result<Option<NextWork>> {
+        let usual = self.inner.classes.usual();
+        let errands = worker.class == usual;
+        for kind in in_turn(last) {
+            if kind == Kind::Measure {
+                while let Some(attempt) = self.inner.store.begin_prepared_run(worker, &usual).await? {
+                    if let Some(order) = self.begun(machine, &attempt).await? {
+                        return Ok(Some(NextWork::Run(Box::new(order))));
+                    }
+                }
+            } else if errands && let Some(errand) = self.next_errand(kind, INTERACTIVE, worker).await? {
+                return Ok(Some(NextWork::Errand(Box::new(errand))));
+            }
+        }
+        let unasked = if errands { self.next_errand(Kind::Stability, IDLE, worker).await? } else { None };
+        Ok(unasked.map(|errand| NextWork::Errand(Box::new(errand))))
     }
 
     /// The order of an attempt; nothing when its run cannot be measured, or not yet.
@@ -99,7 +113,7 @@ impl Engine {
             self.inner.work.wake.notify_one();
             return Ok(None);
         };
-        self.inner.store.keep_order(&order).await?;
+        self.inner.store.keep_order(&order.attempt, &order).await?;
         // Who follows the run hears that it has begun.
         let (orders, attempt) = (self.inner.orders.clone(), attempt.clone());
         blocking(move || orders.begin(&attempt, &row)).await?;
@@ -126,8 +140,11 @@ impl Engine {
         if !self.inner.store.beat(&attempt.id).await? {
             return Ok(false);
         }
+        if attempt.kind != Kind::Measure {
+            return self.told_of_errand(&attempt, steps).await;
+        }
         if self.inner.store.gives_way(&attempt.job, &self.inner.classes.usual()).await? {
-            self.put_back_runs_of(machine).await?;
+            self.put_back_work_of(machine).await?;
             return Ok(false);
         }
         if steps.is_empty() && self.inner.orders.heard(&attempt.id) {
@@ -180,7 +197,11 @@ impl Engine {
     /// Takes what a machine hands in; false, and nothing is kept, when its attempt is not the current one.
     #[boxed]
     pub async fn hand_in(&self, machine: &str, attempt: &str, handing: Handing) -> Result<bool> {
-        let Some((current, order)) = self.inner.store.order_of(machine, attempt).await? else { return Ok(false) };
+        let current = self.inner.store.attempt_of(machine, attempt).await?;
+        if let Some(errand) = current.as_ref().filter(|current| current.kind != Kind::Measure) {
+            return self.hand_in_errand(machine, errand.clone(), handing).await;
+        }
+        let Some((current, order)) = self.inner.store.with_order(current).await? else { return Ok(false) };
         let row = self.inner.store.run_row(&current.job).await?;
         match self.take(machine, (&current, &order), &row, handing).await {
             // It was cancelled or deleted while it was taken.

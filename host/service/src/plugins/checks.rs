@@ -1,4 +1,4 @@
-//! Checks of plugins that developers sent: work of the queue, one at a time, never beside a measurement.
+//! Checks of plugins that developers sent: work of the queue, never beside a measurement, here or on measuring machines.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -8,12 +8,13 @@ use std::time::Duration;
 use ocb_lab::check::{Extent, Step, Term, check_plugin};
 use tokio::runtime::Handle;
 
+use crate::attempts::worker::Worker;
 use crate::attempts::{Attempt, BACK_OFF, MOST_LOST, superseded};
 use crate::audit::Note;
 use crate::blobs::Blobs;
 use crate::mail::outbox::Outbox;
 use crate::measure::Stop;
-use crate::model::{CheckVerdict, PluginReport, PluginState};
+use crate::model::{CheckVerdict, Errand, PluginReport, PluginState, Told, Wanted};
 use crate::plugins::checks_sql::CheckEnd;
 use crate::plugins::names::conflict;
 use crate::plugins::notices::of_check;
@@ -36,11 +37,16 @@ pub struct Checks {
     pub quick: bool,
     /// Time of a whole check.
     pub limit: Duration,
+    /// Measuring machines do it.
+    pub elsewhere: bool,
 }
 
 impl Checks {
-    /// Checks the plugin whose turn it is; false when none waits.
+    /// Checks the plugin whose turn it is; false when none waits here.
     pub async fn next(self: &Arc<Self>) -> Result<bool> {
+        if self.elsewhere {
+            return Ok(false);
+        }
         let Some((attempt, row)) = self.store.begin_check(&self.work.worker).await? else { return Ok(false) };
         let stop = Stop::default();
         let _held = self.work.begin(&attempt, &stop, None);
@@ -77,7 +83,7 @@ impl Checks {
         let report = ended.await.unwrap_or_else(|_| Err(EngineError::Fault("The check failed; see the log.".into())));
         match report {
             _ if stop.asked() => Ok(false),
-            Ok(Some(report)) => self.settle(attempt, row, report).await.map(|()| true),
+            Ok(Some(report)) => self.settle(attempt, row, report, &self.work.worker.class).await.map(|_| true),
             Ok(None) => Ok(false),
             Err(e) => Err(e),
         }
@@ -117,8 +123,8 @@ impl Checks {
         fault.map_or(Ok(Some(report)), Err)
     }
 
-    async fn settle(&self, attempt: &Attempt, row: &PluginRow, report: PluginReport) -> Result<()> {
-        let class = &self.work.worker.class;
+    /// Notes where a plugin stands after its check on this hardware class; false when the attempt is not the current one.
+    async fn settle(&self, attempt: &Attempt, row: &PluginRow, report: PluginReport, class: &str) -> Result<bool> {
         let described = PluginRow { algorithms: report.algorithms, ..row.clone() };
         let all = self.store.plugins().await?;
         let failed = report.lines.iter().find(|line| line.verdict == CheckVerdict::Fail);
@@ -135,7 +141,8 @@ impl Checks {
         let new_notice = self.outbox.new_notice(&row.account, &notice);
         let end =
             CheckEnd { algorithms: &described.algorithms, class, state, new_notice, note: note(row, state, &reason) };
-        if self.store.accept_check(attempt, end).await? {
+        let accepted = self.store.accept_check(attempt, end).await?;
+        if accepted {
             self.outbox.post_soon();
         } else {
             tracing::warn!(
@@ -144,7 +151,44 @@ impl Checks {
                 attempt.number
             );
         }
-        self.registry.renew().await
+        self.registry.renew().await.map(|()| accepted)
+    }
+
+    /// The check whose turn it is, for a measuring machine.
+    pub async fn errand(&self, worker: &Worker) -> Result<Option<Errand>> {
+        let Some((attempt, row)) = self.store.begin_check(worker).await? else { return Ok(None) };
+        let wanted = Wanted::Check {
+            plugin_sha256: row.blob,
+            manifest: Box::new(row.manifest),
+            quick: self.quick,
+            limit_seconds: self.limit.as_secs_f64(),
+        };
+        Ok(Some(Errand { attempt: attempt.id, job: attempt.job, wanted, most_seconds: None }))
+    }
+
+    /// Keeps what a machine tells of a check; false when the attempt is not the current one.
+    pub async fn told(&self, attempt: &Attempt, told: &Told) -> Result<bool> {
+        match told {
+            Told::Line { number, line } => self.store.add_line(attempt, i64::from(*number), line).await,
+            Told::Loads => self.store.note_vetted(attempt).await,
+            _ => Ok(true),
+        }
+    }
+
+    /// Takes the report of a machine; false when the attempt is not the current one.
+    pub async fn take(&self, attempt: &Attempt, plugin_sha256: &str, report: PluginReport) -> Result<bool> {
+        if report.sha256.as_deref() != Some(plugin_sha256) {
+            return Err(EngineError::Invalid("This report is of another plugin file.".into()));
+        }
+        let Some(row) = self.store.plugin(&attempt.job).await?.filter(|row| row.state.is_checking()) else {
+            return Ok(false);
+        };
+        // Some may have been lost on their way.
+        for (place, line) in report.lines.iter().enumerate() {
+            self.store.add_line(attempt, place as i64 + 1, line).await?;
+        }
+        let class = self.store.class_of_attempt(&attempt.id).await?;
+        self.settle(attempt, &row, report, &class).await
     }
 }
 

@@ -56,11 +56,13 @@ impl Store {
         }
     }
 
-    /// Adds a line to the report; false when the attempt is not the current one.
+    /// Keeps a line of the report, which may have been told before; false when the attempt is not the current one.
     pub async fn add_line(&self, attempt: &Attempt, seq: i64, line: &CheckLine) -> Result<bool> {
         let text = concat!(
             "INSERT INTO submission_lines (submission, seq, line) SELECT id, $1, $2 FROM submissions WHERE id = $3 AND ",
-            while_current!("$4")
+            while_current!("$4"),
+            // Whatever stands there is written again, so that one row is affected if the attempt is the current one.
+            " ON CONFLICT (submission, seq) DO UPDATE SET line = excluded.line"
         );
         let added = sqlx::query(text).bind(seq).bind(to_json(line)?).bind(&attempt.job).bind(&attempt.id);
         Ok(added.execute(&self.pool).await?.rows_affected() == 1)

@@ -7,11 +7,11 @@ use sqlx::AnyConnection;
 use crate::Result;
 use crate::attempts::sql::{at_rest, begin, end, withdraw};
 use crate::attempts::worker::Worker;
-use crate::attempts::{Attempt, Kind, Outcome};
+use crate::attempts::{Attempt, Kind, MOST_LOST, Outcome};
 use crate::model::State;
 use crate::runs::events::plain_event;
 use crate::runs::events_sql::append_event;
-use crate::runs::priority::{BACKGROUND, IDLE};
+use crate::runs::priority::{BACKGROUND, IDLE, INTERACTIVE};
 use crate::runs::share::OfClass;
 use crate::runs::sql::state_name;
 use crate::store::{Store, now_us};
@@ -94,26 +94,33 @@ impl Store {
         self.begin_next(worker, Kind::Measure, i64::MIN..=IDLE, classes, next!("r.prepared = 1")).await
     }
 
-    /// Runs that wait for a measuring machine of this class, without idle work.
-    pub async fn prepared_runs(&self, of: &OfClass) -> Result<u64> {
-        let text = "SELECT COUNT(*) FROM runs WHERE state = 'queued' AND prepared = 1 AND priority <= $1 \
-                    AND COALESCE(hardware_class, $2) = $3";
+    /// Work that waits for a measuring machine of this class, without idle work. What is no run is for machines of the usual one.
+    pub async fn waiting_for_machines(&self, of: &OfClass) -> Result<u64> {
+        let text = concat!(
+            "SELECT (SELECT COUNT(*) FROM runs WHERE state = 'queued' AND prepared = 1 AND priority <= $1 ",
+            "AND COALESCE(hardware_class, $2) = $3) ",
+            "+ (SELECT COUNT(*) FROM submissions s WHERE s.state = 'uploaded' AND s.attempts < $4 AND $2 = $3 AND ",
+            at_rest!("check", "s.id"),
+            ") + (SELECT COUNT(*) FROM stability_runs t WHERE t.state IN ('queued', 'running') AND t.priority = $5 AND $2 = $3 AND ",
+            at_rest!("stability", "t.id"),
+            ")"
+        );
         let query = sqlx::query_scalar::<_, i64>(text).bind(BACKGROUND).bind(&of.usual).bind(&of.class);
-        Ok(query.fetch_one(&self.pool).await? as u64)
+        Ok(query.bind(MOST_LOST).bind(INTERACTIVE).fetch_one(&self.pool).await? as u64)
     }
 
-    /// Is this run idle work while another one of its class is prepared for a machine?
+    /// Is this run idle work while something else waits for a machine of its class?
     pub async fn gives_way(&self, run: &str, usual: &str) -> Result<bool> {
-        let text = "SELECT COUNT(*) FROM runs idle WHERE idle.id = $1 AND idle.priority = $2 AND EXISTS (SELECT 1 FROM runs r \
-                    WHERE r.state = 'queued' AND r.prepared = 1 AND r.priority <= $3 \
-                    AND COALESCE(r.hardware_class, $4) = COALESCE(idle.hardware_class, $4))";
-        let query = sqlx::query_scalar::<_, i64>(text).bind(run).bind(IDLE).bind(BACKGROUND).bind(usual);
-        Ok(query.fetch_one(&self.pool).await? > 0)
+        let text = "SELECT COALESCE(hardware_class, $3) FROM runs WHERE id = $1 AND priority = $2";
+        let query = sqlx::query_scalar(text).bind(run).bind(IDLE).bind(usual);
+        let Some(class) = query.fetch_optional(&self.pool).await? else { return Ok(false) };
+        Ok(self.waiting_for_machines(&OfClass { class, usual: usual.to_owned() }).await? > 0)
     }
 
-    /// Runs of idle work that wait or are under way.
+    /// Runs and stability runs of idle work that wait or are under way.
     pub async fn idle_runs(&self) -> Result<u64> {
-        let text = "SELECT COUNT(*) FROM runs WHERE priority = $1 AND state IN ('queued', 'running')";
+        let text = "SELECT (SELECT COUNT(*) FROM runs WHERE priority = $1 AND state IN ('queued', 'running')) \
+                    + (SELECT COUNT(*) FROM stability_runs WHERE priority = $1 AND state IN ('queued', 'running'))";
         Ok(sqlx::query_scalar::<_, i64>(text).bind(IDLE).fetch_one(&self.pool).await? as u64)
     }
 

@@ -24,14 +24,14 @@ use crate::time_limit::in_time;
 use crate::{EngineError, Result};
 
 /// What is to be tried next.
-struct Next {
-    algorithm: Arc<Algorithm>,
+pub(super) struct Next {
+    pub algorithm: Arc<Algorithm>,
     /// Nothing when all parts are done.
-    part: Option<&'static str>,
+    pub part: Option<&'static str>,
     /// The parts before it.
-    done: Vec<String>,
+    pub done: Vec<String>,
     /// What these have found.
-    found: Stability,
+    pub found: Stability,
 }
 
 /// The stability runs that wait, and what carries them out.
@@ -41,11 +41,16 @@ pub struct StabilityRuns {
     pub work: Arc<Work>,
     pub machine: Machine,
     pub ceilings: Ceilings,
+    /// Measuring machines do it.
+    pub elsewhere: bool,
 }
 
 impl StabilityRuns {
-    /// Tries the next part of the run whose turn it is; false when none waits. Idle work gives way to any request after so many.
+    /// Tries the next part of the run whose turn it is; false when none waits here. Idle work gives way to any request after so many.
     pub async fn next(&self, idle: Option<u64>) -> Result<bool> {
+        if self.elsewhere {
+            return Ok(false);
+        }
         let tried = self.try_next(idle).await;
         self.work.unset_current();
         tried
@@ -67,7 +72,7 @@ impl StabilityRuns {
     }
 
     /// Begins the next part for a worker. A run whose part was lost too often is given up.
-    async fn begin(&self, priority: i64, worker: &Worker) -> Result<Option<(Attempt, StabilityRow)>> {
+    pub(super) async fn begin(&self, priority: i64, worker: &Worker) -> Result<Option<(Attempt, StabilityRow)>> {
         while let Some((attempt, row)) = self.store.begin_part(priority, worker).await? {
             if row.attempts <= MOST_LOST {
                 return Ok(Some((attempt, row)));
@@ -81,7 +86,7 @@ impl StabilityRuns {
     }
 
     /// Notes how an attempt at a part ended; the reason is that for which it was stopped.
-    async fn settle(
+    pub(super) async fn settle(
         &self,
         attempt: &Attempt,
         row: &StabilityRow,
@@ -109,7 +114,7 @@ impl StabilityRuns {
     }
 
     /// What is left of the time of a run, and what its owner is told when it is over.
-    fn limit(&self, row: &StabilityRow) -> Option<(Duration, String)> {
+    pub(super) fn limit(&self, row: &StabilityRow) -> Option<(Duration, String)> {
         let longest = self.ceilings.longest_of(row.owner.as_deref())?;
         let reason = format!(
             "Stopped after {}, the time limit for guests. Choose fewer tests or seeds, or log in.",
@@ -128,7 +133,7 @@ impl StabilityRuns {
     }
 
     /// What is to be tried next, and on what.
-    async fn next_part(&self, row: &StabilityRow) -> std::result::Result<Next, LabError> {
+    pub(super) async fn next_part(&self, row: &StabilityRow) -> std::result::Result<Next, LabError> {
         let algorithm = self
             .registry
             .named(&row.spec.algorithm, row.owner.as_deref())
@@ -144,7 +149,7 @@ impl StabilityRuns {
     }
 
     /// Keeps what was found with this part, in so many seconds; false when the attempt is not the current one.
-    async fn accept(
+    pub(super) async fn accept(
         &self,
         attempt: &Attempt,
         row: &StabilityRow,

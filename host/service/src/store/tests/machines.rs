@@ -76,7 +76,7 @@ pub async fn prepared_runs_go_to_machines_in_turn(store: Store) {
     }
     assert_eq!(prepared.len(), 9, "no more than eight of one visitor: {prepared:?}");
     assert_eq!(prepared.last().map(String::as_str), Some("b"));
-    assert_eq!(store.prepared_runs(&usual()).await.unwrap(), 9);
+    assert_eq!(store.waiting_for_machines(&usual()).await.unwrap(), 9);
     let mut begun = Vec::new();
     for machine in ["m", "n", "o"] {
         begun.push(store.begin_prepared_run(&of(machine, "class"), "class").await.unwrap().unwrap());
@@ -87,11 +87,11 @@ pub async fn prepared_runs_go_to_machines_in_turn(store: Store) {
     assert_eq!((row.state, row.attempts), (State::Running, 1), "preparing is no attempt");
     // What waits again stays prepared; what is asked for anew is not.
     assert!(store.put_back_run(&begun[0]).await.unwrap());
-    assert_eq!(store.prepared_runs(&usual()).await.unwrap(), 7);
+    assert_eq!(store.waiting_for_machines(&usual()).await.unwrap(), 7);
     assert!(end(&store, &begun[1], State::Done, None).await);
     let b = store.run("b").await.unwrap().unwrap();
     assert!(store.queue_again(&b, &fresh_stages(&b.spec.algorithms)).await.unwrap());
-    assert_eq!(store.prepared_runs(&usual()).await.unwrap(), 7);
+    assert_eq!(store.waiting_for_machines(&usual()).await.unwrap(), 7);
 }
 
 pub async fn runs_go_to_machines_of_their_hardware_class(store: Store) {
@@ -110,7 +110,10 @@ pub async fn runs_go_to_machines_of_their_hardware_class(store: Store) {
     }
     assert_eq!(prepared.len(), 10, "eight of one class, and those of another are not behind them: {prepared:?}");
     let new = OfClass { class: "new".into(), usual: "class".into() };
-    assert_eq!((store.prepared_runs(&usual()).await.unwrap(), store.prepared_runs(&new).await.unwrap()), (2, 8));
+    assert_eq!(
+        (store.waiting_for_machines(&usual()).await.unwrap(), store.waiting_for_machines(&new).await.unwrap()),
+        (2, 8)
+    );
     assert_eq!((store.waiting(1, &usual()).await.unwrap().0, store.waiting(1, &new).await.unwrap().0), (2, 9));
     assert_eq!(
         store.runs_before("usual", &usual()).await.unwrap(),

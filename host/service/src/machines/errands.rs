@@ -1,0 +1,105 @@
+//! Work of measuring machines other than runs: checks of plugins, and parts of stability runs.
+
+use ocb_lab::LabError;
+
+use super::handing::Handing;
+use crate::attempts::worker::Worker;
+use crate::attempts::{Attempt, Kind};
+use crate::engine::Engine;
+use crate::model::{Ended, Errand, Told, Wanted};
+use crate::{EngineError, Result};
+
+/// What a machine does, in turn, so that none waits for all of another.
+const IN_TURN: [Kind; 3] = [Kind::Check, Kind::Stability, Kind::Measure];
+
+/// The kinds in the order in which a machine looks for them that began this one last.
+pub fn in_turn(last: Option<Kind>) -> impl Iterator<Item = Kind> {
+    let next = IN_TURN.into_iter().position(|kind| Some(kind) == last).map_or(0, |at| at + 1);
+    IN_TURN.into_iter().cycle().skip(next).take(IN_TURN.len())
+}
+
+impl Engine {
+    /// The next errand of this kind for a machine.
+    pub(super) async fn next_errand(&self, kind: Kind, priority: i64, worker: &Worker) -> Result<Option<Errand>> {
+        let errand = match kind {
+            Kind::Check => self.inner.checks.errand(worker).await?,
+            Kind::Stability => self.inner.stability.errand(priority, worker).await?,
+            _ => None,
+        };
+        if let Some(errand) = &errand {
+            self.inner.store.keep_order(&errand.attempt, errand).await?;
+        }
+        Ok(errand)
+    }
+
+    /// Keeps what a machine tells of an errand; false when its attempt has ended here.
+    pub(super) async fn told_of_errand(&self, attempt: &Attempt, told: Vec<Told>) -> Result<bool> {
+        for told in &told {
+            match attempt.kind {
+                Kind::Check if !self.inner.checks.told(attempt, told).await? => return Ok(false),
+                _ => {}
+            }
+        }
+        Ok(true)
+    }
+
+    /// Takes how a machine ended an errand; false, and nothing is kept, when its attempt is not the current one.
+    pub(super) async fn hand_in_errand(&self, machine: &str, attempt: Attempt, handing: Handing) -> Result<bool> {
+        let Some((attempt, errand)) = self.inner.store.with_order::<Errand>(Some(attempt)).await? else {
+            return Ok(false);
+        };
+        let inner = &self.inner;
+        match (handing.ended, errand.wanted) {
+            (Ended::Checked { report }, Wanted::Check { plugin_sha256, .. }) => {
+                inner.checks.take(&attempt, &plugin_sha256, *report).await
+            }
+            (Ended::Tried { found, seconds }, Wanted::Stability { part, .. }) => {
+                inner.stability.take(&attempt, &part, *found, seconds).await
+            }
+            (Ended::PutBack, _) => self.put_back(&attempt).await.map(|()| true),
+            (Ended::TooLong, Wanted::Stability { .. }) => {
+                inner.stability.not_done(&attempt, LabError::Stopped, true).await.map(|()| true)
+            }
+            (Ended::Impossible { message }, Wanted::Stability { .. }) => {
+                inner.stability.not_done(&attempt, LabError::Invalid(message), false).await.map(|()| true)
+            }
+            (Ended::Failed { message } | Ended::Impossible { message }, _) => {
+                tracing::error!("{} {}: the machine {machine} failed: {message}", attempt.kind.name(), attempt.job);
+                inner.store.machine_failed(machine, &message).await?;
+                self.lose_errand(&attempt, message).await.map(|()| true)
+            }
+            _ => Err(EngineError::Invalid("This is not what was ordered.".into())),
+        }
+    }
+
+    /// The job of a machine's attempt waits again, without a fault of its own.
+    pub(super) async fn put_back(&self, attempt: &Attempt) -> Result<()> {
+        let store = &self.inner.store;
+        match attempt.kind {
+            Kind::Check => store.put_back_check(attempt).await.map(|_| ()),
+            Kind::Stability => store.put_back_part(attempt).await,
+            _ => store.put_back_run(attempt).await.map(|_| ()),
+        }
+    }
+
+    /// The machine failed. A check is put back, as if it had been made here.
+    async fn lose_errand(&self, attempt: &Attempt, why: String) -> Result<()> {
+        let noted = match attempt.kind {
+            Kind::Stability => self.inner.stability.not_done(attempt, LabError::Fault(why), false).await,
+            _ => return self.put_back(attempt).await,
+        };
+        match noted {
+            // It is noted with the machine.
+            Err(EngineError::Fault(_)) => Ok(()),
+            noted => noted,
+        }
+    }
+}
+
+#[test]
+fn a_machine_begins_with_what_comes_behind_its_last() {
+    let order = |last| in_turn(last).collect::<Vec<_>>();
+    assert_eq!(order(None), IN_TURN);
+    assert_eq!(order(Some(Kind::Check)), [Kind::Stability, Kind::Measure, Kind::Check]);
+    assert_eq!(order(Some(Kind::Measure)), IN_TURN);
+}
