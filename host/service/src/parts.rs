@@ -114,6 +114,7 @@ impl Inner {
                 ceilings: config.ceilings,
                 advisor: config.advisor.clone(),
                 data: config.data.clone(),
+                elsewhere: config.elsewhere,
             }),
             checks: Arc::new(Checks {
                 store: store.clone(),

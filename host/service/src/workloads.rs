@@ -1,5 +1,6 @@
 //! Recordings that visitors bring: asking for a replay, looking at it, ending it.
 
+mod errands;
 mod heatmaps;
 pub mod recordings;
 pub mod replay;

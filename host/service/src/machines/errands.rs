@@ -1,4 +1,4 @@
-//! Work of measuring machines other than runs: checks of plugins, and parts of stability runs.
+//! Work of measuring machines other than runs: checks of plugins, parts of stability runs, and replays.
 
 use ocb_lab::LabError;
 
@@ -10,7 +10,7 @@ use crate::model::{Ended, Errand, Told, Wanted};
 use crate::{EngineError, Result};
 
 /// What a machine does, in turn, so that none waits for all of another.
-const IN_TURN: [Kind; 3] = [Kind::Check, Kind::Stability, Kind::Measure];
+const IN_TURN: [Kind; 4] = [Kind::Check, Kind::Stability, Kind::Replay, Kind::Measure];
 
 /// The kinds in the order in which a machine looks for them that began this one last.
 pub fn in_turn(last: Option<Kind>) -> impl Iterator<Item = Kind> {
@@ -24,6 +24,7 @@ impl Engine {
         let errand = match kind {
             Kind::Check => self.inner.checks.errand(worker).await?,
             Kind::Stability => self.inner.stability.errand(priority, worker).await?,
+            Kind::Replay => self.inner.replays.errand(worker).await?,
             _ => None,
         };
         if let Some(errand) = &errand {
@@ -37,6 +38,7 @@ impl Engine {
         for told in &told {
             match attempt.kind {
                 Kind::Check if !self.inner.checks.told(attempt, told).await? => return Ok(false),
+                Kind::Replay => self.inner.replays.told(attempt, told).await?,
                 _ => {}
             }
         }
@@ -56,12 +58,19 @@ impl Engine {
             (Ended::Tried { found, seconds }, Wanted::Stability { part, .. }) => {
                 inner.stability.take(&attempt, &part, *found, seconds).await
             }
+            (Ended::Replayed { result }, Wanted::Replay { algorithms, .. }) => {
+                inner.replays.take(&attempt, algorithms, *result, handing.files).await
+            }
             (Ended::PutBack, _) => self.put_back(&attempt).await.map(|()| true),
             (Ended::TooLong, Wanted::Stability { .. }) => {
                 inner.stability.not_done(&attempt, LabError::Stopped, true).await.map(|()| true)
             }
             (Ended::Impossible { message }, Wanted::Stability { .. }) => {
                 inner.stability.not_done(&attempt, LabError::Invalid(message), false).await.map(|()| true)
+            }
+            (Ended::TooLong, Wanted::Replay { .. }) => inner.replays.too_long(&attempt).await.map(|()| true),
+            (Ended::Impossible { message }, Wanted::Replay { .. }) => {
+                inner.replays.not_done(&attempt, EngineError::Invalid(message)).await.map(|()| true)
             }
             (Ended::Failed { message } | Ended::Impossible { message }, _) => {
                 tracing::error!("{} {}: the machine {machine} failed: {message}", attempt.kind.name(), attempt.job);
@@ -78,6 +87,7 @@ impl Engine {
         match attempt.kind {
             Kind::Check => store.put_back_check(attempt).await.map(|_| ()),
             Kind::Stability => store.put_back_part(attempt).await,
+            Kind::Replay => store.put_back_replay(attempt).await,
             _ => store.put_back_run(attempt).await.map(|_| ()),
         }
     }
@@ -86,6 +96,7 @@ impl Engine {
     async fn lose_errand(&self, attempt: &Attempt, why: String) -> Result<()> {
         let noted = match attempt.kind {
             Kind::Stability => self.inner.stability.not_done(attempt, LabError::Fault(why), false).await,
+            Kind::Replay => self.inner.replays.not_done(attempt, EngineError::Fault(why)).await,
             _ => return self.put_back(attempt).await,
         };
         match noted {
@@ -100,6 +111,6 @@ impl Engine {
 fn a_machine_begins_with_what_comes_behind_its_last() {
     let order = |last| in_turn(last).collect::<Vec<_>>();
     assert_eq!(order(None), IN_TURN);
-    assert_eq!(order(Some(Kind::Check)), [Kind::Stability, Kind::Measure, Kind::Check]);
+    assert_eq!(order(Some(Kind::Check)), [Kind::Stability, Kind::Replay, Kind::Measure, Kind::Check]);
     assert_eq!(order(Some(Kind::Measure)), IN_TURN);
 }

@@ -6,7 +6,7 @@ use crate::attempts::Kind;
 use crate::blocking::blocking;
 use crate::boxed;
 use crate::engine::Engine;
-use crate::model::{Errand, WorkOrder};
+use crate::model::{Errand, Wanted, WorkOrder};
 use crate::{EngineError, Result};
 
 impl Engine {
@@ -42,9 +42,15 @@ impl Engine {
 
     async fn file_of_errand(&self, errand: &Errand, name: &str) -> Result<Option<Vec<u8>>> {
         let inner = &self.inner;
-        let plugins = errand.wanted.plugins();
-        match name.strip_prefix("plugin-").filter(|hash| plugins.contains(hash)) {
-            Some(plugin) => inner.blobs.get(plugin).await.map(Some),
+        let blob = match &errand.wanted {
+            Wanted::Replay { recording, .. } if name == "recording" => Some(recording.sha256.as_str()),
+            wanted => {
+                let plugins = wanted.plugins();
+                name.strip_prefix("plugin-").filter(|hash| plugins.contains(hash))
+            }
+        };
+        match blob {
+            Some(blob) => inner.blobs.get(blob).await.map(Some),
             None => Ok(None),
         }
     }

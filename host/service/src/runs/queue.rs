@@ -103,6 +103,8 @@ impl Store {
             at_rest!("check", "s.id"),
             ") + (SELECT COUNT(*) FROM stability_runs t WHERE t.state IN ('queued', 'running') AND t.priority = $5 AND $2 = $3 AND ",
             at_rest!("stability", "t.id"),
+            ") + (SELECT COUNT(*) FROM workloads w WHERE w.state IN ('queued', 'running') AND $2 = $3 AND ",
+            at_rest!("replay", "w.id"),
             ")"
         );
         let query = sqlx::query_scalar::<_, i64>(text).bind(BACKGROUND).bind(&of.usual).bind(&of.class);

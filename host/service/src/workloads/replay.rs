@@ -33,6 +33,8 @@ pub struct Replays {
     pub advisor: PathBuf,
     /// The data folder.
     pub data: PathBuf,
+    /// Measuring machines do it.
+    pub elsewhere: bool,
 }
 
 /// What is replayed, and how.

@@ -21,8 +21,11 @@ use crate::{EngineError, Result};
 const NOTE: Duration = Duration::from_secs(1);
 
 impl Replays {
-    /// Replays the recording whose turn it is; false when none waits.
+    /// Replays the recording whose turn it is; false when none waits here.
     pub async fn next(&self) -> Result<bool> {
+        if self.elsewhere {
+            return Ok(false);
+        }
         let Some((attempt, row)) = self.begin(&self.work.worker).await? else { return Ok(false) };
         let stop = Stop::default();
         let _held = self.work.begin(&attempt, &stop, None);

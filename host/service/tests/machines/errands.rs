@@ -1,11 +1,11 @@
-//! Checks of plugins and parts of stability runs on machines.
+//! Checks of plugins, parts of stability runs and replays on machines.
 
 use std::sync::{Arc, Mutex};
 
 use ocb_service::LabError;
 use ocb_service::model::{
-    Action, CellState, Decision, Ended, Errand, NextWork, PluginInfo, PluginState, Sentinel, StabilityRunInfo,
-    StabilitySpec, State, Told, Wanted,
+    Action, CellState, Decision, Ended, Errand, NextWork, PluginInfo, PluginState, ReduceTerms, Sentinel,
+    StabilityRunInfo, StabilitySpec, State, Told, Track, Wanted, WorkloadResult, WorkloadSpec,
 };
 use ocb_service::worker::{Handed, Report, Worker};
 use ocb_service::{Ceilings, Engine, EngineConfig, EngineError, Handing, Profile, Stop, Visitor};
@@ -262,5 +262,80 @@ async fn how_a_machine_ends_a_stability_run_is_told_to_its_owner() {
     engine.cancel_stability(&trying.id, Some(&guest)).await.unwrap();
     assert!(!engine.beat_of("zeta", &errand.attempt, Vec::new()).await.unwrap());
     assert!(!hand_in(&engine, "zeta", &errand, Ended::PutBack).await.unwrap());
+    engine.shutdown().await;
+}
+
+/// A recording of a ball that comes near a knot, as a file.
+fn recording(folder: &TempDir) -> Vec<u8> {
+    let knot = ocb_core::mesh::obj::write(&ocb_core::stock::generate("torus-knot", 600).unwrap());
+    std::fs::write(folder.path().join("knot.obj"), knot).unwrap();
+    let query = |i: u32| {
+        let pose_b = [1.0, 0.0, 0.0, 0.1 * f64::from(i), 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+        serde_json::json!({ "objects": ["knot", "ball"], "query": "distance", "pose_b": pose_b, "group": i / 4 })
+    };
+    let written = serde_json::json!({
+        "objects": [{ "name": "knot", "file": "knot.obj" },
+                    { "name": "ball", "geometry": { "kind": "sphere", "radius": 0.2 } }],
+        "queries": (0..40).map(query).collect::<Vec<_>>(),
+    });
+    let file = folder.path().join("near.ocbrec");
+    let recording = ocb_service::recording::from_json(written.to_string().as_bytes(), folder.path()).unwrap();
+    recording.write(&file).unwrap();
+    std::fs::read(file).unwrap()
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_machine_replays_a_recording_and_reduces_its_scene() {
+    let ((_alone, folder), engine, worker, author) = site().await;
+    let facts = worker.facts().clone();
+    let visitor = Visitor { owner: author.owner(), address: None };
+    let spec = WorkloadSpec {
+        algorithms: vec!["box-tree".into()],
+        tracks: vec![Track::Shuffled],
+        passes: 1,
+        budget_seconds: 5.0,
+        seed: None,
+        reduce: Some(ReduceTerms { tolerance: 0.05, near: 0.0, outside_only: false, frontier: false }),
+    };
+    let add = engine.add_workload("near.ocbrec", recording(&folder), spec.clone(), &visitor, None);
+    let (workload, _) = add.await.unwrap();
+    let errand = next_errand(&engine, "alpha", &facts).await.expect("the replay");
+    let Wanted::Replay { spec: ordered, .. } = &errand.wanted else { panic!("a replay") };
+    assert!(ordered.seed.is_some() && errand.job == workload.id && errand.most_seconds.is_none());
+    assert!(matches!(engine.file_of_order("alpha", &errand.attempt, "a").await, Err(EngineError::NotFound(_))));
+
+    let (_, handed, told) = done(&engine, "alpha", worker, &errand).await;
+    let doing = |told: &Told| matches!(told, Told::Replaying { doing: Some(what), .. } if what.contains("Reducing"));
+    let reduces = told.iter().find(|told| doing(told)).expect("it tells what it does").clone();
+    assert!(engine.beat_of("alpha", &errand.attempt, vec![reduces]).await.unwrap());
+    let now = engine.workload(&workload.id).await.unwrap();
+    assert!(now.message.is_some_and(|what| what.contains("Reducing")));
+    let Handed { ended: Ended::Replayed { result }, files } = &handed else { panic!("it was replayed") };
+    assert_eq!((result.queries, files.len(), result.reduced.is_some()), (40, 2, true));
+    let of = async |ended: Ended, files: &[Vec<u8>]| {
+        engine.hand_in("alpha", &errand.attempt, Handing { ended, files: files.to_vec() }).await
+    };
+    let with = |change: &dyn Fn(&mut WorkloadResult)| {
+        let mut result = result.clone();
+        change(&mut result);
+        Ended::Replayed { result }
+    };
+    assert!(is_refused(&of(with(&|it| it.tracks[0].algorithms[0].algorithm = "other".into()), files).await));
+    assert!(is_refused(&of(with(&|it| it.queries = 41), files).await));
+    assert!(is_refused(&of(with(&|it| it.reduced = None), files).await));
+    assert!(is_refused(&of(with(&|_| ()), &files[..1]).await));
+    assert!(is_refused(&of(with(&|_| ()), &[b"PAR1".to_vec(), files[1].clone()]).await));
+    assert!(is_refused(&of(with(&|_| ()), &[files[0].clone(), b"PK".to_vec()]).await));
+    assert!(of(with(&|_| ()), files).await.unwrap());
+    assert!(!of(with(&|_| ()), files).await.unwrap(), "once");
+    let now = engine.workload(&workload.id).await.unwrap();
+    let found = now.result.expect("a result");
+    assert_eq!((now.state, found.tracks[0].algorithms[0].wrong, found.reduced.is_some()), (State::Done, 0, true));
+
+    // Another one is cancelled while a machine has it.
+    let (again, _) = engine.replay_again(&workload.id, spec, &visitor, None).await.unwrap();
+    let errand = next_errand(&engine, "beta", &facts).await.unwrap();
+    engine.cancel_workload(&again.id, Some(&visitor.owner)).await.unwrap();
+    assert!(!engine.beat_of("beta", &errand.attempt, Vec::new()).await.unwrap());
     engine.shutdown().await;
 }
