@@ -1,5 +1,6 @@
 //! Asking for advice, looking at it, taking it away.
 
+mod errands;
 mod own;
 pub mod sql;
 pub mod work;
@@ -59,6 +60,11 @@ impl Engine {
             return Err(EngineError::TooMuch { message, retry_seconds: RETRY_SECONDS });
         }
         let info = waiting(id, spec, names);
+        if inner.config.elsewhere {
+            inner.store.add_waiting_advice(&info, Some(owner), &turn).await?;
+            inner.work.call();
+            return Ok((info, true));
+        }
         // Two that come at once under one key: the first stands.
         let Some(attempt) = inner.store.add_advice(&info, owner, &turn, &inner.work.worker).await? else {
             return Ok((self.advice(&info.id).await?, false));
@@ -88,9 +94,12 @@ impl Engine {
             job.stop();
             return Ok(job.info());
         }
-        // Another service may work on it.
+        // Another service or a machine may work on it, and may begin at this moment.
         let ended = AdviceInfo { state: State::Cancelled, ..row.info };
-        self.inner.store.withdraw_advice(&ended, &self.inner.work.worker).await?;
+        let (store, here) = (&self.inner.store, &self.inner.work.worker);
+        if !store.withdraw_advice(&ended, here).await? && !store.end_waiting_advice(&ended).await? {
+            store.withdraw_advice(&ended, here).await?;
+        }
         Ok(self.inner.store.advice_row(id).await?.info)
     }
 
@@ -132,18 +141,35 @@ impl Advices {
 
     /// Begins again what an ended process left behind.
     pub(crate) async fn take_up(self: &Arc<Self>) -> Result<()> {
-        for AdviceRow { mut info, attempts, .. } in self.from.store.open_advice().await? {
+        if self.from.elsewhere {
+            return Ok(());
+        }
+        for AdviceRow { info, attempts, .. } in self.from.store.open_advice().await? {
             let Some(attempt) = self.from.store.take_up(&info.id, &self.work.worker).await? else { continue };
-            if attempts >= MOST_LOST {
-                info.state = State::Failed;
-                info.message =
-                    Some(format!("The service ended {attempts} times during this work, so it is not tried again."));
-                self.from.store.end_advice(&attempt, &info, &Default::default()).await?;
-                continue;
+            if attempts < MOST_LOST {
+                self.begin(attempt, info);
+            } else {
+                self.give_up(&attempt, info).await?;
             }
-            self.begin(attempt, info);
         }
         Ok(())
+    }
+
+    /// It was lost too often.
+    async fn give_up(&self, attempt: &Attempt, info: AdviceInfo) -> Result<()> {
+        let message = format!("The service ended {MOST_LOST} times during this work, so it is not tried again.");
+        let info = AdviceInfo { state: State::Failed, message: Some(message), ..info };
+        self.from.store.end_advice(attempt, &info, &Default::default()).await.map(|_| ())
+    }
+
+    /// The meshes of both objects; one is there once.
+    async fn meshes_of(&self, spec: &AdviceSpec) -> Result<[Arc<Mesh>; 2]> {
+        let a = self.from.objects.mesh(&spec.object_a).await?;
+        let b = match &spec.object_b {
+            Some(b) if *b != spec.object_a => self.from.objects.mesh(b).await?,
+            _ => a.clone(),
+        };
+        Ok([a, b])
     }
 
     /// Works on it in the background when its turn comes.
@@ -157,7 +183,7 @@ impl Advices {
             // What closing interrupted stays open, and is begun again.
             let ended = match advices.work.closing() {
                 true => advices.from.store.put_back_advice(&attempt).await,
-                false => advices.end(&attempt, job.info(), found).await,
+                false => advices.end(&attempt, job.info(), found).await.map(|_| ()),
             };
             if let Err(e) = ended {
                 tracing::error!("advice {id}: {e}");
@@ -182,19 +208,16 @@ impl Advices {
         if !self.from.store.begin_advice(attempt).await? {
             return Err(superseded());
         }
-        let a = self.from.objects.mesh(&spec.object_a).await?;
-        let b = match &spec.object_b {
-            Some(b) if *b != spec.object_a => self.from.objects.mesh(b).await?,
-            _ => a.clone(),
-        };
+        let meshes = self.meshes_of(&spec).await?;
         let advisor = Advisor::new(&self.from.program, &self.from.machine, &self.from.data.join(SHELF));
         let (job, advisor) = (job.clone(), advisor.waiting_for_the_right());
         let extent = extent(self.from.quick);
-        let work = tokio::task::spawn_blocking(move || job.work(&names, [a, b], &advisor, extent));
+        let work = tokio::task::spawn_blocking(move || job.work(&names, meshes, &advisor, extent));
         work.await.unwrap_or_else(|_| Err(EngineError::Fault("Work on advice panicked; see the log.".to_owned())))
     }
 
-    async fn end(&self, attempt: &Attempt, mut info: AdviceInfo, found: Result<Option<Found>>) -> Result<()> {
+    /// Keeps what was found, or why nothing was; false when the attempt is not the current one.
+    async fn end(&self, attempt: &Attempt, mut info: AdviceInfo, found: Result<Option<Found>>) -> Result<bool> {
         let mut papers: [Vec<StoredPaper>; 2] = Default::default();
         let _keeping = self.from.store.locks.keeping().await?;
         (info.state, info.message) = match found {
@@ -210,14 +233,15 @@ impl Advices {
             Ok(None) => (State::Cancelled, None),
             Err(e) => (State::Failed, Some(e.for_visitors().to_string())),
         };
-        if !self.from.store.end_advice(attempt, &info, &papers).await? {
+        let kept = self.from.store.end_advice(attempt, &info, &papers).await?;
+        if !kept {
             tracing::warn!(
                 "advice {}: the result of attempt {} comes too late and is not kept",
                 info.id,
                 attempt.number
             );
         }
-        Ok(())
+        Ok(kept)
     }
 
     async fn keep_paper(&self, paper: &Paper, mesh: &Mesh) -> Result<StoredPaper> {

@@ -86,6 +86,7 @@ impl Inner {
             program: config.advisor.clone(),
             data: config.data.clone(),
             quick: config.quick_advice,
+            elsewhere: config.elsewhere,
         };
         Ok(Self {
             runs: Arc::new(Runs {

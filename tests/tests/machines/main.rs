@@ -1,5 +1,6 @@
 //! Machines measure for a service (`ocb serve --internal`, `ocb work`), and machine or service fail at the worst moment.
 
+mod errands;
 mod machine;
 
 use std::fs;

@@ -12,12 +12,15 @@ impl Advices {
     pub(crate) async fn ask_own(&self, spec: AdviceSpec) -> Result<String> {
         let names = self.objects_of(&spec, None).await?;
         let info = waiting(uuid::Uuid::now_v7().to_string(), spec, names);
-        self.from.store.add_own_advice(&info).await?;
+        self.from.store.add_waiting_advice(&info, None, "").await?;
         Ok(info.id)
     }
 
-    /// Works on the oldest that has no end; false when none waits, or visitors' advice is at work.
+    /// Works on the oldest that has no end; false when none waits here, or visitors' advice is at work.
     pub(crate) async fn next_own(&self, asked: u64) -> Result<bool> {
+        if self.from.elsewhere {
+            return Ok(false);
+        }
         let Ok(_turn) = self.turn.try_acquire() else { return Ok(false) };
         let Some(row) = self.from.store.open_own_advice().await?.into_iter().next() else { return Ok(false) };
         // Another service may be quicker.
@@ -30,7 +33,7 @@ impl Advices {
         self.work.unset_current();
         let ended = match self.work.closing() || (job.stop.for_now() && matches!(found, Ok(None))) {
             true => self.from.store.put_back_advice(&attempt).await,
-            false => self.end(&attempt, job.info(), found).await,
+            false => self.end(&attempt, job.info(), found).await.map(|_| ()),
         };
         self.remove(&attempt.job);
         ended.map(|()| true)

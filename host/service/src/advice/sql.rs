@@ -63,9 +63,26 @@ impl Store {
         Ok(attempt)
     }
 
-    /// Remembers a request of the service itself.
-    pub async fn add_own_advice(&self, info: &AdviceInfo) -> Result<()> {
-        insert(&mut *self.pool.acquire().await?, info, None, "").await.map(|_| ())
+    /// Remembers a request that waits for a worker; false when there is one with its id. Without an owner it is the service's own.
+    pub async fn add_waiting_advice(&self, info: &AdviceInfo, owner: Option<&str>, turn: &str) -> Result<bool> {
+        insert(&mut *self.pool.acquire().await?, info, owner, turn).await
+    }
+
+    /// Notes how far a machine is; false when the attempt is not the current one.
+    pub async fn advice_is_at(&self, attempt: &Attempt, info: &AdviceInfo) -> Result<bool> {
+        let text = concat!("UPDATE advice SET info = $1 WHERE id = $2 AND ", while_current!("$3"));
+        let done = sqlx::query(text).bind(to_json(info)?).bind(&attempt.job).bind(&attempt.id);
+        Ok(done.execute(&self.pool).await?.rows_affected() == 1)
+    }
+
+    /// Ends a request that no worker is at; false when one is.
+    pub async fn end_waiting_advice(&self, info: &AdviceInfo) -> Result<bool> {
+        let text = concat!(
+            "UPDATE advice SET ended = 1, info = $1 WHERE id = $2 AND ended = 0 AND ",
+            at_rest!("advise", "advice.id")
+        );
+        let done = sqlx::query(text).bind(to_json(info)?).bind(&info.id).execute(&self.pool).await?;
+        Ok(done.rows_affected() == 1)
     }
 
     /// Takes up a request that has not ended; nothing when another worker was quicker.

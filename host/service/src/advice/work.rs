@@ -35,6 +35,8 @@ pub struct Sources {
     pub data: PathBuf,
     /// Advice is to be quick: see [`extent`].
     pub quick: bool,
+    /// Measuring machines make it.
+    pub elsewhere: bool,
 }
 
 /// The requests that wait or are at work, by id.

@@ -1,16 +1,18 @@
-//! Work of measuring machines other than runs: checks of plugins, parts of stability runs, and replays.
+//! Work of measuring machines other than runs: checks of plugins, parts of stability runs, replays, and advice.
 
 use ocb_lab::LabError;
 
 use super::handing::Handing;
+use super::sql::worker;
 use crate::attempts::worker::Worker;
 use crate::attempts::{Attempt, Kind};
 use crate::engine::Engine;
 use crate::model::{Ended, Errand, Told, Wanted};
+use crate::runs::priority::IDLE;
 use crate::{EngineError, Result};
 
 /// What a machine does, in turn, so that none waits for all of another.
-const IN_TURN: [Kind; 4] = [Kind::Check, Kind::Stability, Kind::Replay, Kind::Measure];
+const IN_TURN: [Kind; 5] = [Kind::Check, Kind::Stability, Kind::Replay, Kind::Advise, Kind::Measure];
 
 /// The kinds in the order in which a machine looks for them that began this one last.
 pub fn in_turn(last: Option<Kind>) -> impl Iterator<Item = Kind> {
@@ -25,6 +27,7 @@ impl Engine {
             Kind::Check => self.inner.checks.errand(worker).await?,
             Kind::Stability => self.inner.stability.errand(priority, worker).await?,
             Kind::Replay => self.inner.replays.errand(worker).await?,
+            Kind::Advise => self.inner.advices.errand(priority == IDLE, worker).await?,
             _ => None,
         };
         if let Some(errand) = &errand {
@@ -39,6 +42,7 @@ impl Engine {
             match attempt.kind {
                 Kind::Check if !self.inner.checks.told(attempt, told).await? => return Ok(false),
                 Kind::Replay => self.inner.replays.told(attempt, told).await?,
+                Kind::Advise if !self.inner.advices.told(attempt, told).await? => return Ok(false),
                 _ => {}
             }
         }
@@ -61,6 +65,9 @@ impl Engine {
             (Ended::Replayed { result }, Wanted::Replay { algorithms, .. }) => {
                 inner.replays.take(&attempt, algorithms, *result, handing.files).await
             }
+            (Ended::Advised { advice, papers }, Wanted::Advise { .. }) => {
+                inner.advices.take(&attempt, *advice, papers, handing.files).await
+            }
             (Ended::PutBack, _) => self.put_back(&attempt).await.map(|()| true),
             (Ended::TooLong, Wanted::Stability { .. }) => {
                 inner.stability.not_done(&attempt, LabError::Stopped, true).await.map(|()| true)
@@ -72,10 +79,13 @@ impl Engine {
             (Ended::Impossible { message }, Wanted::Replay { .. }) => {
                 inner.replays.not_done(&attempt, EngineError::Invalid(message)).await.map(|()| true)
             }
+            (Ended::Impossible { message }, Wanted::Advise { .. }) => {
+                inner.advices.not_done(&attempt, EngineError::Invalid(message)).await.map(|()| true)
+            }
             (Ended::Failed { message } | Ended::Impossible { message }, _) => {
                 tracing::error!("{} {}: the machine {machine} failed: {message}", attempt.kind.name(), attempt.job);
                 inner.store.machine_failed(machine, &message).await?;
-                self.lose_errand(&attempt, message).await.map(|()| true)
+                self.lose_errand(&worker(machine, ""), &attempt, message).await.map(|()| true)
             }
             _ => Err(EngineError::Invalid("This is not what was ordered.".into())),
         }
@@ -88,15 +98,17 @@ impl Engine {
             Kind::Check => store.put_back_check(attempt).await.map(|_| ()),
             Kind::Stability => store.put_back_part(attempt).await,
             Kind::Replay => store.put_back_replay(attempt).await,
+            Kind::Advise => store.put_back_advice(attempt).await,
             _ => store.put_back_run(attempt).await.map(|_| ()),
         }
     }
 
     /// The machine failed. A check is put back, as if it had been made here.
-    async fn lose_errand(&self, attempt: &Attempt, why: String) -> Result<()> {
+    async fn lose_errand(&self, worker: &Worker, attempt: &Attempt, why: String) -> Result<()> {
         let noted = match attempt.kind {
             Kind::Stability => self.inner.stability.not_done(attempt, LabError::Fault(why), false).await,
             Kind::Replay => self.inner.replays.not_done(attempt, EngineError::Fault(why)).await,
+            Kind::Advise => return self.inner.store.lose(attempt, Some(worker)).await.map(|_| ()),
             _ => return self.put_back(attempt).await,
         };
         match noted {
@@ -111,6 +123,6 @@ impl Engine {
 fn a_machine_begins_with_what_comes_behind_its_last() {
     let order = |last| in_turn(last).collect::<Vec<_>>();
     assert_eq!(order(None), IN_TURN);
-    assert_eq!(order(Some(Kind::Check)), [Kind::Stability, Kind::Replay, Kind::Measure, Kind::Check]);
+    assert_eq!(order(Some(Kind::Check)), [Kind::Stability, Kind::Replay, Kind::Advise, Kind::Measure, Kind::Check]);
     assert_eq!(order(Some(Kind::Measure)), IN_TURN);
 }

@@ -43,6 +43,12 @@ impl Engine {
     async fn file_of_errand(&self, errand: &Errand, name: &str) -> Result<Option<Vec<u8>>> {
         let inner = &self.inner;
         let blob = match &errand.wanted {
+            Wanted::Advise { .. } => {
+                let [a, b] = inner.advices.meshes_for(&errand.job).await?;
+                let mesh = if name == "a" { a } else { b };
+                let named = name == "a" || name == "b";
+                return if named { blocking(move || Ok(Some(to_bytes(&mesh)))).await } else { Ok(None) };
+            }
             Wanted::Replay { recording, .. } if name == "recording" => Some(recording.sha256.as_str()),
             wanted => {
                 let plugins = wanted.plugins();

@@ -80,8 +80,12 @@ impl Engine {
                 return Ok(Some(NextWork::Errand(Box::new(errand))));
             }
         }
-        let unasked = if errands { self.next_errand(Kind::Stability, IDLE, worker).await? } else { None };
-        Ok(unasked.map(|errand| NextWork::Errand(Box::new(errand))))
+        for kind in [Kind::Stability, Kind::Advise].into_iter().filter(|_| errands) {
+            if let Some(errand) = self.next_errand(kind, IDLE, worker).await? {
+                return Ok(Some(NextWork::Errand(Box::new(errand))));
+            }
+        }
+        Ok(None)
     }
 
     /// The order of an attempt; nothing when its run cannot be measured, or not yet.

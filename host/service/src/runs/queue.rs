@@ -105,6 +105,8 @@ impl Store {
             at_rest!("stability", "t.id"),
             ") + (SELECT COUNT(*) FROM workloads w WHERE w.state IN ('queued', 'running') AND $2 = $3 AND ",
             at_rest!("replay", "w.id"),
+            ") + (SELECT COUNT(*) FROM advice v WHERE v.ended = 0 AND v.owner IS NOT NULL AND $2 = $3 AND ",
+            at_rest!("advise", "v.id"),
             ")"
         );
         let query = sqlx::query_scalar::<_, i64>(text).bind(BACKGROUND).bind(&of.usual).bind(&of.class);

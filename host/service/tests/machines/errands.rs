@@ -1,11 +1,11 @@
-//! Checks of plugins, parts of stability runs and replays on machines.
+//! Checks of plugins, parts of stability runs, replays and advice on machines.
 
 use std::sync::{Arc, Mutex};
 
 use ocb_service::LabError;
 use ocb_service::model::{
-    Action, CellState, Decision, Ended, Errand, NextWork, PluginInfo, PluginState, ReduceTerms, Sentinel,
-    StabilityRunInfo, StabilitySpec, State, Told, Track, Wanted, WorkloadResult, WorkloadSpec,
+    Action, AdviceSpec, Asked, CellState, Decision, Ended, Errand, NextWork, PluginInfo, PluginState, ReduceTerms,
+    Sentinel, Side, StabilityRunInfo, StabilitySpec, State, Told, Track, Wanted, WorkloadResult, WorkloadSpec,
 };
 use ocb_service::worker::{Handed, Report, Worker};
 use ocb_service::{Ceilings, Engine, EngineConfig, EngineError, Handing, Profile, Stop, Visitor};
@@ -337,5 +337,68 @@ async fn a_machine_replays_a_recording_and_reduces_its_scene() {
     let errand = next_errand(&engine, "beta", &facts).await.unwrap();
     engine.cancel_workload(&again.id, Some(&visitor.owner)).await.unwrap();
     assert!(!engine.beat_of("beta", &errand.attempt, Vec::new()).await.unwrap());
+    engine.shutdown().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_machine_makes_advice() {
+    let _alone = alone().await;
+    let folder = tempfile::tempdir().unwrap();
+    let settings = EngineConfig { quick_advice: true, ..config(folder.path()) };
+    let engine = Engine::open(settings.clone()).await.unwrap();
+    let worker = common::here(&settings);
+    let facts = worker.facts().clone();
+    engine.add_machine("alpha").await.unwrap();
+    let visitor = Visitor { owner: uuid::Uuid::now_v7().to_string(), address: None };
+    let spec = AdviceSpec {
+        object_a: "stock:torus-knot@1200".into(),
+        object_b: None,
+        question: Asked::Distance { tolerance: 0.05 },
+    };
+    let (asked, _) = engine.ask_advice(spec.clone(), &visitor, None).await.unwrap();
+    let errand = next_errand(&engine, "alpha", &facts).await.expect("the advice");
+    assert_eq!((&errand.job, errand.wanted.name()), (&asked.id, "the advice"));
+    assert_eq!(engine.advice(&asked.id).await.unwrap().state, State::Running);
+    for (name, there) in [("a", true), ("b", true), ("set", false)] {
+        assert_eq!(engine.file_of_order("alpha", &errand.attempt, name).await.is_ok(), there, "{name}");
+    }
+    let (_, handed, told) = done(&engine, "alpha", worker, &errand).await;
+    assert!(engine.beat_of("alpha", &errand.attempt, vec![told[0].clone()]).await.unwrap());
+    let Told::Step { what, .. } = &told[0] else { panic!("{:?}", told[0]) };
+    assert_eq!(&engine.advice(&asked.id).await.unwrap().step, what);
+    let Ended::Advised { papers, .. } = &handed.ended else { panic!("advice was made") };
+    assert_eq!(papers.iter().map(Vec::len).sum::<usize>(), handed.files.len());
+    let of = async |files: &[Vec<u8>]| {
+        let handing = Handing { ended: handed.ended.clone(), files: files.to_vec() };
+        engine.hand_in("alpha", &errand.attempt, handing).await
+    };
+    assert!(is_refused(&of(&[&handed.files[..], &[b"no mesh".to_vec()]].concat()).await));
+    assert!(of(&handed.files).await.unwrap());
+    assert!(!of(&handed.files).await.unwrap(), "once");
+    let now = engine.advice(&asked.id).await.unwrap();
+    assert_eq!((now.state, now.advice.is_some()), (State::Done, true));
+    for stage in 0..papers[0].len() {
+        let (mesh, file) = engine.reduced(&asked.id, Side::A, stage).await.unwrap();
+        assert!(!mesh.is_empty() && file.ends_with(".obj"), "{file}");
+    }
+
+    // One waits and is cancelled, one is cancelled on its machine, and three machines that fail end the last.
+    let (waits, _) = engine.ask_advice(spec.clone(), &visitor, None).await.unwrap();
+    assert_eq!(engine.cancel_advice(&waits.id, Some(&visitor.owner)).await.unwrap().state, State::Cancelled);
+    let (begun, _) = engine.ask_advice(spec.clone(), &visitor, None).await.unwrap();
+    let errand = next_errand(&engine, "alpha", &facts).await.unwrap();
+    assert_eq!(errand.job, begun.id);
+    assert_eq!(engine.cancel_advice(&begun.id, Some(&visitor.owner)).await.unwrap().state, State::Cancelled);
+    assert!(!engine.beat_of("alpha", &errand.attempt, Vec::new()).await.unwrap());
+    let (fails, _) = engine.ask_advice(spec, &visitor, None).await.unwrap();
+    for machine in ["beta", "gamma", "delta", "epsilon"] {
+        engine.add_machine(machine).await.unwrap();
+        let Some(errand) = next_errand(&engine, machine, &facts).await else { break };
+        let failed = Ended::Failed { message: "its disk is full".into() };
+        assert!(hand_in(&engine, machine, &errand, failed).await.unwrap());
+    }
+    let now = engine.advice(&fails.id).await.unwrap();
+    assert_eq!(now.state, State::Failed, "{now:?}");
+    assert!(now.message.unwrap().contains("not tried again"));
     engine.shutdown().await;
 }

@@ -1,0 +1,97 @@
+//! Advice that measuring machines make.
+
+use std::sync::Arc;
+
+use ocb_advice::{Advice, Paper};
+use ocb_core::mesh::Mesh;
+use ocb_lab::mesh_file::from_bytes;
+
+use super::no_advice;
+use super::work::{Advices, extent};
+use crate::attempts::worker::Worker;
+use crate::attempts::{Attempt, MOST_LOST};
+use crate::blocking::blocking;
+use crate::model::{AdviceInfo, Errand, State, Told, Wanted};
+use crate::{EngineError, Result};
+
+impl Advices {
+    /// The oldest that waits for a machine: of visitors, or the service's own. What cannot be made ends here.
+    pub async fn errand(&self, own: bool, worker: &Worker) -> Result<Option<Errand>> {
+        let store = &self.from.store;
+        let open = if own { store.open_own_advice().await? } else { store.open_advice().await? };
+        for row in open {
+            // Another worker may be quicker.
+            let Some(attempt) = store.take_up(&row.info.id, worker).await? else { continue };
+            if row.attempts >= MOST_LOST {
+                self.give_up(&attempt, row.info).await?;
+                continue;
+            }
+            let meshes = match self.meshes_of(&row.info.spec).await {
+                Ok(meshes) => meshes,
+                Err(e) => {
+                    self.end(&attempt, row.info, Err(e)).await?;
+                    continue;
+                }
+            };
+            let info = AdviceInfo { state: State::Running, ..row.info };
+            if !store.begin_advice(&attempt).await? || !store.advice_is_at(&attempt, &info).await? {
+                continue;
+            }
+            let wanted = Wanted::Advise {
+                question: info.spec.question,
+                names: info.names,
+                meshes: meshes.map(|mesh| mesh.sha256()),
+                counts: extent(self.from.quick),
+            };
+            return Ok(Some(Errand { attempt: attempt.id, job: attempt.job, wanted, most_seconds: None }));
+        }
+        Ok(None)
+    }
+
+    /// The meshes of both objects of a request.
+    pub async fn meshes_for(&self, id: &str) -> Result<[Arc<Mesh>; 2]> {
+        let row = self.from.store.advice(id).await?.ok_or_else(|| no_advice(id))?;
+        self.meshes_of(&row.info.spec).await
+    }
+
+    /// Keeps how far a machine is; false when the attempt is not the current one.
+    pub async fn told(&self, attempt: &Attempt, told: &Told) -> Result<bool> {
+        let Told::Step { what, done, total } = told else { return Ok(true) };
+        let Some(row) = self.from.store.advice(&attempt.job).await? else { return Ok(false) };
+        let info = AdviceInfo { step: what.clone(), done: *done, total: *total, ..row.info };
+        self.from.store.advice_is_at(attempt, &info).await
+    }
+
+    /// Takes the advice of a machine, with the reduced meshes; false when the attempt is not the current one.
+    pub async fn take(
+        &self,
+        attempt: &Attempt,
+        advice: Advice,
+        papers: [Vec<Paper>; 2],
+        files: Vec<Vec<u8>>,
+    ) -> Result<bool> {
+        let Some(row) = self.from.store.advice(&attempt.job).await? else { return Ok(false) };
+        let found = blocking(move || {
+            let wrong = |what: &str| EngineError::Invalid(format!("This is not the advice that was ordered: {what}."));
+            if files.len() != papers.iter().map(Vec::len).sum::<usize>() {
+                return Err(wrong("there is a file too many or too few"));
+            }
+            let mut files = files.into_iter();
+            let mut read = |papers: Vec<Paper>| -> Result<Vec<_>> {
+                let of = |(paper, bytes): (Paper, Vec<u8>)| {
+                    Ok((paper, Arc::new(from_bytes(&bytes).map_err(|e| wrong(&e.to_string()))?)))
+                };
+                papers.into_iter().zip(files.by_ref()).map(of).collect()
+            };
+            let [of_a, of_b] = papers;
+            Ok((advice, [read(of_a)?, read(of_b)?]))
+        });
+        self.end(attempt, row.info, Ok(Some(found.await?))).await
+    }
+
+    /// Notes why a machine made none.
+    pub async fn not_done(&self, attempt: &Attempt, why: EngineError) -> Result<()> {
+        let Some(row) = self.from.store.advice(&attempt.job).await? else { return Ok(()) };
+        self.end(attempt, row.info, Err(why)).await.map(|_| ())
+    }
+}
