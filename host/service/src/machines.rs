@@ -4,7 +4,7 @@
 //! The token is shown once and known by its hash. It opens the machine's own attempts and the files that their orders name, and
 //! nothing else.
 
-mod elsewhere;
+pub mod elsewhere;
 mod errands;
 mod files;
 mod handing;

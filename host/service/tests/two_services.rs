@@ -144,6 +144,35 @@ async fn a_second_service_takes_nothing_from_the_first_until_that_is_silent() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn what_one_service_measures_is_shown_by_the_other_before_its_end() {
+    let (url, database) = database().await;
+    let bucket = std::env::var("OCB_TEST_S3").expect("OCB_TEST_S3 is not set: run `make test`");
+    let [data, other] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let settings = |data: &Path, dispatch| EngineConfig {
+        database_url: Some(url.clone()),
+        blob_url: Some(bucket.clone()),
+        dispatch,
+        ..common::config(data)
+    };
+    let first = Engine::open(settings(data.path(), true)).await.unwrap();
+    let second = Engine::open(settings(other.path(), false)).await.unwrap();
+    let spec = RunSpec { algorithms: vec!["box-tree".into(), "parry".into()], ..common::spec("proximity", 400, 1) };
+    let run = first.submit(spec, Some("me")).await.unwrap();
+    let found = |run: &RunInfo| run.results.first().is_some_and(|it| it.preliminary && it.n > 0);
+    let seen = until(&second, &run.id, found).await;
+    assert!(seen.results[0].rank.is_none() && seen.seconds_left.is_some(), "{seen:?}");
+    let request = HeatmapRequest::new("box-tree", Measure::Time, Statistic::Median, Outliers::Keep);
+    assert!(second.heatmap(&run.id, &request).await.unwrap().preliminary);
+    let (done, _) = common::finish(&second, &run.id).await;
+    assert!(done.state == State::Done && done.results.iter().all(|it| !it.preliminary && it.n == 400), "{done:?}");
+    let kept: i64 = sqlx::query_scalar("SELECT COUNT(*) FROM seen").fetch_one(&database).await.unwrap();
+    assert_eq!(kept, 0, "what was found on the way went with the attempt");
+    for engine in [first, second] {
+        engine.shutdown().await;
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn a_machine_begins_at_one_service_and_hands_in_at_the_other() {
     let (url, database) = database().await;
     let bucket = std::env::var("OCB_TEST_S3").expect("OCB_TEST_S3 is not set: run `make test`");

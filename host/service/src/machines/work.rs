@@ -193,7 +193,7 @@ impl Engine {
         // Ranks are given here, at the end.
         let result = AlgorithmResult { preliminary: true, rank: None, place_so_far: None, ..result };
         let seen = Seen { place, preliminary: Preliminary { result, records, seconds } };
-        self.inner.store.keep_seen(&attempt, &seen, &self.inner.work.worker).await?;
+        self.inner.store.keep_seen(&attempt, &seen, Some(&self.inner.work.worker)).await?;
         self.inner.live.seen(&order.run, place, seen.preliminary);
         Ok(true)
     }

@@ -4,6 +4,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ocb_lab::job::Step;
+use ocb_lab::measure::Preliminary;
+use ocb_lab::worker::Seen;
 use tokio::runtime::Handle;
 
 use crate::Result;
@@ -159,7 +161,22 @@ impl RunLog {
             Step::Progress { done, total, .. } => {
                 self.note(FIRST_MEASURING, Some(&turn_of_reference(reference, done, total)))
             }
-            Step::Preliminary(..) => Ok(()),
+            Step::Preliminary(place, ref seen) => {
+                self.share(place, seen);
+                Ok(())
+            }
+        }
+    }
+
+    /// Lets the other services on the database show it. What they cannot show is no reason to end the run.
+    fn share(&self, place: usize, seen: &Preliminary) {
+        let store = &self.live.store;
+        if !store.is_shared() {
+            return;
+        }
+        let seen = Seen { place, preliminary: seen.clone() };
+        if let Err(e) = self.handle.block_on(store.keep_seen(&self.attempt, &seen, None)) {
+            tracing::warn!("run {}: what was found so far is not shown by other services: {e}", self.attempt.job);
         }
     }
 
