@@ -61,9 +61,9 @@ impl Engine {
         }
         let info = waiting(id, spec, names);
         if inner.config.elsewhere {
-            inner.store.add_waiting_advice(&info, Some(owner), &turn).await?;
+            let new = inner.store.add_waiting_advice(&info, Some(owner), &turn).await?;
             inner.work.call();
-            return Ok((info, true));
+            return Ok((self.advice(&info.id).await?, new));
         }
         // Two that come at once under one key: the first stands.
         let Some(attempt) = inner.store.add_advice(&info, owner, &turn, &inner.work.worker).await? else {

@@ -83,8 +83,14 @@ impl Ceilings {
         self.longest_of(row.owner.as_deref()).filter(|_| row.campaign.is_none())
     }
 
+    /// The time limit of a stability run or replay of this owner, if there is one, and what the owner is told when it is over.
+    pub(crate) fn limit_of(&self, owner: Option<&str>, advice: &str) -> Option<(Duration, String)> {
+        let longest = self.longest_of(owner)?;
+        Some((longest, format!("Stopped after {}, the time limit for guests. {advice}", time(longest.as_secs_f64()))))
+    }
+
     /// The time limit of a run, stability run or replay of this owner, if there is one.
-    pub(crate) fn longest_of(&self, owner: Option<&str>) -> Option<Duration> {
+    fn longest_of(&self, owner: Option<&str>) -> Option<Duration> {
         (owner.and_then(kind) == Some(Kind::Guest)).then_some(self.guest_run)
     }
 

@@ -167,6 +167,7 @@ fn migrations(sqlite: bool) -> Vec<Migration> {
         one(43, "run classes", include_str!("../migrations/0043_run_classes.sql")),
         one(44, "reduced scenes", include_str!("../migrations/0044_reduced_scenes.sql")),
         one(45, "seen", if sqlite { "" } else { include_str!("../migrations/0045_seen.sql") }),
+        one(46, "attempts of machines", include_str!("../migrations/0046_attempts_of_machines.sql")),
     ]
 }
 

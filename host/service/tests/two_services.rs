@@ -32,6 +32,12 @@ async fn opened(data: &Path, url: &str) -> Engine {
     Engine::open(config).await.unwrap()
 }
 
+/// On a database and files that others use as well.
+fn sharing(data: &Path, url: &str) -> EngineConfig {
+    let bucket = std::env::var("OCB_TEST_S3").expect("OCB_TEST_S3 is not set: run `make test`");
+    EngineConfig { database_url: Some(url.to_owned()), blob_url: Some(bucket), ..common::config(data) }
+}
+
 async fn until(engine: &Engine, id: &str, there: impl Fn(&RunInfo) -> bool) -> RunInfo {
     let begun = Instant::now();
     loop {
@@ -146,14 +152,8 @@ async fn a_second_service_takes_nothing_from_the_first_until_that_is_silent() {
 #[tokio::test(flavor = "multi_thread")]
 async fn what_one_service_measures_is_shown_by_the_other_before_its_end() {
     let (url, database) = database().await;
-    let bucket = std::env::var("OCB_TEST_S3").expect("OCB_TEST_S3 is not set: run `make test`");
     let [data, other] = [(); 2].map(|()| tempfile::tempdir().unwrap());
-    let settings = |data: &Path, dispatch| EngineConfig {
-        database_url: Some(url.clone()),
-        blob_url: Some(bucket.clone()),
-        dispatch,
-        ..common::config(data)
-    };
+    let settings = |data: &Path, dispatch| EngineConfig { dispatch, ..sharing(data, &url) };
     let first = Engine::open(settings(data.path(), true)).await.unwrap();
     let second = Engine::open(settings(other.path(), false)).await.unwrap();
     let spec = RunSpec { algorithms: vec!["box-tree".into(), "parry".into()], ..common::spec("proximity", 400, 1) };
@@ -175,15 +175,8 @@ async fn what_one_service_measures_is_shown_by_the_other_before_its_end() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_machine_begins_at_one_service_and_hands_in_at_the_other() {
     let (url, database) = database().await;
-    let bucket = std::env::var("OCB_TEST_S3").expect("OCB_TEST_S3 is not set: run `make test`");
     let [data, other] = [(); 2].map(|()| tempfile::tempdir().unwrap());
-    let settings = |data: &Path, dispatch| EngineConfig {
-        database_url: Some(url.clone()),
-        blob_url: Some(bucket.clone()),
-        elsewhere: true,
-        dispatch,
-        ..common::config(data)
-    };
+    let settings = |data: &Path, dispatch| EngineConfig { elsewhere: true, dispatch, ..sharing(data, &url) };
     let first = Engine::open(settings(data.path(), true)).await.unwrap();
     let token = first.add_machine("alpha").await.unwrap();
     // It prepares nothing.

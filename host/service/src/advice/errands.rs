@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use ocb_advice::{Advice, Paper};
 use ocb_core::mesh::Mesh;
+use ocb_lab::advisor::Request;
 use ocb_lab::mesh_file::from_bytes;
 
 use super::no_advice;
@@ -62,29 +63,29 @@ impl Advices {
         self.from.store.advice_is_at(attempt, &info).await
     }
 
-    /// Takes the advice of a machine, with the reduced meshes; false when the attempt is not the current one.
+    /// Takes the advice of a machine about objects with these hashes, with the reduced meshes; false when the attempt is not the
+    /// current one.
     pub async fn take(
         &self,
         attempt: &Attempt,
-        advice: Advice,
-        papers: [Vec<Paper>; 2],
+        objects: &[String; 2],
+        (advice, papers): (Advice, [Vec<Paper>; 2]),
         files: Vec<Vec<u8>>,
     ) -> Result<bool> {
         let Some(row) = self.from.store.advice(&attempt.job).await? else { return Ok(false) };
+        let meshes = self.meshes_of(&row.info.spec).await?;
+        let (AdviceInfo { spec, names, .. }, objects) = (row.info.clone(), objects.clone());
         let found = blocking(move || {
-            let wrong = |what: &str| EngineError::Invalid(format!("This is not the advice that was ordered: {what}."));
+            if advice.question != Request::of(spec.question, names, meshes, [0; 2]).question {
+                return Err(wrong("it answers another question"));
+            }
             if files.len() != papers.iter().map(Vec::len).sum::<usize>() {
                 return Err(wrong("there is a file too many or too few"));
             }
             let mut files = files.into_iter();
-            let mut read = |papers: Vec<Paper>| -> Result<Vec<_>> {
-                let of = |(paper, bytes): (Paper, Vec<u8>)| {
-                    Ok((paper, Arc::new(from_bytes(&bytes).map_err(|e| wrong(&e.to_string()))?)))
-                };
-                papers.into_iter().zip(files.by_ref()).map(of).collect()
-            };
             let [of_a, of_b] = papers;
-            Ok((advice, [read(of_a)?, read(of_b)?]))
+            let [a, b] = &objects;
+            Ok((advice, [reduced(of_a, a, &mut files)?, reduced(of_b, b, &mut files)?]))
         });
         self.end(attempt, row.info, Ok(Some(found.await?))).await
     }
@@ -94,4 +95,24 @@ impl Advices {
         let Some(row) = self.from.store.advice(&attempt.job).await? else { return Ok(()) };
         self.end(attempt, row.info, Err(why)).await.map(|_| ())
     }
+}
+
+/// The reduced meshes of an object with the certificates that speak of them.
+fn reduced(
+    papers: Vec<Paper>,
+    object: &str,
+    files: &mut impl Iterator<Item = Vec<u8>>,
+) -> Result<Vec<(Paper, Arc<Mesh>)>> {
+    let read = |(paper, bytes): (Paper, Vec<u8>)| {
+        let mesh = from_bytes(&bytes).map_err(|e| wrong(&e.to_string()))?;
+        if paper.certificate.object != object || paper.certificate.reduced != mesh.sha256() {
+            return Err(wrong("a certificate speaks of another mesh"));
+        }
+        Ok((paper, Arc::new(mesh)))
+    };
+    papers.into_iter().zip(files).map(read).collect()
+}
+
+fn wrong(what: &str) -> EngineError {
+    EngineError::Invalid(format!("This is not the advice that was ordered: {what}."))
 }

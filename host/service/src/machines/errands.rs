@@ -12,12 +12,13 @@ use crate::runs::priority::IDLE;
 use crate::{EngineError, Result};
 
 /// What a machine does, in turn, so that none waits for all of another.
-const IN_TURN: [Kind; 5] = [Kind::Check, Kind::Stability, Kind::Replay, Kind::Advise, Kind::Measure];
+static IN_TURN: [Kind; 5] = [Kind::Check, Kind::Stability, Kind::Replay, Kind::Advise, Kind::Measure];
 
 /// The kinds in the order in which a machine looks for them that began this one last.
 pub fn in_turn(last: Option<Kind>) -> impl Iterator<Item = Kind> {
     let next = IN_TURN.into_iter().position(|kind| Some(kind) == last).map_or(0, |at| at + 1);
-    IN_TURN.into_iter().cycle().skip(next).take(IN_TURN.len())
+    let (later, first) = IN_TURN.split_at(next);
+    first.iter().chain(later).copied()
 }
 
 impl Engine {
@@ -65,8 +66,8 @@ impl Engine {
             (Ended::Replayed { result }, Wanted::Replay { algorithms, .. }) => {
                 inner.replays.take(&attempt, algorithms, *result, handing.files).await
             }
-            (Ended::Advised { advice, papers }, Wanted::Advise { .. }) => {
-                inner.advices.take(&attempt, *advice, papers, handing.files).await
+            (Ended::Advised { advice, papers }, Wanted::Advise { meshes, .. }) => {
+                inner.advices.take(&attempt, &meshes, (*advice, papers), handing.files).await
             }
             (Ended::PutBack, _) => self.put_back(&attempt).await.map(|()| true),
             (Ended::TooLong, Wanted::Stability { .. }) => {
@@ -85,7 +86,7 @@ impl Engine {
             (Ended::Failed { message } | Ended::Impossible { message }, _) => {
                 tracing::error!("{} {}: the machine {machine} failed: {message}", attempt.kind.name(), attempt.job);
                 inner.store.machine_failed(machine, &message).await?;
-                self.lose_errand(&worker(machine, ""), &attempt, message).await.map(|()| true)
+                self.lose_errand(machine, &attempt).await.map(|()| true)
             }
             _ => Err(EngineError::Invalid("This is not what was ordered.".into())),
         }
@@ -104,17 +105,10 @@ impl Engine {
     }
 
     /// The machine failed. A check is put back, as if it had been made here.
-    async fn lose_errand(&self, worker: &Worker, attempt: &Attempt, why: String) -> Result<()> {
-        let noted = match attempt.kind {
-            Kind::Stability => self.inner.stability.not_done(attempt, LabError::Fault(why), false).await,
-            Kind::Replay => self.inner.replays.not_done(attempt, EngineError::Fault(why)).await,
-            Kind::Advise => return self.inner.store.lose(attempt, Some(worker)).await.map(|_| ()),
-            _ => return self.put_back(attempt).await,
-        };
-        match noted {
-            // It is noted with the machine.
-            Err(EngineError::Fault(_)) => Ok(()),
-            noted => noted,
+    async fn lose_errand(&self, machine: &str, attempt: &Attempt) -> Result<()> {
+        match attempt.kind {
+            Kind::Check => self.put_back(attempt).await,
+            _ => self.inner.store.lose(attempt, Some(&worker(machine, ""))).await.map(|_| ()),
         }
     }
 }

@@ -39,7 +39,11 @@ impl StabilityRuns {
     /// Takes what a machine has found with this part; false when the attempt is not the current one.
     pub async fn take(&self, attempt: &Attempt, part: &str, found: Stability, seconds: f64) -> Result<bool> {
         let Some(row) = self.store.stability_run(&attempt.job).await? else { return Ok(false) };
-        let next = self.next_part(&row).await?;
+        let next = match self.next_part(&row).await {
+            Ok(next) => next,
+            // Its plugin was taken away meanwhile, which is no fault of the machine.
+            Err(e) => return self.settle(attempt, &row, Err(e), None).await.map(|()| true),
+        };
         let as_ordered = (&found.algorithm, &found.plugin_sha256) == (&next.found.algorithm, &next.found.plugin_sha256);
         if !as_ordered || next.part != Some(part) || !(seconds.is_finite() && seconds >= 0.0) {
             return Err(EngineError::Invalid("This is of another algorithm, or of another part.".into()));

@@ -16,7 +16,6 @@ use crate::machine::Machine;
 use crate::measure::Stop;
 use crate::model::{AlgorithmInfo, Stability, State};
 use crate::plugins::registry::Registry;
-use crate::quotas::time;
 use crate::runs::current::Work;
 use crate::runs::priority::{IDLE, INTERACTIVE};
 use crate::store::Store;
@@ -115,11 +114,8 @@ impl StabilityRuns {
 
     /// What is left of the time of a run, and what its owner is told when it is over.
     pub(super) fn limit(&self, row: &StabilityRow) -> Option<(Duration, String)> {
-        let longest = self.ceilings.longest_of(row.owner.as_deref())?;
-        let reason = format!(
-            "Stopped after {}, the time limit for guests. Choose fewer tests or seeds, or log in.",
-            time(longest.as_secs_f64())
-        );
+        let advice = "Choose fewer tests or seeds, or log in.";
+        let (longest, reason) = self.ceilings.limit_of(row.owner.as_deref(), advice)?;
         Some((longest.saturating_sub(Duration::from_secs_f64(row.spent_seconds)), reason))
     }
 

@@ -151,6 +151,7 @@ on_both!(
     a_machine_that_has_changed_is_not_admitted,
     prepared_runs_go_to_machines_in_turn,
     runs_go_to_machines_of_their_hardware_class,
+    errands_wait_for_machines_of_the_usual_class_and_idle_runs_give_way_to_them,
     rates_are_those_of_the_hardware_class_or_of_any,
     a_machine_reaches_its_own_attempt_alone,
     results_replace_those_of_an_earlier_attempt,

@@ -13,7 +13,6 @@ use crate::attempts::worker::Worker;
 use crate::attempts::{Attempt, MOST_LOST, Outcome};
 use crate::measure::Stop;
 use crate::model::State;
-use crate::quotas::time;
 use crate::time_limit::in_time;
 use crate::{EngineError, Result};
 
@@ -86,12 +85,8 @@ impl Replays {
 
     /// The time of a replay, and what its owner is told when it is over.
     pub(super) fn limit(&self, row: &WorkloadRow) -> Option<(Duration, String)> {
-        let longest = self.ceilings.longest_of(row.owner.as_deref())?;
-        let reason = format!(
-            "Stopped after {}, the time limit for guests. Choose fewer algorithms or a smaller budget, or log in.",
-            time(longest.as_secs_f64())
-        );
-        Some((longest, reason))
+        let advice = "Choose fewer algorithms or a smaller budget, or log in.";
+        self.ceilings.limit_of(row.owner.as_deref(), advice)
     }
 
     /// What is to be replayed.

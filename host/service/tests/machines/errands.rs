@@ -367,12 +367,24 @@ async fn a_machine_makes_advice() {
     let Told::Step { what, .. } = &told[0] else { panic!("{:?}", told[0]) };
     assert_eq!(&engine.advice(&asked.id).await.unwrap().step, what);
     let Ended::Advised { papers, .. } = &handed.ended else { panic!("advice was made") };
+    assert!(!papers[0].is_empty(), "fewer triangles are enough");
     assert_eq!(papers.iter().map(Vec::len).sum::<usize>(), handed.files.len());
     let of = async |files: &[Vec<u8>]| {
         let handing = Handing { ended: handed.ended.clone(), files: files.to_vec() };
         engine.hand_in("alpha", &errand.attempt, handing).await
     };
     assert!(is_refused(&of(&[&handed.files[..], &[b"no mesh".to_vec()]].concat()).await));
+    let Ended::Advised { advice, papers } = handed.ended.clone() else { panic!("advice was made") };
+    let [mut other, mut foreign] = [papers.clone(), papers.clone()];
+    other[0][0].certificate.reduced = "0".repeat(64);
+    foreign[0][0].certificate.object = "0".repeat(64);
+    let mut question = advice.clone();
+    question.question = ocb_advice::Question::Distance { tolerance: 0.06 };
+    let wrong = [(advice.clone(), other), (advice.clone(), foreign), (question, papers.clone())];
+    for (advice, papers) in wrong {
+        let handing = Handing { ended: Ended::Advised { advice, papers }, files: handed.files.clone() };
+        assert!(is_refused(&engine.hand_in("alpha", &errand.attempt, handing).await));
+    }
     assert!(of(&handed.files).await.unwrap());
     assert!(!of(&handed.files).await.unwrap(), "once");
     let now = engine.advice(&asked.id).await.unwrap();

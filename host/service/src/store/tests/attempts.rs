@@ -210,7 +210,7 @@ pub async fn two_workers_never_begin_the_same(store: Store) {
     assert_eq!(all.iter().collect::<HashSet<_>>().len(), 32, "nothing is begun twice");
 }
 
-fn tried(id: &str) -> StabilityRow {
+pub(crate) fn tried(id: &str) -> StabilityRow {
     StabilityRow {
         id: id.into(),
         owner: Some("me".into()),

@@ -3,13 +3,19 @@
 use ocb_core::query::Query;
 
 use super::super::*;
+use super::attempts::tried;
+use super::fixtures::{advice_info, workload};
+use super::people::{NOTE, account};
+use super::plugins::plugin;
 use super::{StoredResult, add, end, fresh_stages, handed, result, run, usual, worker};
-use crate::attempts::Attempt;
+use crate::attempts::{Attempt, Kind};
 use crate::machines::sql::worker as of;
 use crate::model::{MachineFacts, RunSpec, State};
 use crate::runs::accept::Handed;
+use crate::runs::priority::{IDLE, INTERACTIVE};
 use crate::runs::share::OfClass;
 use crate::runs::sql::RunRow;
+use crate::stability::runs_sql::StabilityRow;
 
 fn facts(class: &str, kernel: &str) -> MachineFacts {
     MachineFacts {
@@ -173,4 +179,44 @@ pub async fn a_machine_reaches_its_own_attempt_alone(store: Store) {
     assert_eq!(store.attempt_of("m", &mine.id).await.unwrap(), None, "it has ended");
     assert!(!store.beat(&mine.id).await.unwrap());
     assert!(store.machines().await.unwrap()[0].run.is_none());
+}
+
+pub async fn errands_wait_for_machines_of_the_usual_class_and_idle_runs_give_way_to_them(store: Store) {
+    let me = of("alpha", "class");
+    add(&store, run("idle", None, IDLE, 1)).await;
+    let idle = store.begin_preparing_idle(&worker("service")).await.unwrap().unwrap();
+    assert!(store.run_is_prepared(&idle).await.unwrap());
+    store.begin_prepared_run(&me, "class").await.unwrap().expect("the idle run");
+    let other = OfClass { class: "new".into(), usual: "class".into() };
+    let waiting = async |of: &OfClass| store.waiting_for_machines(of).await.unwrap();
+    assert_eq!((waiting(&usual()).await, store.gives_way("idle", "class").await.unwrap()), (0, false));
+
+    store.add_account(&account("1", "ada"), "hash").await.unwrap();
+    store.add_blob("f", 1, "x").await.unwrap();
+    assert!(store.add_plugin(&plugin("p", "1", "f"), NOTE).await.unwrap());
+    assert_eq!((waiting(&usual()).await, store.gives_way("idle", "class").await.unwrap()), (1, true));
+    assert!(store.add_stability_run(&tried("s")).await.unwrap());
+    assert!(store.add_stability_run(&StabilityRow { priority: IDLE, ..tried("unasked") }).await.unwrap());
+    assert!(store.add_workload(&workload("w", "me", "f")).await.unwrap());
+    assert!(store.add_waiting_advice(&advice_info("v"), Some("me"), "me").await.unwrap());
+    assert!(!store.add_waiting_advice(&advice_info("v"), Some("me"), "me").await.unwrap(), "it is there");
+    assert!(store.add_waiting_advice(&advice_info("own"), None, "").await.unwrap());
+    assert_eq!((waiting(&usual()).await, waiting(&other).await), (4, 0));
+
+    // What a machine is at does not wait.
+    let kind = async || store.last_kind_of(&me).await.unwrap();
+    assert_eq!((kind().await, store.last_kind_of(&of("beta", "class")).await.unwrap()), (Some(Kind::Measure), None));
+    store.begin_check(&me).await.unwrap().expect("the check");
+    assert_eq!((waiting(&usual()).await, kind().await), (3, Some(Kind::Check)));
+    let (part, _) = store.begin_part(INTERACTIVE, &me).await.unwrap().expect("the part");
+    assert_eq!(waiting(&usual()).await, 2);
+    store.begin_replay(&me).await.unwrap().expect("the replay");
+    assert_eq!(waiting(&usual()).await, 1);
+    assert!(store.end_waiting_advice(&advice_info("v")).await.unwrap());
+    assert!(!store.end_waiting_advice(&advice_info("v")).await.unwrap(), "once");
+    assert_eq!((waiting(&usual()).await, store.gives_way("idle", "class").await.unwrap()), (0, false));
+    // A stability run that has begun waits between two parts.
+    store.put_back_part(&part).await.unwrap();
+    assert_eq!(waiting(&usual()).await, 1);
+    assert_eq!(store.idle_runs().await.unwrap(), 2, "the run, and the stability run that nobody asked for");
 }
