@@ -72,18 +72,16 @@ pub async fn follow(service: String, run: String, end: Instant, seen: Arc<Seen>)
     let answer = client().get(&path).send().await.unwrap_or_else(|e| panic!("{path}: {e}"));
     assert_eq!(answer.status(), StatusCode::OK, "{path}");
     let mut stream = answer.bytes_stream();
-    let mut told = String::new();
+    let (mut told, mut heard) = (String::new(), false);
     loop {
         let next = stream.next();
-        let chunk = match told.contains("\n\n") {
-            true => tokio::time::timeout_at(end.into(), next).await.ok().flatten(),
-            false => next.await,
-        };
-        let Some(chunk) = chunk else { break };
-        if told.is_empty() {
+        let next = if heard { tokio::time::timeout_at(end.into(), next).await.ok().flatten() } else { next.await };
+        let Some(chunk) = next else { break };
+        told.push_str(&String::from_utf8_lossy(&chunk.unwrap_or_else(|e| panic!("{path}: {e}"))));
+        if !heard && told.contains("id: ") {
+            heard = true;
             seen.slowest.fetch_max(began.elapsed().as_millis() as u64, Ordering::Relaxed);
         }
-        told.push_str(&String::from_utf8_lossy(&chunk.unwrap_or_else(|e| panic!("{path}: {e}"))));
     }
     // Preliminary results are not kept, and have the number of the event before them.
     let kept = told.split("\n\n").filter(|event| !event.contains("\"preliminary\":true"));
