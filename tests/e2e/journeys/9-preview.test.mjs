@@ -40,7 +40,7 @@ test('the quick look is proposed first, is marked as a preview, and is refined i
   await v.at('start').click()
 
   const id = await runId(v.page)
-  await v.at('preview').waitFor({ timeout: 120_000 })
+  await v.at('preview').waitFor({ timeout: 300_000 })
   const run = await v.api(`/runs/${id}`)
   assert.deepEqual([run.preview.n, run.preview.of, run.set.configurations], [5000, WHOLE, 5000])
   const shown = await v.at('preview').textContent()

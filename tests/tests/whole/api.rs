@@ -22,7 +22,7 @@ const NOT_NOW: &str = "/events$|/account/(logout|logout-everywhere|password)$";
 
 /// Cases for each route and phase; the campaign asks for more.
 fn examples() -> String {
-    asked("OCB_API_EXAMPLES", 4).to_string()
+    asked("OCB_API_EXAMPLES", 1).to_string()
 }
 
 /// The cookie of a new session of this account, as a header.
