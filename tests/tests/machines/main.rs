@@ -377,25 +377,26 @@ fn next(state: &mut u64) -> usize {
 
 #[test]
 fn many_runs_are_shared_fairly_while_machines_are_killed() {
-    const VISITORS: usize = 5;
     // A guest may have no more than twenty runs waiting.
     const AHEAD: usize = 8;
     let (runs, kills) = (count("OCB_MACHINE_RUNS", 40), count("OCB_MACHINE_KILLS", 4));
+    let campaign = runs > 100;
+    let (visitors, names) = if campaign { (10, &["alpha", "beta", "gamma"][..]) } else { (5, &["alpha", "beta"][..]) };
     let mut site = Site::open();
-    for name in ["alpha", "beta"] {
+    for name in names {
         site.token(name);
     }
-    let mut machines = ["alpha", "beta"].map(|name| site.machine(name));
-    // Nobody may ask for runs as fast as these small ones are measured, so that those of a long test take longer; on a busy
+    let mut machines: Vec<Machine> = names.iter().map(|name| site.machine(name)).collect();
+    // Nobody may ask for runs as fast as these small ones are measured, so that those of a campaign take longer; on a busy
     // machine their processes may start slowly.
-    let (passes, budget) = if runs > 100 { (20, 60.0) } else { (6, 1.0) };
+    let (passes, budget) = if campaign { (20, 60.0) } else { (6, 1.0) };
     let spec = json!({
         "object_a": "stock:torus-knot@600", "query": "collision_first", "passes": passes, "budget_seconds": budget,
         "method": { "kind": "sphere", "sampling": { "kind": "count", "count": 20 } }, "algorithms": ["box-tree"],
     });
     // Guests of one address share a turn.
-    let guests: Vec<Guest> = (1..=VISITORS).map(|n| Guest::from_address(&format!("10.0.{n}.1"))).collect();
-    let (mut open, mut ended) = (vec![Vec::new(); VISITORS], Vec::new());
+    let guests: Vec<Guest> = (1..=visitors).map(|n| Guest::from_address(&format!("10.0.{n}.1"))).collect();
+    let (mut open, mut ended) = (vec![Vec::new(); visitors], Vec::new());
     let (mut asked, mut killed, mut chance, mut shared) = (0, 0, 1, 0);
     let begun = Instant::now();
     let (mut all_wait, mut last_look) = (true, begun);
@@ -440,7 +441,7 @@ fn many_runs_are_shared_fairly_while_machines_are_killed() {
             let victim = next(&mut chance) % machines.len();
             std::thread::sleep(Duration::from_millis(next(&mut chance) as u64 % 1500));
             machines[victim].signal(Signal::SIGKILL);
-            machines[victim] = site.machine(["alpha", "beta"][victim]);
+            machines[victim] = site.machine(names[victim]);
             killed += 1;
         }
         std::thread::sleep(Duration::from_millis(200));
@@ -451,18 +452,21 @@ fn many_runs_are_shared_fairly_while_machines_are_killed() {
     let mut waits: Vec<f64> = ended.iter().map(|(.., wait, _)| wait.as_secs_f64()).collect();
     waits.sort_by(f64::total_cmp);
     println!(
-        "{runs} runs of {VISITORS} visitors on two machines that share one measuring CPU, {killed} kills: {:.0} runs an hour; from asking \
-         to results, with up to seven of the same visitor before it: p50 {:.1} s, p95 {:.1} s",
+        "{runs} runs of {visitors} visitors on {} machines that share one measuring CPU, {killed} kills: {:.0} runs an hour; from \
+         asking to results, with up to seven of the same visitor before it: p50 {:.1} s, p95 {:.1} s",
+        machines.len(),
         3600.0 * runs as f64 / begun.elapsed().as_secs_f64(),
         waits[waits.len() / 2],
         waits[waits.len() * 95 / 100],
     );
-    // As long as all have runs waiting, nobody gets more than a turn more than others, and a run for each machine and each kill.
+    // As long as all have runs waiting, nobody gets more than a turn more than others, and a run for each machine; of many runs,
+    // of which each kill may cost somebody a turn, not a tenth more.
     assert!(2 * shared > runs, "somebody had nothing waiting after {shared} of {runs} runs");
-    let mut served = [0_usize; VISITORS];
+    let mut served = vec![0_usize; visitors];
     for (_, visitor, ..) in &ended[..shared] {
         served[*visitor] += 1;
     }
     let (least, most) = (served.iter().min().expect("visitors"), served.iter().max().expect("visitors"));
-    assert!(most - least <= 1 + machines.len() + kills / VISITORS, "{served:?}");
+    println!("while all had runs waiting they were served {served:?}");
+    assert!(most - least <= if campaign { most / 10 } else { 1 + machines.len() }, "{served:?}");
 }
