@@ -81,11 +81,12 @@ check-oracle: ## the oracle against CGAL, integers and planted faults (some 20 m
 aarch64: ## build what is portable for aarch64 and run its tests under qemu (some 20 minutes)
 	tests/setup/aarch64.sh
 
-bench: build ## every algorithm side by side (OBJECTS=files), the clock, finding positions against peers, first pictures and selections on pages
+bench: build ## every algorithm side by side (OBJECTS=files), the clock, finding positions against peers, first pictures and selections on pages, machines for a day's runs
 	cargo bench --workspace --bench algorithms -- $(abspath $(OBJECTS))
 	cargo bench --workspace --bench timing
 	cargo bench --workspace --bench positions -- $(firstword $(abspath $(OBJECTS)) $(abspath target/stock/dragon.obj))
 	cargo bench --workspace --bench overhead -- $(firstword $(abspath $(OBJECTS)) $(abspath target/stock/dragon.obj))
+	tests/benches/machines.py
 	npm --prefix tests/e2e ci --no-audit --no-fund && node tests/e2e/first-picture.mjs && node tests/e2e/fluent.mjs
 
 soak: build ## fuzz the jail's readers and those of objects, try ten million pairs, then kill and restart the service for MINUTES (10)

@@ -2,8 +2,8 @@
 """machines.py [RUNS...]: how many measuring machines so many runs a day need, so that 95 of 100 begin within a minute.
 
 Simulates some days. Runs are asked for at random, eight hours a day 2.2 times as often as on average, and measured in the
-order in which they came, each by the first free machine. A run takes a lognormal time (as after a budget of a minute: 71 s on
-average, at most 600 s) and 1.6 s around it. First the simulation is compared with Erlang's formula for the waits of an even
+order in which they came, each by the first free machine. A run takes a lognormal time (71 s on average, as after a budget of
+a minute, but cut at 600 s, which leaves 70) and 1.6 s around it. First the simulation is compared with Erlang's formula for the waits of an even
 stream of exponential runs (A. K. Erlang, Elektroteknikeren 13:5, 1917), and ends with 1 if they differ.
 """
 

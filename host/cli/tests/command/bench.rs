@@ -114,7 +114,7 @@ fn a_comparison_that_is_settled_is_a_preview_that_can_be_refined() {
     let desk = Desk::new();
     let placing = ["bench", "stock:torus-knot@500", "--method", "random", "--count", "1200", "--hit-share", "0.5"];
     let bench = |precision| {
-        // So far apart that the first look settles it, however busy the machine is.
+        // So far apart that the first look settles it, also on a busy machine.
         let rest = ["--passes", "3", "--precision", precision, "--algorithm", "box-tree,brute-force"];
         [&placing[..], &rest[..]].concat()
     };
