@@ -6,6 +6,7 @@ pub mod sql;
 pub mod work;
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use ocb_advice::Paper;
 use ocb_core::mesh::{Mesh, obj};
@@ -13,7 +14,7 @@ use ocb_lab::advisor::{Advisor, Found, SHELF};
 
 use crate::advice::sql::{AdviceRow, StoredPaper};
 use crate::advice::work::{Advices, Job, extent};
-use crate::attempts::{Attempt, MOST_LOST, superseded};
+use crate::attempts::{Attempt, MOST_LOST};
 use crate::boxed;
 use crate::engine::Engine;
 use crate::locks::Lock;
@@ -26,6 +27,9 @@ use crate::{EngineError, Result};
 /// So many requests of one account, or of the guests of one address, may wait or be at work, and so many in all.
 const MOST_OPEN: usize = 3;
 const MOST_IN_ALL: usize = 200;
+/// Tries to end one whose work begins, and the time between two.
+const TRIES: u32 = 100;
+const AGAIN: Duration = Duration::from_millis(50);
 /// When to ask again: advice takes minutes.
 const RETRY_SECONDS: u32 = 120;
 
@@ -60,18 +64,11 @@ impl Engine {
             return Err(EngineError::TooMuch { message, retry_seconds: RETRY_SECONDS });
         }
         let info = waiting(id, spec, names);
-        if inner.config.elsewhere {
-            let new = inner.store.add_waiting_advice(&info, Some(owner), &turn).await?;
-            inner.work.call();
-            return Ok((self.advice(&info.id).await?, new));
-        }
         // Two that come at once under one key: the first stands.
-        let Some(attempt) = inner.store.add_advice(&info, owner, &turn, &inner.work.worker).await? else {
-            return Ok((self.advice(&info.id).await?, false));
-        };
-        inner.advices.begin(attempt, info.clone());
+        let new = inner.store.add_advice(&info, Some(owner), &turn).await?;
         inner.work.call();
-        Ok((info, true))
+        inner.advices.called.notify_one();
+        Ok((self.advice(&info.id).await?, new))
     }
 
     /// How far it is, and the advice when it is done.
@@ -86,21 +83,28 @@ impl Engine {
     /// Ends it; only its owner may.
     #[boxed]
     pub async fn cancel_advice(&self, id: &str, caller: Option<&str>) -> Result<AdviceInfo> {
-        let row = self.inner.store.advice_row(id).await?;
+        let (store, here) = (&self.inner.store, &self.inner.work.worker);
+        let row = store.advice_row(id).await?;
         if row.owner.as_deref() != caller {
             return Err(EngineError::Forbidden("Only the owner of the advice may cancel it.".to_owned()));
         }
-        if let Some(job) = self.inner.advices.find(id) {
-            job.stop();
-            return Ok(job.info());
+        let mut info = row.info;
+        // The work on it may begin at this moment, here or elsewhere.
+        for _ in 0..TRIES {
+            if !matches!(info.state, State::Queued | State::Running) {
+                break;
+            }
+            if let Some(job) = self.inner.advices.find(id) {
+                job.stop();
+                return Ok(job.info());
+            }
+            let ended = AdviceInfo { state: State::Cancelled, ..info };
+            if !store.end_waiting_advice(&ended).await? && !store.withdraw_advice(&ended, here).await? {
+                tokio::time::sleep(AGAIN).await;
+            }
+            info = store.advice_row(id).await?.info;
         }
-        // Another service or a machine may work on it, and may begin at this moment.
-        let ended = AdviceInfo { state: State::Cancelled, ..row.info };
-        let (store, here) = (&self.inner.store, &self.inner.work.worker);
-        if !store.withdraw_advice(&ended, here).await? && !store.end_waiting_advice(&ended).await? {
-            store.withdraw_advice(&ended, here).await?;
-        }
-        Ok(self.inner.store.advice_row(id).await?.info)
+        Ok(info)
     }
 
     /// A reduced object as OBJ, and the name of its file; `stage` counts from the coarsest.
@@ -139,22 +143,6 @@ impl Advices {
         Ok([a.name, b.name])
     }
 
-    /// Begins again what an ended process left behind.
-    pub(crate) async fn take_up(self: &Arc<Self>) -> Result<()> {
-        if self.from.elsewhere {
-            return Ok(());
-        }
-        for AdviceRow { info, attempts, .. } in self.from.store.open_advice().await? {
-            let Some(attempt) = self.from.store.take_up(&info.id, &self.work.worker).await? else { continue };
-            if attempts < MOST_LOST {
-                self.begin(attempt, info);
-            } else {
-                self.give_up(&attempt, info).await?;
-            }
-        }
-        Ok(())
-    }
-
     /// It was lost too often.
     async fn give_up(&self, attempt: &Attempt, info: AdviceInfo) -> Result<()> {
         let message = format!("The service ended {MOST_LOST} times during this work, so it is not tried again.");
@@ -172,42 +160,9 @@ impl Advices {
         Ok([a, b])
     }
 
-    /// Works on it in the background when its turn comes.
-    fn begin(self: &Arc<Self>, attempt: Attempt, info: AdviceInfo) {
-        let (advices, job) = (self.clone(), self.add(info));
-        self.tasks.spawn(async move {
-            let id = attempt.job.as_str();
-            let lost = job.clone();
-            let _held = advices.work.holding.hold(&attempt, move || lost.stop());
-            let found = advices.work_on(&attempt, &job).await;
-            // What closing interrupted stays open, and is begun again.
-            let ended = match advices.work.closing() {
-                true => advices.from.store.put_back_advice(&attempt).await,
-                false => advices.end(&attempt, job.info(), found).await.map(|_| ()),
-            };
-            if let Err(e) = ended {
-                tracing::error!("advice {id}: {e}");
-            }
-            advices.remove(id);
-            // Idle work waits for it.
-            advices.work.wake.notify_one();
-        });
-    }
-
-    async fn work_on(&self, attempt: &Attempt, job: &Arc<Job>) -> Result<Option<Found>> {
-        let _turn = tokio::select! {
-            Ok(turn) = self.turn.acquire() => turn,
-            () = job.ended() => return Ok(None),
-        };
-        self.make(attempt, job).await
-    }
-
     /// `None` when it was stopped.
-    async fn make(&self, attempt: &Attempt, job: &Arc<Job>) -> Result<Option<Found>> {
+    async fn make(&self, job: &Arc<Job>) -> Result<Option<Found>> {
         let AdviceInfo { spec, names, .. } = job.info();
-        if !self.from.store.begin_advice(attempt).await? {
-            return Err(superseded());
-        }
         let meshes = self.meshes_of(&spec).await?;
         let advisor = Advisor::new(&self.from.program, &self.from.machine, &self.from.data.join(SHELF));
         let (job, advisor) = (job.clone(), advisor.waiting_for_the_right());

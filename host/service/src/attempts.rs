@@ -9,6 +9,7 @@
 pub mod beat;
 pub mod lost;
 pub mod sql;
+pub mod turns;
 pub mod worker;
 
 use std::time::Duration;

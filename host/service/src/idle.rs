@@ -55,7 +55,7 @@ impl IdleWork {
     /// Carries out one piece of idle work; false when there is none, or none may be done now. `asked` is the number of requests
     /// when the queue was found empty.
     pub async fn work(&mut self, asked: u64) -> bool {
-        if !self.wanted || self.work.closing() || !self.advices.is_empty() {
+        if !self.wanted || self.work.closing() {
             return false;
         }
         self.go_on(asked).await.unwrap_or_else(|e| {
@@ -66,6 +66,10 @@ impl IdleWork {
     }
 
     async fn go_on(&mut self, asked: u64) -> Result<bool> {
+        // Advice is made beside the queue.
+        if self.store.count_open_advice("").await?[0] > 0 {
+            return Ok(false);
+        }
         // What was queued last, or gave way before.
         if let Some(attempt) = self.benchmarks.next(true).await? {
             self.benchmarks.carry_out(&attempt, Some(asked)).await?;

@@ -30,6 +30,9 @@ impl Engine {
             leases.take_back(Some(&inner.work.worker)).await?;
             engine.open_house().await?;
             inner.tasks.spawn(inner.dispatcher().work());
+            if !inner.config.elsewhere {
+                inner.tasks.spawn(inner.advices.clone().work());
+            }
             inner.tasks.spawn(engine.clone().sweep());
             inner.tasks.spawn(engine.clone().look_after_campaigns());
             let (outbox, house) = (inner.outbox.clone(), inner.house.clone());

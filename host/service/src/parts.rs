@@ -142,7 +142,7 @@ impl Inner {
                 objects: objects.clone(),
                 guest_days: config.guest_days,
             },
-            advices: Arc::new(Advices::new(sources, work.clone(), tasks.clone())),
+            advices: Arc::new(Advices::new(sources, work.clone())),
             orders: Arc::new(Orders::new(live.clone(), objects.clone(), suite.clone(), config.ceilings)),
             charts: Charts::new(store.clone(), objects.clone(), results.clone(), machine.clone(), registry.profile()),
             house: Arc::default(),
@@ -217,7 +217,6 @@ impl Inner {
             classes: self.classes.clone(),
             house: self.house.clone(),
             run_ends: self.run_ends.clone(),
-            advices: self.advices.clone(),
             outbox: self.outbox.clone(),
         }
     }

@@ -76,7 +76,8 @@ fn lie(object: &Mesh) -> Rung {
 }
 
 fn config(data: &Path) -> EngineConfig {
-    EngineConfig { advisor: data.join("failing-advisor"), quick_advice: true, ..common::idle_config(data) }
+    let advisor = data.join("failing-advisor");
+    EngineConfig { advisor, quick_advice: true, dispatch: true, ..common::idle_config(data) }
 }
 
 /// From now on this is the advisor's program.

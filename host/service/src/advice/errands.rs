@@ -9,33 +9,25 @@ use ocb_lab::mesh_file::from_bytes;
 
 use super::no_advice;
 use super::work::{Advices, extent};
+use crate::attempts::Attempt;
 use crate::attempts::worker::Worker;
-use crate::attempts::{Attempt, MOST_LOST};
 use crate::blocking::blocking;
 use crate::model::{AdviceInfo, Errand, State, Told, Wanted};
 use crate::{EngineError, Result};
 
 impl Advices {
-    /// The oldest that waits for a machine: of visitors, or the service's own. What cannot be made ends here.
+    /// The one that is due: of visitors, or the service's own. What cannot be made ends here.
     pub async fn errand(&self, own: bool, worker: &Worker) -> Result<Option<Errand>> {
-        let store = &self.from.store;
-        let open = if own { store.open_own_advice().await? } else { store.open_advice().await? };
-        for row in open {
-            // Another worker may be quicker.
-            let Some(attempt) = store.take_up(&row.info.id, worker).await? else { continue };
-            if row.attempts >= MOST_LOST {
-                self.give_up(&attempt, row.info).await?;
-                continue;
-            }
-            let meshes = match self.meshes_of(&row.info.spec).await {
+        while let Some((attempt, info)) = self.begin(own, worker).await? {
+            let meshes = match self.meshes_of(&info.spec).await {
                 Ok(meshes) => meshes,
                 Err(e) => {
-                    self.end(&attempt, row.info, Err(e)).await?;
+                    self.end(&attempt, info, Err(e)).await?;
                     continue;
                 }
             };
-            let info = AdviceInfo { state: State::Running, ..row.info };
-            if !store.begin_advice(&attempt).await? || !store.advice_is_at(&attempt, &info).await? {
+            let info = AdviceInfo { state: State::Running, ..info };
+            if !self.from.store.advice_is_at(&attempt, &info).await? {
                 continue;
             }
             let wanted = Wanted::Advise {

@@ -12,7 +12,7 @@ impl Advices {
     pub(crate) async fn ask_own(&self, spec: AdviceSpec) -> Result<String> {
         let names = self.objects_of(&spec, None).await?;
         let info = waiting(uuid::Uuid::now_v7().to_string(), spec, names);
-        self.from.store.add_waiting_advice(&info, None, "").await?;
+        self.from.store.add_advice(&info, None, "").await?;
         Ok(info.id)
     }
 
@@ -21,21 +21,12 @@ impl Advices {
         if self.from.elsewhere {
             return Ok(false);
         }
-        let Ok(_turn) = self.turn.try_acquire() else { return Ok(false) };
-        let Some(row) = self.from.store.open_own_advice().await?.into_iter().next() else { return Ok(false) };
-        // Another service may be quicker.
-        let Some(attempt) = self.from.store.take_up(&row.info.id, &self.work.worker).await? else { return Ok(false) };
-        let job = self.add(row.info);
-        let lost = job.clone();
-        let _held = self.work.holding.hold(&attempt, move || lost.stop());
+        let Ok(_one) = self.one.try_lock() else { return Ok(false) };
+        let Some((attempt, info)) = self.begin(true, &self.work.worker).await? else { return Ok(false) };
+        let job = self.add(info);
         self.work.set_current(&attempt.job, &job.stop, Some(asked));
-        let found = self.make(&attempt, &job).await;
+        let ended = self.carry_out(&attempt, job).await;
         self.work.unset_current();
-        let ended = match self.work.closing() || (job.stop.for_now() && matches!(found, Ok(None))) {
-            true => self.from.store.put_back_advice(&attempt).await,
-            false => self.end(&attempt, job.info(), found).await.map(|_| ()),
-        };
-        self.remove(&attempt.job);
         ended.map(|()| true)
     }
 }

@@ -1,13 +1,14 @@
 //! Requests for advice and what became of them.
 
 use serde::{Deserialize, Serialize};
-use sqlx::AnyConnection;
 
 use crate::Result;
 use crate::attempts::sql::{at_rest, begin, end, while_current, withdraw};
 use crate::attempts::worker::Worker;
 use crate::attempts::{Attempt, Kind, Outcome};
 use crate::model::AdviceInfo;
+use crate::runs::queue::served;
+use crate::runs::share::Since;
 use crate::store::{Store, from_json, now_us, to_json};
 
 /// Blobs of one reduced object.
@@ -29,43 +30,46 @@ pub struct AdviceRow {
     pub owner: Option<String>,
     /// Reduced objects of A and of B, the coarsest first.
     pub papers: [Vec<StoredPaper>; 2],
-    /// So often its work was begun.
+    /// So often its work was begun, without what was put back.
     pub attempts: i64,
-}
-
-/// Requests without an end and without a current attempt.
-macro_rules! open {
-    () => {
-        concat!(
-            "SELECT info, owner, papers, attempts FROM advice WHERE ended = 0 AND ",
-            at_rest!("advise", "advice.id")
-        )
-    };
 }
 
 type Columns = (String, Option<String>, String, i64);
 
 impl Store {
-    /// Remembers a request that this worker works on; nothing when there is one with its id.
-    pub async fn add_advice(
-        &self,
-        info: &AdviceInfo,
-        owner: &str,
-        turn: &str,
-        worker: &Worker,
-    ) -> Result<Option<Attempt>> {
-        let mut transaction = self.pool.begin().await?;
-        if !insert(&mut transaction, info, Some(owner), turn).await? {
-            return Ok(None);
-        }
-        let attempt = begin(&mut transaction, Kind::Advise, &info.id, worker).await?;
-        transaction.commit().await?;
-        Ok(attempt)
+    /// Remembers a request, which waits; false when there is one with its id. Without an owner it is the service's own.
+    pub async fn add_advice(&self, info: &AdviceInfo, owner: Option<&str>, turn: &str) -> Result<bool> {
+        let text = "INSERT INTO advice (id, owner, turn, ended, attempts, info, papers, created_us) \
+                    VALUES ($1, $2, $3, 0, 0, $4, '[[],[]]', $5) ON CONFLICT (id) DO NOTHING";
+        let insert = sqlx::query(text).bind(&info.id).bind(owner).bind(turn).bind(to_json(info)?).bind(now_us());
+        Ok(insert.execute(&self.pool).await?.rows_affected() == 1)
     }
 
-    /// Remembers a request that waits for a worker; false when there is one with its id. Without an owner it is the service's own.
-    pub async fn add_waiting_advice(&self, info: &AdviceInfo, owner: Option<&str>, turn: &str) -> Result<bool> {
-        insert(&mut *self.pool.acquire().await?, info, owner, turn).await
+    /// The request that is due: of the visitor who was served longest ago, or the oldest of the service's own.
+    pub async fn next_advice(&self, own: bool) -> Result<Option<Since>> {
+        let text = concat!(
+            "SELECT COALESCE(s.served_us, 0), v.created_us, v.id FROM advice v LEFT JOIN served s ON s.owner = v.turn ",
+            "WHERE v.ended = 0 AND CASE WHEN v.owner IS NULL THEN 1 ELSE 0 END = CAST($1 AS BIGINT) AND ",
+            at_rest!("advise", "v.id"),
+            " ORDER BY COALESCE(s.served_us, 0), v.created_us, v.id LIMIT 1"
+        );
+        Ok(sqlx::query_as(text).bind(i64::from(own)).fetch_optional(&self.pool).await?)
+    }
+
+    /// Begins the request that is due. Its attempts count this one.
+    pub async fn begin_advice(&self, own: bool, worker: &Worker) -> Result<Option<(Attempt, AdviceRow)>> {
+        // Another worker may take what this one has chosen; then it chooses again.
+        while let Some((.., next)) = self.next_advice(own).await? {
+            let mut transaction = self.pool.begin().await?;
+            let Some(attempt) = begin(&mut transaction, Kind::Advise, &next, worker).await? else { continue };
+            let text = "UPDATE advice SET attempts = attempts + 1 WHERE id = $1 AND ended = 0 RETURNING turn";
+            let turn: Option<String> = sqlx::query_scalar(text).bind(&next).fetch_optional(&mut *transaction).await?;
+            let Some(turn) = turn else { continue };
+            served(&mut transaction, &turn).await?;
+            transaction.commit().await?;
+            return Ok(self.advice(&next).await?.map(|row| (attempt, row)));
+        }
+        Ok(None)
     }
 
     /// Notes how far a machine is; false when the attempt is not the current one.
@@ -82,19 +86,6 @@ impl Store {
             at_rest!("advise", "advice.id")
         );
         let done = sqlx::query(text).bind(to_json(info)?).bind(&info.id).execute(&self.pool).await?;
-        Ok(done.rows_affected() == 1)
-    }
-
-    /// Takes up a request that has not ended; nothing when another worker was quicker.
-    pub async fn take_up(&self, advice: &str, worker: &Worker) -> Result<Option<Attempt>> {
-        let mut connection = self.pool.acquire().await?;
-        begin(&mut connection, Kind::Advise, advice, worker).await
-    }
-
-    /// Counts that the work on a request begins; false when the attempt is not the current one.
-    pub async fn begin_advice(&self, attempt: &Attempt) -> Result<bool> {
-        let text = concat!("UPDATE advice SET attempts = attempts + 1 WHERE id = $1 AND ", while_current!("$2"));
-        let done = sqlx::query(text).bind(&attempt.job).bind(&attempt.id).execute(&self.pool).await?;
         Ok(done.rows_affected() == 1)
     }
 
@@ -131,10 +122,14 @@ impl Store {
         Ok(true)
     }
 
-    /// A request that the closing service stopped stays open.
+    /// A request that was stopped for now waits again, and the attempt does not count.
     pub async fn put_back_advice(&self, attempt: &Attempt) -> Result<()> {
-        let mut connection = self.pool.acquire().await?;
-        end(&mut connection, attempt, Outcome::PutBack).await.map(|_| ())
+        let mut transaction = self.pool.begin().await?;
+        if end(&mut transaction, attempt, Outcome::PutBack).await? {
+            let text = "UPDATE advice SET attempts = attempts - 1 WHERE id = $1";
+            sqlx::query(text).bind(&attempt.job).execute(&mut *transaction).await?;
+        }
+        Ok(transaction.commit().await?)
     }
 
     /// A request by its id.
@@ -144,36 +139,13 @@ impl Store {
         row.map(read).transpose()
     }
 
-    /// How many requests have no end, and how many of these are whose.
+    /// How many requests of visitors have no end, and how many of these are whose.
     pub async fn count_open_advice(&self, turn: &str) -> Result<[usize; 2]> {
         let text = "SELECT COUNT(*), CAST(COALESCE(SUM(CASE WHEN turn = $1 THEN 1 ELSE 0 END), 0) AS BIGINT) \
-                    FROM advice WHERE ended = 0";
+                    FROM advice WHERE ended = 0 AND owner IS NOT NULL";
         let (all, own): (i64, i64) = sqlx::query_as(text).bind(turn).fetch_one(&self.pool).await?;
         Ok([all as usize, own as usize])
     }
-
-    /// Requests of visitors without an end and without a current attempt, the oldest first.
-    pub async fn open_advice(&self) -> Result<Vec<AdviceRow>> {
-        self.open_rows(concat!(open!(), " AND owner IS NOT NULL ORDER BY created_us, id")).await
-    }
-
-    /// The same of the service itself.
-    pub async fn open_own_advice(&self) -> Result<Vec<AdviceRow>> {
-        self.open_rows(concat!(open!(), " AND owner IS NULL ORDER BY created_us, id")).await
-    }
-
-    async fn open_rows(&self, text: &'static str) -> Result<Vec<AdviceRow>> {
-        let rows: Vec<Columns> = sqlx::query_as(text).fetch_all(&self.pool).await?;
-        rows.into_iter().map(read).collect()
-    }
-}
-
-/// Remembers a request; false when there is one with its id.
-async fn insert(connection: &mut AnyConnection, info: &AdviceInfo, owner: Option<&str>, turn: &str) -> Result<bool> {
-    let text = "INSERT INTO advice (id, owner, turn, ended, attempts, info, papers, created_us) \
-                VALUES ($1, $2, $3, 0, 0, $4, '[[],[]]', $5) ON CONFLICT (id) DO NOTHING";
-    let insert = sqlx::query(text).bind(&info.id).bind(owner).bind(turn).bind(to_json(info)?).bind(now_us());
-    Ok(insert.execute(connection).await?.rows_affected() == 1)
 }
 
 fn read((info, owner, papers, attempts): Columns) -> Result<AdviceRow> {

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::advice::work::Advices;
 use crate::classes::Classes;
 use crate::house::House;
 use crate::mail::outbox::Outbox;
@@ -22,7 +21,6 @@ pub struct Leases {
     pub house: Arc<House>,
     /// Who hears of attempts that were lost.
     pub run_ends: Arc<RunEnds>,
-    pub advices: Arc<Advices>,
     pub outbox: Arc<Outbox>,
 }
 

@@ -16,7 +16,6 @@ impl Leases {
     /// What this process works on itself is never judged by a clock: a machine that slept goes on.
     pub async fn take_back(&self, just_started: Option<&Worker>) -> Result<()> {
         self.store.shorten_leases().await?;
-        let mut advice = just_started.is_some();
         let mut checks = just_started.is_some();
         for attempt in self.store.silent_attempts(just_started).await? {
             if self.work.holding.has(&attempt) {
@@ -30,16 +29,12 @@ impl Leases {
             };
             if lost {
                 tracing::warn!("the worker of attempt {number} at {job} ({}) is gone", kind.name());
-                advice |= *kind == Kind::Advise;
                 checks |= *kind == Kind::Check;
                 self.work.wake.notify_one();
             }
         }
         if checks {
             checks::give_up(&self.store, &self.outbox).await?;
-        }
-        if advice {
-            self.advices.take_up().await?;
         }
         Ok(())
     }

@@ -11,16 +11,6 @@ use crate::model::{Ended, Errand, Told, Wanted};
 use crate::runs::priority::IDLE;
 use crate::{EngineError, Result};
 
-/// What a machine does, in turn, so that none waits for all of another.
-static IN_TURN: [Kind; 5] = [Kind::Check, Kind::Stability, Kind::Replay, Kind::Advise, Kind::Measure];
-
-/// The kinds in the order in which a machine looks for them that began this one last.
-pub fn in_turn(last: Option<Kind>) -> impl Iterator<Item = Kind> {
-    let next = IN_TURN.into_iter().position(|kind| Some(kind) == last).map_or(0, |at| at + 1);
-    let (later, first) = IN_TURN.split_at(next);
-    first.iter().chain(later).copied()
-}
-
 impl Engine {
     /// The next errand of this kind for a machine.
     pub(super) async fn next_errand(&self, kind: Kind, priority: i64, worker: &Worker) -> Result<Option<Errand>> {
@@ -111,12 +101,4 @@ impl Engine {
             _ => self.inner.store.lose(attempt, Some(&worker(machine, ""))).await.map(|_| ()),
         }
     }
-}
-
-#[test]
-fn a_machine_begins_with_what_comes_behind_its_last() {
-    let order = |last| in_turn(last).collect::<Vec<_>>();
-    assert_eq!(order(None), IN_TURN);
-    assert_eq!(order(Some(Kind::Check)), [Kind::Stability, Kind::Replay, Kind::Advise, Kind::Measure, Kind::Check]);
-    assert_eq!(order(Some(Kind::Measure)), IN_TURN);
 }

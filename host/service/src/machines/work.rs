@@ -7,7 +7,6 @@ use ocb_lab::job::{Found, Results, Step};
 use ocb_lab::worker::Seen;
 use tokio::time::Instant;
 
-use super::errands::in_turn;
 use super::handing::Handing;
 use super::sentinel::sentinel_due;
 use super::sql::worker;
@@ -64,19 +63,24 @@ impl Engine {
         Ok(NextWork::Nothing)
     }
 
-    /// What is next for a machine, if anything waits: each kind in turn, and last what nobody asked for. All but
-    /// runs are for machines of the usual class.
+    /// What is next for a machine, if anything waits: what visitors wait for in their turns, with a check in between, and last what
+    /// nobody asked for. All but runs are for machines of the usual class.
     async fn next_in_turn(&self, worker: &Worker, machine: &str, last: Option<Kind>) -> Result<Option<NextWork>> {
-        let usual = self.inner.classes.usual();
+        let (store, usual) = (&self.inner.store, self.inner.classes.usual());
         let errands = worker.class == usual;
-        for kind in in_turn(last) {
+        let mut kinds = vec![Kind::Measure];
+        if errands {
+            kinds = store.in_turn(store.next_prepared_run(worker, &usual)).await?;
+            kinds.insert(if last == Some(Kind::Check) { kinds.len() } else { 0 }, Kind::Check);
+        }
+        for kind in kinds {
             if kind == Kind::Measure {
-                while let Some(attempt) = self.inner.store.begin_prepared_run(worker, &usual).await? {
+                while let Some(attempt) = store.begin_prepared_run(worker, &usual).await? {
                     if let Some(order) = self.begun(machine, &attempt).await? {
                         return Ok(Some(NextWork::Run(Box::new(order))));
                     }
                 }
-            } else if errands && let Some(errand) = self.next_errand(kind, INTERACTIVE, worker).await? {
+            } else if let Some(errand) = self.next_errand(kind, INTERACTIVE, worker).await? {
                 return Ok(Some(NextWork::Errand(Box::new(errand))));
             }
         }

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::attempts::BACK_OFF;
+use crate::Result;
+use crate::attempts::{BACK_OFF, Kind};
 use crate::idle::IdleWork;
 use crate::plugins::checks::Checks;
 use crate::runs::benchmarks::Benchmarks;
@@ -32,7 +33,7 @@ impl Dispatcher {
         let (mut faults, mut next_check) = (0, Instant::now());
         while !self.work.closing() {
             let asked = self.work.asked();
-            // In turn, so that neither waits for all of the other.
+            // Checks are in turn with all else.
             let mut checked = false;
             if Instant::now() >= next_check {
                 match self.checks.next().await {
@@ -44,41 +45,55 @@ impl Dispatcher {
                     }
                 }
             }
-            let tried = match self.stability.next(None).await {
-                Ok(tried) => tried,
+            let worked = self.work_in_turn().await;
+            if !worked && !checked && !self.idle.work(asked).await {
+                let idle = if faults > 0 { next_check.saturating_duration_since(Instant::now()) } else { IDLE };
+                let _ = tokio::time::timeout(idle, self.work.wake.notified()).await;
+            }
+        }
+    }
+
+    /// Works on the job that is due first; false when none waits for this service.
+    async fn work_in_turn(&self) -> bool {
+        let kinds = match self.due().await {
+            Ok(kinds) => kinds,
+            Err(e) => {
+                tracing::error!("reading the queue: {e}");
+                tokio::time::sleep(BACK_OFF).await;
+                return true;
+            }
+        };
+        for kind in kinds {
+            match self.next_of(kind).await {
+                Ok(false) => {}
+                Ok(true) => return true,
                 Err(e) => {
-                    tracing::error!("a stability run: {e}");
+                    tracing::error!("{}: {e}", kind.name());
                     tokio::time::sleep(BACK_OFF).await;
                     // It is tried again, whoever else comes.
-                    true
-                }
-            };
-            let replayed = match self.replays.next().await {
-                Ok(replayed) => replayed,
-                Err(e) => {
-                    tracing::error!("a replay: {e}");
-                    tokio::time::sleep(BACK_OFF).await;
-                    true
-                }
-            };
-            match self.benchmarks.next(false).await {
-                Ok(Some(attempt)) => {
-                    if let Err(e) = self.benchmarks.carry_out(&attempt, None).await {
-                        tracing::error!("run {}: {e}", attempt.job);
-                        tokio::time::sleep(BACK_OFF).await;
-                    }
-                }
-                Ok(None) if checked || tried || replayed => {}
-                Ok(None) if self.idle.work(asked).await => {}
-                Ok(None) => {
-                    let idle = if faults > 0 { next_check.saturating_duration_since(Instant::now()) } else { IDLE };
-                    let _ = tokio::time::timeout(idle, self.work.wake.notified()).await;
-                }
-                Err(e) => {
-                    tracing::error!("reading the queue: {e}");
-                    tokio::time::sleep(BACK_OFF).await;
+                    return true;
                 }
             }
+        }
+        false
+    }
+
+    async fn due(&self) -> Result<Vec<Kind>> {
+        let Benchmarks { store, elsewhere, .. } = &*self.benchmarks;
+        if *elsewhere { Ok(vec![Kind::Measure]) } else { store.in_turn(store.next_run(&self.work.worker)).await }
+    }
+
+    /// Works on the next job of a kind; false when there is none. Advice is made beside the queue.
+    async fn next_of(&self, kind: Kind) -> Result<bool> {
+        match kind {
+            Kind::Stability => self.stability.next(None).await,
+            Kind::Replay => self.replays.next().await,
+            Kind::Measure => {
+                let Some(attempt) = self.benchmarks.next(false).await? else { return Ok(false) };
+                let done = self.benchmarks.carry_out(&attempt, None).await;
+                done.map(|()| true).inspect_err(|_| tracing::error!("run {}, attempt {}", attempt.job, attempt.number))
+            }
+            Kind::Prepare | Kind::Check | Kind::Advise => Ok(false),
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::model::State;
 use crate::runs::events::plain_event;
 use crate::runs::events_sql::append_event;
 use crate::runs::priority::{BACKGROUND, IDLE, INTERACTIVE};
-use crate::runs::share::OfClass;
+use crate::runs::share::{OfClass, Since};
 use crate::runs::sql::state_name;
 use crate::store::{Store, now_us};
 
@@ -30,7 +30,7 @@ pub struct Granted {
 macro_rules! next {
     ($which:literal) => {
         concat!(
-            "SELECT r.id FROM runs r LEFT JOIN served s ON s.owner = r.turn ",
+            "SELECT r.priority, COALESCE(s.served_us, 0), r.created_us, r.id FROM runs r LEFT JOIN served s ON s.owner = r.turn ",
             "WHERE r.state = 'queued' AND r.priority BETWEEN $1 AND $2 ",
             "AND (CAST($3 AS TEXT) IS NULL OR COALESCE(r.hardware_class, $4) = $3) AND ",
             at_rest!("measure", "r.id"),
@@ -88,6 +88,18 @@ impl Store {
         self.begin_next(worker, Kind::Prepare, priorities, [None, None], text).await
     }
 
+    /// The run that [`Self::begin_run`] would begin, and its priority.
+    pub async fn next_run(&self, worker: &Worker) -> Result<Option<(i64, Since)>> {
+        let class = Some(worker.class.as_str());
+        self.next_of_runs(&(i64::MIN..=BACKGROUND), [class, class], next!("TRUE")).await
+    }
+
+    /// The run that [`Self::begin_prepared_run`] would begin, and its priority.
+    pub async fn next_prepared_run(&self, worker: &Worker, usual: &str) -> Result<Option<(i64, Since)>> {
+        let classes = [Some(worker.class.as_str()), Some(usual)];
+        self.next_of_runs(&(i64::MIN..=IDLE), classes, next!("r.prepared = 1")).await
+    }
+
     /// Begins an attempt at the next prepared run of the worker's class, idle work last. Runs that name no class are of the usual one.
     pub async fn begin_prepared_run(&self, worker: &Worker, usual: &str) -> Result<Option<Attempt>> {
         let classes = [Some(worker.class.as_str()), Some(usual)];
@@ -141,19 +153,27 @@ impl Store {
         Ok(took_us.unwrap_or(0) as f64 / 1e6)
     }
 
+    async fn next_of_runs(
+        &self,
+        priorities: &RangeInclusive<i64>,
+        [class, usual]: [Option<&str>; 2],
+        text: &'static str,
+    ) -> Result<Option<(i64, Since)>> {
+        let query = sqlx::query_as(text).bind(*priorities.start()).bind(*priorities.end()).bind(class).bind(usual);
+        let next: Option<(i64, i64, i64, String)> = query.fetch_optional(&self.pool).await?;
+        Ok(next.map(|(priority, served_us, created_us, id)| (priority, (served_us, created_us, id))))
+    }
+
     async fn begin_next(
         &self,
         worker: &Worker,
         kind: Kind,
         priorities: RangeInclusive<i64>,
-        [class, usual]: [Option<&str>; 2],
+        classes: [Option<&str>; 2],
         text: &'static str,
     ) -> Result<Option<Attempt>> {
         // Another worker may take what this one has chosen; then it chooses again.
-        loop {
-            let query =
-                sqlx::query_scalar(text).bind(*priorities.start()).bind(*priorities.end()).bind(class).bind(usual);
-            let Some(next): Option<String> = query.fetch_optional(&self.pool).await? else { return Ok(None) };
+        while let Some((_, (.., next))) = self.next_of_runs(&priorities, classes, text).await? {
             let mut transaction = self.pool.begin().await?;
             let Some(attempt) = begin(&mut transaction, kind, &next, worker).await? else { continue };
             let turn: Option<String> = sqlx::query_scalar(
@@ -171,6 +191,7 @@ impl Store {
             transaction.commit().await?;
             return Ok(Some(attempt));
         }
+        Ok(None)
     }
 
     /// Puts a run under way back without counting the attempt: it was asked to stop, and not because of what it did. False when

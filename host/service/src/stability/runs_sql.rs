@@ -10,6 +10,7 @@ use crate::model::{Cursor, Stability, StabilitySpec, State};
 use crate::runs::places::{Waiting, before};
 use crate::runs::priority::INTERACTIVE;
 use crate::runs::queue::served;
+use crate::runs::share::Since;
 use crate::runs::sql::{named_state, state_name};
 use crate::store::{Store, from_json, now_us, to_json};
 
@@ -73,18 +74,7 @@ impl Store {
     /// ago.
     pub async fn begin_part(&self, priority: i64, worker: &Worker) -> Result<Option<(Attempt, StabilityRow)>> {
         // Another worker may take what this one has chosen; then it chooses again.
-        loop {
-            let next: Option<String> = sqlx::query_scalar(concat!(
-                "SELECT r.id FROM stability_runs r LEFT JOIN served s ON s.owner = r.turn ",
-                "WHERE r.state IN ('queued', 'running') AND r.priority = $1 AND ",
-                at_rest!("stability", "r.id"),
-                " ORDER BY CASE r.state WHEN 'running' THEN 0 ELSE 1 END, COALESCE(s.served_us, 0), r.created_us, r.id ",
-                "LIMIT 1"
-            ))
-            .bind(priority)
-            .fetch_optional(&self.pool)
-            .await?;
-            let Some(next) = next else { return Ok(None) };
+        while let Some((.., next)) = self.next_part(priority).await? {
             let mut transaction = self.pool.begin().await?;
             let Some(attempt) = begin(&mut transaction, Kind::Stability, &next, worker).await? else { continue };
             let text = "UPDATE stability_runs SET state = 'running', attempts = attempts + 1 \
@@ -95,6 +85,20 @@ impl Store {
             transaction.commit().await?;
             return Ok(self.stability_run(&next).await?.map(|row| (attempt, row)));
         }
+        Ok(None)
+    }
+
+    /// The run of this priority of which a part is due; between its parts, what its visitor asked for meanwhile comes first.
+    pub async fn next_part(&self, priority: i64) -> Result<Option<Since>> {
+        let text = concat!(
+            "SELECT COALESCE(s.served_us, 0), ",
+            "COALESCE((SELECT MAX(a.begun_us) FROM attempts a WHERE a.job = r.id), r.created_us), r.id ",
+            "FROM stability_runs r LEFT JOIN served s ON s.owner = r.turn ",
+            "WHERE r.state IN ('queued', 'running') AND r.priority = $1 AND ",
+            at_rest!("stability", "r.id"),
+            " ORDER BY CASE r.state WHEN 'running' THEN 0 ELSE 1 END, COALESCE(s.served_us, 0), r.created_us, r.id LIMIT 1"
+        );
+        Ok(sqlx::query_as(text).bind(priority).fetch_optional(&self.pool).await?)
     }
 
     /// Keeps the findings of the finished parts, and their time, and ends the run with the last part; a run that was cancelled

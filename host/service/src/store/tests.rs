@@ -138,6 +138,7 @@ on_both!(
     events_are_numbered_from_one,
     two_writers_number_events_without_gaps,
     the_queue_is_fair,
+    visitors_take_turns_whatever_they_wait_for,
     places_are_right_where_many_wait,
     interrupted_runs_are_tried_three_times,
     a_lease_is_counted_by_the_databases_clock,
@@ -264,17 +265,19 @@ mod contract {
 
     pub async fn advice_ends_once_and_is_found_again(store: Store) {
         let mut info = advice_info("x");
-        let attempt = store.add_advice(&info, "me", "turn", &worker("m")).await.unwrap().unwrap();
-        assert_eq!(store.add_advice(&info, "me", "turn", &worker("m")).await.unwrap(), None);
-        assert!(store.begin_advice(&attempt).await.unwrap());
+        assert!(store.add_advice(&info, Some("me"), "turn").await.unwrap());
+        assert!(!store.add_advice(&info, Some("me"), "turn").await.unwrap());
+        let begin = async || store.begin_advice(false, &worker("m")).await.unwrap();
+        let (attempt, begun) = begin().await.unwrap();
+        assert_eq!((begun.info, begun.owner.as_deref(), begun.attempts), (info.clone(), Some("me"), 1));
+        assert!(begin().await.is_none(), "it is at work");
         store.put_back_advice(&attempt).await.unwrap();
-        let [open] = store.open_advice().await.unwrap().try_into().ok().expect("one is open");
-        assert_eq!((open.info, open.owner.as_deref(), open.attempts), (info.clone(), Some("me"), 1));
+        let (attempt, begun) = begin().await.unwrap();
+        assert_eq!(begun.attempts, 1, "what was put back does not count");
         info.state = State::Done;
         let paper = StoredPaper { mesh: "m".into(), certificate: "c".into(), file: "a-1.obj".into() };
-        let attempt = store.take_up("x", &worker("m")).await.unwrap().unwrap();
         assert!(store.end_advice(&attempt, &info, &[vec![paper], vec![]]).await.unwrap());
-        assert!(store.open_advice().await.unwrap().is_empty() && store.advice("y").await.unwrap().is_none());
+        assert!(begin().await.is_none() && store.advice("y").await.unwrap().is_none());
         let ended = store.advice("x").await.unwrap().unwrap();
         assert_eq!((ended.info, ended.papers[0][0].file.as_str(), ended.papers[1].len()), (info, "a-1.obj", 0));
     }

@@ -9,6 +9,7 @@ use crate::attempts::{Attempt, Kind, Outcome};
 use crate::model::{Cursor, RecordingInfo, State, WorkloadResult, WorkloadSpec};
 use crate::runs::places::{Waiting, before};
 use crate::runs::queue::served;
+use crate::runs::share::Since;
 use crate::runs::sql::{named_state, state_name};
 use crate::store::{Store, from_json, now_us, to_json};
 
@@ -66,17 +67,7 @@ impl Store {
     /// Begins the replay that is due: those that were lost first, then of the visitor who was served longest ago.
     pub async fn begin_replay(&self, worker: &Worker) -> Result<Option<(Attempt, WorkloadRow)>> {
         // Another worker may take what this one has chosen; then it chooses again.
-        loop {
-            let next: Option<String> = sqlx::query_scalar(concat!(
-                "SELECT w.id FROM workloads w LEFT JOIN served s ON s.owner = w.turn ",
-                "WHERE w.state IN ('queued', 'running') AND ",
-                at_rest!("replay", "w.id"),
-                " ORDER BY CASE w.state WHEN 'running' THEN 0 ELSE 1 END, COALESCE(s.served_us, 0), w.created_us, w.id ",
-                "LIMIT 1"
-            ))
-            .fetch_optional(&self.pool)
-            .await?;
-            let Some(next) = next else { return Ok(None) };
+        while let Some((.., next)) = self.next_replay().await? {
             let mut transaction = self.pool.begin().await?;
             let Some(attempt) = begin(&mut transaction, Kind::Replay, &next, worker).await? else { continue };
             let text = "UPDATE workloads SET state = 'running', attempts = attempts + 1, done = 0, message = NULL \
@@ -87,6 +78,18 @@ impl Store {
             transaction.commit().await?;
             return Ok(self.workload(&next).await?.map(|row| (attempt, row)));
         }
+        Ok(None)
+    }
+
+    /// The replay that is due.
+    pub async fn next_replay(&self) -> Result<Option<Since>> {
+        let text = concat!(
+            "SELECT COALESCE(s.served_us, 0), w.created_us, w.id FROM workloads w LEFT JOIN served s ON s.owner = w.turn ",
+            "WHERE w.state IN ('queued', 'running') AND ",
+            at_rest!("replay", "w.id"),
+            " ORDER BY CASE w.state WHEN 'running' THEN 0 ELSE 1 END, COALESCE(s.served_us, 0), w.created_us, w.id LIMIT 1"
+        );
+        Ok(sqlx::query_as(text).fetch_optional(&self.pool).await?)
     }
 
     /// Notes how far it is, and what else it does.

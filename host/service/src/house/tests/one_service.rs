@@ -8,7 +8,7 @@ use crate::campaigns::sql::CampaignRow;
 use crate::locks::JOINED;
 use crate::model::{Action, AdviceInfo, AdviceSpec, Decision, RunSpec};
 use crate::quotas::Visitor;
-use crate::store::tests::fixtures::{advice_info, worker};
+use crate::store::tests::fixtures::advice_info;
 
 fn decision(action: Action) -> Decision {
     Decision { action, reason: "for a test".into() }
@@ -91,17 +91,17 @@ async fn requests_for_advice_have_one_quota_at_all_services() {
     }))
     .unwrap();
     let guest = Visitor { owner: uuid::Uuid::new_v4().to_string(), address: Some("203.0.113.7".into()) };
-    // Three may wait or be at work; two of them are at a third service.
+    // New requests wait, so that none of them ends meanwhile.
+    let held = tokio::join!(first.inner.advices.one.lock(), second.inner.advices.one.lock());
+    // Three may wait or be at work.
     for id in ["v", "w"] {
         let info = AdviceInfo { spec: spec.clone(), ..advice_info(id) };
-        let added = first.inner.store.add_advice(&info, "another", "address:203.0.113.7", &worker("third")).await;
-        assert!(added.unwrap().is_some());
+        let added = first.inner.store.add_advice(&info, Some("another"), "address:203.0.113.7").await;
+        assert!(added.unwrap());
     }
-    // New requests wait, so that none of them ends meanwhile.
-    let turns = [first, second].map(|service| service.inner.advices.turn.try_acquire().unwrap());
     let asked = (0..6).map(|i| [first, second][i % 2].ask_advice(spec.clone(), &guest, None));
     assert_eq!(admitted(&join_all(asked).await), [1, 5]);
-    drop(turns);
+    drop(held);
     pair.close().await;
 }
 

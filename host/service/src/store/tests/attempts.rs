@@ -10,10 +10,12 @@ use super::{
     add, advice_info, begin, end, fresh_stages, handed, plain_event, run, set_info, spec, worker, workload,
     workload_result,
 };
-use crate::attempts::{Attempt, LEASE_US, MOST_LOST};
+use crate::attempts::{Attempt, Kind, LEASE_US, MOST_LOST};
 use crate::model::{AdviceInfo, CheckLine, CheckVerdict, PluginState, Preview, RunSpec, StabilitySpec, State};
 use crate::runs::accept::Handed;
+use crate::runs::priority::INTERACTIVE;
 use crate::stability::runs_sql::StabilityRow;
+use crate::workloads::sql::WorkloadRow;
 
 /// Puts a clock in the place of the database's that only this test moves.
 pub async fn stopped_clock(store: &Store) {
@@ -242,12 +244,55 @@ pub async fn a_job_is_withdrawn_from_another_worker_alone(store: Store) {
     assert_eq!((row.state, row.message.as_deref(), row.finished_us.is_some()), (State::Cancelled, Some("why"), true));
     assert_eq!(store.events("r", 0).await.unwrap().last().map(|event| event.state), Some(State::Cancelled));
 
-    let advice = store.add_advice(&advice_info("v"), "me", "turn", &me).await.unwrap().unwrap();
+    assert!(store.add_advice(&advice_info("v"), Some("me"), "turn").await.unwrap());
+    let (advice, _) = store.begin_advice(false, &me).await.unwrap().unwrap();
     let ended = AdviceInfo { state: State::Cancelled, ..advice_info("v") };
     assert!(!store.withdraw_advice(&ended, &me).await.unwrap() && store.withdraw_advice(&ended, &other).await.unwrap());
     assert!(!store.end_advice(&advice, &advice_info("v"), &Default::default()).await.unwrap());
     assert_eq!(store.advice("v").await.unwrap().unwrap().info.state, State::Cancelled);
-    assert!(store.open_advice().await.unwrap().is_empty());
+    assert_eq!(store.next_advice(false).await.unwrap(), None);
+}
+
+pub async fn visitors_take_turns_whatever_they_wait_for(store: Store) {
+    store.add_blob("f", 1, "x").await.unwrap();
+    let me = worker("m");
+    let in_turn = async || store.in_turn(store.next_run(&me)).await.unwrap();
+    assert_eq!(in_turn().await, [Kind::Measure], "nothing waits, or a run does");
+    for n in 0..3 {
+        add(&store, run(&format!("a{n}"), Some("a"), 1, n)).await;
+        add(&store, run(&format!("b{n}"), Some("b"), 1, 10 + n)).await;
+    }
+    // One visitor asks for all that there is, again and again.
+    for n in 0..3 {
+        assert!(store.add_advice(&advice_info(&format!("v{n}")), Some("me"), "greedy").await.unwrap());
+    }
+    assert!(
+        store.add_stability_run(&StabilityRow { turn: "greedy".into(), created_us: 30, ..tried("s") }).await.unwrap()
+    );
+    assert!(
+        store
+            .add_workload(&WorkloadRow { turn: "greedy".into(), created_us: 40, ..workload("w", "me", "f") })
+            .await
+            .unwrap()
+    );
+
+    let mut served = String::new();
+    while let Some(kind) = in_turn().await.first() {
+        let attempt = match kind {
+            Kind::Measure => store.begin_run(&me).await.unwrap(),
+            Kind::Stability => store.begin_part(INTERACTIVE, &me).await.unwrap().map(|(part, _)| part),
+            Kind::Replay => store.begin_replay(&me).await.unwrap().map(|(replay, _)| replay),
+            _ => store.begin_advice(false, &me).await.unwrap().map(|(advice, _)| advice),
+        };
+        let Some(attempt) = attempt else { break };
+        served.push_str(if matches!(kind, Kind::Measure) { &attempt.job[..1] } else { "." });
+    }
+    assert_eq!(served, "ab.ab.ab...", "each turn of the greedy one comes behind one of everybody else");
+
+    // Runs that nobody waits for come last.
+    add(&store, run("own", None, 5, 1)).await;
+    assert!(store.add_advice(&advice_info("late"), Some("me"), "greedy").await.unwrap());
+    assert_eq!(in_turn().await, [Kind::Advise, Kind::Measure]);
 }
 
 /// The first attempt at a check, a stability part, a replay and advice is lost; what its worker says then changes nothing.
@@ -262,16 +307,19 @@ pub async fn lost_checks_parts_and_advice_change_nothing(store: Store) {
     assert!(store.add_workload(&workload("w", "me", "f")).await.unwrap());
     let (replay, _) = store.begin_replay(&me).await.unwrap().unwrap();
     store.replay_is_at("w", 5, Some("It is doing something.")).await.unwrap();
-    let advice = store.add_advice(&advice_info("v"), "me", "turn", &me).await.unwrap().unwrap();
+    assert!(store.add_advice(&advice_info("v"), Some("me"), "turn").await.unwrap());
+    let (advice, _) = store.begin_advice(false, &me).await.unwrap().unwrap();
     assert!(store.note_vetted(&check).await.unwrap());
-    assert!(store.open_advice().await.unwrap().is_empty(), "a second service takes up nothing of the first");
-    assert_eq!(store.take_up("v", &other).await.unwrap(), None);
+    assert!(
+        store.begin_advice(false, &other).await.unwrap().is_none(),
+        "a second service takes up nothing of the first"
+    );
     assert!(store.lose_check(&check, Some(&me)).await.unwrap());
     for attempt in [&part, &replay, &advice] {
         assert!(store.lose(attempt, Some(&me)).await.unwrap());
     }
     assert_eq!(store.plugin("p").await.unwrap().unwrap().state, PluginState::Uploaded);
-    assert_eq!(store.open_advice().await.unwrap().len(), 1);
+    assert!(store.next_advice(false).await.unwrap().is_some());
 
     let line =
         CheckLine { check: "c".into(), verdict: CheckVerdict::Pass, evidence: "e".into(), hint: None, repro: None };
@@ -304,8 +352,8 @@ pub async fn lost_checks_parts_and_advice_change_nothing(store: Store) {
     assert_eq!(store.workload_table("w").await.unwrap().as_deref(), Some("table"));
     assert_eq!(store.workload_result("w").await.unwrap(), Some(found));
 
-    let second = store.take_up("v", &other).await.unwrap().unwrap();
-    assert!(!store.begin_advice(&advice).await.unwrap());
+    let (second, row) = store.begin_advice(false, &other).await.unwrap().unwrap();
+    assert_eq!(row.attempts, 2, "one was lost");
     assert!(!store.end_advice(&advice, &advice_info("v"), &Default::default()).await.unwrap());
     assert!(store.end_advice(&second, &advice_info("v"), &[vec![], vec![]]).await.unwrap());
     let paper = StoredPaper { mesh: "m".into(), certificate: "c".into(), file: "f".into() };

@@ -198,9 +198,9 @@ pub async fn errands_wait_for_machines_of_the_usual_class_and_idle_runs_give_way
     assert!(store.add_stability_run(&tried("s")).await.unwrap());
     assert!(store.add_stability_run(&StabilityRow { priority: IDLE, ..tried("unasked") }).await.unwrap());
     assert!(store.add_workload(&workload("w", "me", "f")).await.unwrap());
-    assert!(store.add_waiting_advice(&advice_info("v"), Some("me"), "me").await.unwrap());
-    assert!(!store.add_waiting_advice(&advice_info("v"), Some("me"), "me").await.unwrap(), "it is there");
-    assert!(store.add_waiting_advice(&advice_info("own"), None, "").await.unwrap());
+    assert!(store.add_advice(&advice_info("v"), Some("me"), "me").await.unwrap());
+    assert!(!store.add_advice(&advice_info("v"), Some("me"), "me").await.unwrap(), "it is there");
+    assert!(store.add_advice(&advice_info("own"), None, "").await.unwrap());
     assert_eq!((waiting(&usual()).await, waiting(&other).await), (4, 0));
 
     // What a machine is at does not wait.

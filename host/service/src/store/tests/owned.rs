@@ -27,7 +27,8 @@ pub async fn what_is_taken_away_takes_the_files_that_nobody_else_uses(store: Sto
     }
     let mut info = advice_info("v");
     info.spec.object_a = "o".to_owned();
-    let attempt = store.add_advice(&info, "me", "turn", &worker("m")).await.unwrap().unwrap();
+    assert!(store.add_advice(&info, Some("me"), "turn").await.unwrap());
+    let (attempt, _) = store.begin_advice(false, &worker("m")).await.unwrap().unwrap();
     let paper = StoredPaper { mesh: "paper".into(), certificate: "proof".into(), file: "f.obj".into() };
     assert!(store.end_advice(&attempt, &info, &[vec![paper], vec![]]).await.unwrap());
 
