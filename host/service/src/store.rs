@@ -29,6 +29,7 @@ pub struct Store {
     /// Read once: see [`crate::rate_limits`].
     pub(crate) rate_limit_key: Arc<OnceCell<String>>,
     pub(crate) shares: crate::runs::share::Known,
+    pub(crate) counted: crate::runs::share::Counted,
     pub(crate) locks: Locks,
 }
 
@@ -74,8 +75,8 @@ impl Store {
             .map_err(|e| EngineError::fault("Opening the database failed", e))?;
         // SQLite's transactions see one moment anyway, PostgreSQL's have to ask for it.
         let one_moment = if sqlite { "BEGIN" } else { "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY" };
-        let shares = crate::runs::share::Known::default();
-        Ok(Self { pool, one_moment, sqlite, rate_limit_key: Arc::default(), shares, locks })
+        let (shares, counted) = Default::default();
+        Ok(Self { pool, one_moment, sqlite, rate_limit_key: Arc::default(), shares, counted, locks })
     }
 
     /// Makes the tables what they are after this migration.
@@ -168,6 +169,7 @@ fn migrations(sqlite: bool) -> Vec<Migration> {
         one(44, "reduced scenes", include_str!("../migrations/0044_reduced_scenes.sql")),
         one(45, "seen", if sqlite { "" } else { include_str!("../migrations/0045_seen.sql") }),
         one(46, "attempts of machines", include_str!("../migrations/0046_attempts_of_machines.sql")),
+        one(47, "looking", include_str!("../migrations/0047_looking.sql")),
     ]
 }
 

@@ -28,6 +28,10 @@ const SLOW_SENDERS: usize = 50;
 /// What the honest visitor looks at, below the address of the service.
 const LOOKED_AT: [&str; 6] =
     ["/", "/board", "/api/v1/status", "/api/v1/objects", "/api/v1/algorithms", "/api/v1/featured"];
+/// What it asks then.
+const ESTIMATES: &str = "/estimates";
+/// Milliseconds of its looks and of its question.
+type Journey = [f64; LOOKED_AT.len() + 1];
 /// The hostile visitors reach a limit within this time, however soon the honest one's run is done.
 const TO_A_LIMIT: Duration = Duration::from_secs(60);
 /// The service has no more memory than this at any time, KiB.
@@ -47,7 +51,7 @@ fn one_honest_visitor_goes_on_beside_hostile_ones() {
     // Something is measured then, too.
     let long = honest.submit(&service, &run(20_000, 60.0));
     honest.wait(&service, &long, "it is measured", |run| run["state"] == "running");
-    let quiet: Vec<f64> = (0..20).map(|_| journey(&honest, &service)).collect();
+    let quiet: Vec<Journey> = (0..20).map(|_| journey(&honest, &service)).collect();
     honest.post(&service, &format!("/runs/{long}/cancel"), &json!({}));
     service.kill();
     fill_the_queue(&data, owners);
@@ -72,7 +76,7 @@ fn one_honest_visitor_goes_on_beside_hostile_ones() {
     });
     let peak = memory_kib(&service);
     let answers = answers.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let (before, during) = (median(&quiet), median(&beside));
+    let (before, during) = (median(whole(&quiet)), median(whole(&beside)));
     println!(
         "{} hostile visitors, {} runs waiting: a journey of the honest one took {before:.1} ms before (n = {}), {during:.1} ms \
          beside them (n = {}); {turns} runs of theirs had their turn; the others were answered {answers:?}; at most {} MiB",
@@ -82,6 +86,10 @@ fn one_honest_visitor_goes_on_beside_hostile_ones() {
         beside.len(),
         peak >> 10
     );
+    for (at, part) in LOOKED_AT.iter().chain([&ESTIMATES]).enumerate() {
+        let [before, during] = [&quiet, &beside].map(|all| median(all.iter().map(|times| times[at]).collect()));
+        println!("{part}: {before:.1} ms before, {during:.1} ms beside them");
+    }
     assert!(answers.keys().all(|status| *status < 500), "{answers:?}");
     assert!(answers.get(&429).is_some_and(|refused| *refused > 0), "nobody was refused anything: {answers:?}");
     assert!(peak < MEMORY_KIB, "{} MiB", peak >> 10);
@@ -127,15 +135,25 @@ fn fill_the_queue(data: &Path, owners: u64) {
     });
 }
 
-/// Milliseconds in which the honest visitor has looked at everything and asked what a run would take.
-fn journey(honest: &Guest, service: &Service) -> f64 {
-    let begun = Instant::now();
-    for path in LOOKED_AT {
-        honest.page(service, path);
+/// Milliseconds in which the honest visitor has looked at each page, and asked what a run would take.
+fn journey(honest: &Guest, service: &Service) -> Journey {
+    let mut times = Journey::default();
+    let mut begun = Instant::now();
+    for (at, time) in times.iter_mut().enumerate() {
+        if let Some(path) = LOOKED_AT.get(at) {
+            honest.page(service, path);
+        } else {
+            let (status, told) = honest.post(service, ESTIMATES, &run(20, 1.0));
+            assert_eq!(status, 200, "{told}");
+        }
+        *time = 1e3 * begun.elapsed().as_secs_f64();
+        begun = Instant::now();
     }
-    let (status, told) = honest.post(service, "/estimates", &run(20, 1.0));
-    assert_eq!(status, 200, "{told}");
-    1e3 * begun.elapsed().as_secs_f64()
+    times
+}
+
+fn whole(journeys: &[Journey]) -> Vec<f64> {
+    journeys.iter().map(|times| times.iter().sum()).collect()
 }
 
 /// Runs of a second honest visitor, one after the other, each of which has to start in its turn; how many there were.
@@ -218,8 +236,7 @@ fn memory_kib(service: &Service) -> u64 {
     line.trim().trim_end_matches("kB").trim().parse().expect("a number")
 }
 
-fn median(times: &[f64]) -> f64 {
-    let mut sorted = times.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted[sorted.len() / 2]
+fn median(mut times: Vec<f64>) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
 }

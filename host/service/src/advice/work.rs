@@ -91,7 +91,7 @@ impl Advices {
     /// Makes the advice that is due, if that is what is due first; otherwise, how long to wait before the next look.
     async fn make_next(&self) -> Result<Option<Duration>> {
         let (store, worker) = (&self.from.store, &self.work.worker);
-        let due = store.in_turn(store.next_run(worker)).await?;
+        let due = store.in_turn(worker, None).await?;
         if due.first() != Some(&Kind::Advise) {
             return Ok(Some(if due.contains(&Kind::Advise) { LOOK } else { IDLE }));
         }

@@ -70,7 +70,7 @@ impl Engine {
         let errands = worker.class == usual;
         let mut kinds = vec![Kind::Measure];
         if errands {
-            kinds = store.in_turn(store.next_prepared_run(worker, &usual)).await?;
+            kinds = store.in_turn(worker, Some(&usual)).await?;
             kinds.insert(if last == Some(Kind::Check) { kinds.len() } else { 0 }, Kind::Check);
         }
         for kind in kinds {

@@ -46,22 +46,25 @@ impl Store {
     /// Triangles of both objects and wall seconds per query of this algorithm's newest 50 results on machines of this class,
     /// or on any while there is none.
     pub async fn result_rates(&self, algorithm: &str, query: Query, on: &OfClass) -> Result<Vec<(u64, f64)>> {
-        let rows: Vec<(i64, f64, i64)> = sqlx::query_as(
-            "SELECT triangles, seconds_per_query, \
-             CASE WHEN COALESCE(runs.hardware_class, $3) = $4 THEN 1 ELSE 0 END AS same \
-             FROM results JOIN runs ON runs.id = run_id \
-             WHERE algorithm = $1 AND query = $2 AND seconds_per_query IS NOT NULL \
-             ORDER BY same DESC, results.created_us DESC LIMIT 50",
-        )
-        .bind(algorithm)
-        .bind(to_json(&query)?)
-        .bind(&on.usual)
-        .bind(&on.class)
-        .fetch_all(&self.pool)
-        .await?;
-        let known = rows.first().map_or(0, |first| first.2);
-        let of_class = rows.into_iter().take_while(|row| row.2 == known);
-        Ok(of_class.map(|(triangles, seconds, _)| (triangles as u64, seconds)).collect())
+        let query = to_json(&query)?;
+        for class in [Some(&on.class), None] {
+            let rows: Vec<(i64, f64)> = sqlx::query_as(
+                "SELECT triangles, seconds_per_query FROM results JOIN runs ON runs.id = run_id \
+                 WHERE algorithm = $1 AND query = $2 AND seconds_per_query IS NOT NULL \
+                 AND (CAST($4 AS TEXT) IS NULL OR COALESCE(runs.hardware_class, $3) = $4) \
+                 ORDER BY results.created_us DESC LIMIT 50",
+            )
+            .bind(algorithm)
+            .bind(&query)
+            .bind(&on.usual)
+            .bind(class)
+            .fetch_all(&self.pool)
+            .await?;
+            if !rows.is_empty() {
+                return Ok(rows.into_iter().map(|(triangles, seconds)| (triangles as u64, seconds)).collect());
+            }
+        }
+        Ok(Vec::new())
     }
 }
 

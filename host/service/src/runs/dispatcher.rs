@@ -80,7 +80,7 @@ impl Dispatcher {
 
     async fn due(&self) -> Result<Vec<Kind>> {
         let Benchmarks { store, elsewhere, .. } = &*self.benchmarks;
-        if *elsewhere { Ok(vec![Kind::Measure]) } else { store.in_turn(store.next_run(&self.work.worker)).await }
+        if *elsewhere { Ok(vec![Kind::Measure]) } else { store.in_turn(&self.work.worker, None).await }
     }
 
     /// Works on the next job of a kind; false when there is none. Advice is made beside the queue.

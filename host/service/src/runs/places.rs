@@ -11,27 +11,40 @@ use crate::runs::share::{QueueShare, Since};
 use crate::runs::sql::named_state;
 use crate::store::Store;
 
-/// Shares of which there are so many are not counted anew for everybody who looks.
+/// Shares of which there are so many are not counted anew for everybody who looks, nor so many runs.
 const MANY: usize = 100;
+const MANY_RUNS: i64 = 1000;
 /// So long they stand.
 const STAND: Duration = Duration::from_secs(1);
 
 impl Store {
     /// How many runs of a class wait at this priority or a smaller one, and the seconds that they were expected to take.
     pub async fn waiting(&self, priority: i64, of: &OfClass) -> Result<(u32, f64)> {
-        let text = "SELECT COUNT(*), COALESCE(SUM(expected_seconds), 0.0) FROM runs \
-                    WHERE state = 'queued' AND priority <= $1 AND COALESCE(hardware_class, $2) = $3";
-        let query = sqlx::query_as(text).bind(priority).bind(&of.usual).bind(&of.class);
-        let (count, seconds): (i64, f64) = query.fetch_one(&self.pool).await?;
-        Ok((count as u32, seconds))
+        self.count_waiting(priority, Some(of)).await
     }
 
     /// The same of all classes.
     pub async fn waiting_in_all(&self, priority: i64) -> Result<(u32, f64)> {
-        let text = "SELECT COUNT(*), COALESCE(SUM(expected_seconds), 0.0) FROM runs \
-                    WHERE state = 'queued' AND priority <= $1";
-        let (count, seconds): (i64, f64) = sqlx::query_as(text).bind(priority).fetch_one(&self.pool).await?;
-        Ok((count as u32, seconds))
+        self.count_waiting(priority, None).await
+    }
+
+    /// Where many wait, they are not counted anew for everybody who looks.
+    async fn count_waiting(&self, priority: i64, of: Option<&OfClass>) -> Result<(u32, f64)> {
+        let mut known = self.counted.lock().await;
+        known.retain(|(counted, ..)| counted.elapsed() < STAND);
+        let same = |(at, class): &(i64, Option<OfClass>)| *at == priority && class.as_ref() == of;
+        if let Some((.., counts)) = known.iter().find(|(_, what, _)| same(what)) {
+            return Ok(*counts);
+        }
+        let text = "SELECT COUNT(*), COALESCE(SUM(expected_seconds), 0.0) FROM runs WHERE state = 'queued' AND priority <= $1 \
+                    AND (CAST($2 AS TEXT) IS NULL OR COALESCE(hardware_class, $2) = $3)";
+        let query = sqlx::query_as(text).bind(priority).bind(of.map(|it| &it.usual)).bind(of.map(|it| &it.class));
+        let (count, seconds): (i64, f64) = query.fetch_one(&self.pool).await?;
+        let counts = (count as u32, seconds);
+        if count >= MANY_RUNS {
+            known.push((Instant::now(), (priority, of.cloned()), counts));
+        }
+        Ok(counts)
     }
 
     /// How many runs of its class are under way, or wait and are served before this one if nothing else is asked for; nothing when

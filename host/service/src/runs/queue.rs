@@ -25,21 +25,36 @@ pub struct Granted {
     pub seconds: f64,
 }
 
-/// The run that is next of those with these priorities and of this class for which this holds.
+/// This of the runs that wait, with these priorities and of this class, for which this holds.
 /// The class comes third, the usual one fourth; where the first is null, any will do.
-macro_rules! next {
-    ($which:literal) => {
+macro_rules! waiting {
+    ($what:literal, $which:literal) => {
         concat!(
-            "SELECT r.priority, COALESCE(s.served_us, 0), r.created_us, r.id FROM runs r LEFT JOIN served s ON s.owner = r.turn ",
+            "SELECT ",
+            $what,
+            " FROM runs r LEFT JOIN served s ON s.owner = r.turn ",
             "WHERE r.state = 'queued' AND r.priority BETWEEN $1 AND $2 ",
             "AND (CAST($3 AS TEXT) IS NULL OR COALESCE(r.hardware_class, $4) = $3) AND ",
             at_rest!("measure", "r.id"),
             " AND ",
             at_rest!("prepare", "r.id"),
             " AND ",
-            $which,
-            " ORDER BY r.priority, COALESCE(s.served_us, 0), r.created_us, r.id LIMIT 1"
+            $which
         )
+    };
+}
+
+/// The next one of them.
+macro_rules! next {
+    ($which:literal) => {
+        concat!(waiting!("r.id", $which), " ORDER BY r.priority, COALESCE(s.served_us, 0), r.created_us, r.id LIMIT 1")
+    };
+}
+
+/// Is there one that is due before another job?
+macro_rules! sooner {
+    ($which:literal) => {
+        concat!(waiting!("1", $which), " AND (COALESCE(s.served_us, 0), r.created_us, r.id) < ($5, $6, $7) LIMIT 1")
     };
 }
 
@@ -88,16 +103,15 @@ impl Store {
         self.begin_next(worker, Kind::Prepare, priorities, [None, None], text).await
     }
 
-    /// The run that [`Self::begin_run`] would begin, and its priority.
-    pub async fn next_run(&self, worker: &Worker) -> Result<Option<(i64, Since)>> {
-        let class = Some(worker.class.as_str());
-        self.next_of_runs(&(i64::MIN..=BACKGROUND), [class, class], next!("TRUE")).await
-    }
-
-    /// The run that [`Self::begin_prepared_run`] would begin, and its priority.
-    pub async fn next_prepared_run(&self, worker: &Worker, usual: &str) -> Result<Option<(i64, Since)>> {
-        let classes = [Some(worker.class.as_str()), Some(usual)];
-        self.next_of_runs(&(i64::MIN..=IDLE), classes, next!("r.prepared = 1")).await
+    /// Does a visitor's run wait that is due before this other job? For a measuring machine, with the usual hardware class, a
+    /// prepared one.
+    pub async fn run_is_due_before(&self, other: &Since, worker: &Worker, machine_of: Option<&str>) -> Result<bool> {
+        let text = if machine_of.is_some() { sooner!("r.prepared = 1") } else { sooner!("TRUE") };
+        let class = worker.class.as_str();
+        let query = sqlx::query(text).bind(i64::MIN).bind(INTERACTIVE).bind(class).bind(machine_of.unwrap_or(class));
+        let (served_us, created_us, id) = other;
+        let query = query.bind(served_us).bind(created_us).bind(id);
+        Ok(query.fetch_optional(&self.pool).await?.is_some())
     }
 
     /// Begins an attempt at the next prepared run of the worker's class, idle work last. Runs that name no class are of the usual one.
@@ -153,27 +167,19 @@ impl Store {
         Ok(took_us.unwrap_or(0) as f64 / 1e6)
     }
 
-    async fn next_of_runs(
-        &self,
-        priorities: &RangeInclusive<i64>,
-        [class, usual]: [Option<&str>; 2],
-        text: &'static str,
-    ) -> Result<Option<(i64, Since)>> {
-        let query = sqlx::query_as(text).bind(*priorities.start()).bind(*priorities.end()).bind(class).bind(usual);
-        let next: Option<(i64, i64, i64, String)> = query.fetch_optional(&self.pool).await?;
-        Ok(next.map(|(priority, served_us, created_us, id)| (priority, (served_us, created_us, id))))
-    }
-
     async fn begin_next(
         &self,
         worker: &Worker,
         kind: Kind,
         priorities: RangeInclusive<i64>,
-        classes: [Option<&str>; 2],
+        [class, usual]: [Option<&str>; 2],
         text: &'static str,
     ) -> Result<Option<Attempt>> {
         // Another worker may take what this one has chosen; then it chooses again.
-        while let Some((_, (.., next))) = self.next_of_runs(&priorities, classes, text).await? {
+        loop {
+            let query =
+                sqlx::query_scalar(text).bind(*priorities.start()).bind(*priorities.end()).bind(class).bind(usual);
+            let Some(next): Option<String> = query.fetch_optional(&self.pool).await? else { return Ok(None) };
             let mut transaction = self.pool.begin().await?;
             let Some(attempt) = begin(&mut transaction, kind, &next, worker).await? else { continue };
             let turn: Option<String> = sqlx::query_scalar(
@@ -191,7 +197,6 @@ impl Store {
             transaction.commit().await?;
             return Ok(Some(attempt));
         }
-        Ok(None)
     }
 
     /// Puts a run under way back without counting the attempt: it was asked to stop, and not because of what it did. False when

@@ -8,6 +8,9 @@ use tokio::sync::Mutex;
 /// The shares at one priority of one hardware class as they were a moment ago, if they were many.
 pub type Known = Arc<Mutex<Option<(Instant, (i64, OfClass), Arc<Vec<QueueShare>>)>>>;
 
+/// How many runs waited at a priority, of one hardware class or of all, and their expected seconds, a moment ago, where they were many.
+pub type Counted = Arc<Mutex<Vec<(Instant, (i64, Option<OfClass>), (u32, f64))>>>;
+
 /// What one participant has waiting.
 #[derive(Clone, Debug)]
 pub struct QueueShare {

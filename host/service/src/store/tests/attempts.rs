@@ -256,7 +256,7 @@ pub async fn a_job_is_withdrawn_from_another_worker_alone(store: Store) {
 pub async fn visitors_take_turns_whatever_they_wait_for(store: Store) {
     store.add_blob("f", 1, "x").await.unwrap();
     let me = worker("m");
-    let in_turn = async || store.in_turn(store.next_run(&me)).await.unwrap();
+    let in_turn = async || store.in_turn(&me, None).await.unwrap();
     assert_eq!(in_turn().await, [Kind::Measure], "nothing waits, or a run does");
     for n in 0..3 {
         add(&store, run(&format!("a{n}"), Some("a"), 1, n)).await;
