@@ -145,7 +145,9 @@ impl Advices {
 
     /// It was lost too often.
     async fn give_up(&self, attempt: &Attempt, info: AdviceInfo) -> Result<()> {
-        let message = format!("The service ended {MOST_LOST} times during this work, so it is not tried again.");
+        let message = format!(
+            "The service or a measuring machine ended {MOST_LOST} times during this work, so it is not tried again."
+        );
         let info = AdviceInfo { state: State::Failed, message: Some(message), ..info };
         self.from.store.end_advice(attempt, &info, &Default::default()).await.map(|_| ())
     }

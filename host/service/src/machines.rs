@@ -17,6 +17,7 @@ mod work;
 
 use ocb_lab::algorithm::plugin_hash;
 
+use crate::attempts::Attempt;
 use crate::blocking::blocking;
 use crate::boxed;
 use crate::engine::Engine;
@@ -126,13 +127,24 @@ impl Engine {
 
     /// What a machine works on waits again; it hears of that with its next beat.
     pub(crate) async fn put_back_work_of(&self, machine: &str) -> Result<()> {
-        let inner = &self.inner;
-        for attempt in inner.store.attempts_of(machine).await? {
+        for attempt in self.inner.store.attempts_of(machine).await? {
             self.put_back(&attempt).await?;
-            inner.orders.forget(&attempt.id);
-            inner.run_events.ring(&attempt.job);
-            inner.work.prepared.notify_waiters();
+            self.waits_again(&attempt);
         }
         Ok(())
+    }
+
+    /// Takes back what a machine works on that asks anew. A job that ends each machine is not tried for ever.
+    pub(crate) async fn take_back_from(&self, machine: &str) -> Result<()> {
+        for attempt in self.inner.leases().take_back_from(machine).await? {
+            self.waits_again(&attempt);
+        }
+        Ok(())
+    }
+
+    fn waits_again(&self, attempt: &Attempt) {
+        self.inner.orders.forget(&attempt.id);
+        self.inner.run_events.ring(&attempt.job);
+        self.inner.work.prepared.notify_waiters();
     }
 }

@@ -4,6 +4,7 @@ use super::beat::Leases;
 use super::worker::Worker;
 use super::{Attempt, Kind, MOST_LOST, sql};
 use crate::Result;
+use crate::machines::sql::worker;
 use crate::model::State;
 use crate::plugins::checks;
 use crate::runs::events::plain_event;
@@ -18,25 +19,41 @@ impl Leases {
         self.store.shorten_leases().await?;
         let mut checks = just_started.is_some();
         for attempt in self.store.silent_attempts(just_started).await? {
-            if self.work.holding.has(&attempt) {
-                continue;
-            }
-            let Attempt { kind, job, number, .. } = &attempt;
-            let lost = match kind {
-                Kind::Prepare | Kind::Measure => self.run_ends.lose(&attempt, just_started).await?.is_some(),
-                Kind::Check => self.store.lose_check(&attempt, just_started).await?,
-                Kind::Stability | Kind::Replay | Kind::Advise => self.store.lose(&attempt, just_started).await?,
-            };
-            if lost {
-                tracing::warn!("the worker of attempt {number} at {job} ({}) is gone", kind.name());
-                checks |= *kind == Kind::Check;
-                self.work.wake.notify_one();
+            if !self.work.holding.has(&attempt) && self.lose(&attempt, just_started).await? {
+                checks |= attempt.kind == Kind::Check;
             }
         }
         if checks {
             checks::give_up(&self.store, &self.outbox).await?;
         }
         Ok(())
+    }
+
+    /// Takes back what a measuring machine worked on: it has ended in the middle of that, or has not heard of it.
+    pub async fn take_back_from(&self, machine: &str) -> Result<Vec<Attempt>> {
+        let attempts = self.store.attempts_of(machine).await?;
+        for attempt in &attempts {
+            self.lose(attempt, Some(&worker(machine, ""))).await?;
+        }
+        if attempts.iter().any(|attempt| attempt.kind == Kind::Check) {
+            checks::give_up(&self.store, &self.outbox).await?;
+        }
+        Ok(attempts)
+    }
+
+    /// The job of an attempt waits again, or is given up after so many; false when the attempt was not lost.
+    async fn lose(&self, attempt: &Attempt, given_up: Option<&Worker>) -> Result<bool> {
+        let Attempt { kind, job, number, .. } = attempt;
+        let lost = match kind {
+            Kind::Prepare | Kind::Measure => self.run_ends.lose(attempt, given_up).await?.is_some(),
+            Kind::Check => self.store.lose_check(attempt, given_up).await?,
+            Kind::Stability | Kind::Replay | Kind::Advise => self.store.lose(attempt, given_up).await?,
+        };
+        if lost {
+            tracing::warn!("the worker of attempt {number} at {job} ({}) is gone", kind.name());
+            self.work.wake.notify_one();
+        }
+        Ok(lost)
     }
 }
 

@@ -33,7 +33,7 @@ const LOOK: Duration = Duration::from_secs(1);
 
 impl Engine {
     /// The sentinel, about once an hour, or the next prepared run for this machine, or another kind of work in turn; waits so long for
-    /// one. What it had waits again: it has forgotten that.
+    /// one. What it had counts as lost: it has ended in the middle of that.
     ///
     /// # Errors
     /// `Busy` when the machine does not measure the same as this service, or not the same as before; `TooMuch` while it rests after
@@ -44,7 +44,7 @@ impl Engine {
         if !self.inner.config.elsewhere {
             return Err(EngineError::Busy("This service measures by itself; start it with --internal.".into()));
         }
-        self.put_back_work_of(machine).await?;
+        self.take_back_from(machine).await?;
         if let Some(algorithm) =
             sentinel_due(&self.inner.store, &self.inner.registry, self.inner.config.most_drift, machine, facts).await?
         {

@@ -201,8 +201,9 @@ fn note<'a>(row: &'a PluginRow, state: PluginState, reason: &'a str) -> Note<'a>
 pub async fn give_up(store: &Store, outbox: &Outbox) -> Result<()> {
     let (from, to) = (PluginState::Uploaded, PluginState::Failed);
     for row in store.checks_to_give_up().await? {
-        let reason =
-            format!("The service ended {MOST_LOST} times in the middle of this check, so it is not tried again.");
+        let reason = format!(
+            "The service or a measuring machine ended {MOST_LOST} times in the middle of this check, so it is not tried again."
+        );
         let notice = of_check(&row, to, &reason);
         let new_notice = Some(outbox.new_notice(&row.account, &notice));
         let note = Some(note(&row, to, &reason));
