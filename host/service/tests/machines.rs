@@ -333,7 +333,7 @@ async fn what_the_jail_of_a_machine_lacks_is_no_result() {
     assert_eq!(state(&engine, &run).await, State::Queued, "another machine may have more luck");
     assert!(matches!(common::next(&engine, "alpha", &facts, NOW).await, Err(EngineError::TooMuch { .. })));
 
-    // Who asks anew has forgotten what it had, which then waits again and is no attempt; and so it is when its token is revoked.
+    // Who asks anew has ended in the middle of what it had, which is lost; what it has when its token is revoked is not.
     engine.add_machine("beta").await.unwrap();
     let second = order(&engine, "beta", &facts).await;
     let third = order(&engine, "beta", &facts).await;
@@ -341,7 +341,7 @@ async fn what_the_jail_of_a_machine_lacks_is_no_result() {
     assert!(!engine.beat_of("beta", &second.attempt, Vec::new()).await.unwrap());
     engine.revoke_machine("beta").await.unwrap();
     let waiting = engine.run(&run.id, None).await.unwrap();
-    assert_eq!((waiting.state, waiting.attempts), (State::Queued, 1), "the failure of alpha alone counts");
+    assert_eq!((waiting.state, waiting.attempts), (State::Queued, 2), "the failure of alpha, and the end of beta");
     engine.shutdown().await;
 }
 
