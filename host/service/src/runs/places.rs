@@ -6,8 +6,7 @@ use std::time::{Duration, Instant};
 use crate::Result;
 use crate::model::State;
 use crate::runs::priority::BACKGROUND;
-use crate::runs::share::OfClass;
-use crate::runs::share::{QueueShare, Since};
+use crate::runs::share::{OfClass, QueueShare, Since, WaitingRuns};
 use crate::runs::sql::named_state;
 use crate::store::Store;
 
@@ -28,21 +27,33 @@ impl Store {
         self.count_waiting(priority, None).await
     }
 
-    /// Where many wait, they are not counted anew for everybody who looks.
     async fn count_waiting(&self, priority: i64, of: Option<&OfClass>) -> Result<(u32, f64)> {
+        let counted = self.counted().await?;
+        let meant = counted.iter().filter(|it| {
+            it.priority <= priority && of.is_none_or(|of| it.hardware_class.as_ref().unwrap_or(&of.usual) == &of.class)
+        });
+        Ok(meant.fold((0, 0.0), |(runs, seconds), it| (runs + it.runs as u32, seconds + it.seconds)))
+    }
+
+    /// What waits. Where that is much, it is not counted anew for everybody who looks.
+    async fn counted(&self) -> Result<Arc<Vec<WaitingRuns>>> {
         let mut known = self.counted.lock().await;
-        known.retain(|(counted, ..)| counted.elapsed() < STAND);
-        let same = |(at, class): &(i64, Option<OfClass>)| *at == priority && class.as_ref() == of;
-        if let Some((.., counts)) = known.iter().find(|(_, what, _)| same(what)) {
-            return Ok(*counts);
+        known.take_if(|(counted, _)| counted.elapsed() >= STAND);
+        if let Some((_, counts)) = &*known {
+            return Ok(counts.clone());
         }
-        let text = "SELECT COUNT(*), COALESCE(SUM(expected_seconds), 0.0) FROM runs WHERE state = 'queued' AND priority <= $1 \
-                    AND (CAST($2 AS TEXT) IS NULL OR COALESCE(hardware_class, $2) = $3)";
-        let query = sqlx::query_as(text).bind(priority).bind(of.map(|it| &it.usual)).bind(of.map(|it| &it.class));
-        let (count, seconds): (i64, f64) = query.fetch_one(&self.pool).await?;
-        let counts = (count as u32, seconds);
-        if count >= MANY_RUNS {
-            known.push((Instant::now(), (priority, of.cloned()), counts));
+        let text = "SELECT priority, hardware_class, COUNT(*), SUM(expected_seconds) FROM runs \
+                    WHERE state = 'queued' GROUP BY priority, hardware_class";
+        let rows: Vec<(i64, Option<String>, i64, f64)> = sqlx::query_as(text).fetch_all(&self.pool).await?;
+        let counts = rows.into_iter().map(|(priority, hardware_class, runs, seconds)| WaitingRuns {
+            priority,
+            hardware_class,
+            runs,
+            seconds,
+        });
+        let counts = Arc::new(counts.collect::<Vec<_>>());
+        if counts.iter().map(|it| it.runs).sum::<i64>() >= MANY_RUNS {
+            *known = Some((Instant::now(), counts.clone()));
         }
         Ok(counts)
     }

@@ -8,8 +8,17 @@ use tokio::sync::Mutex;
 /// The shares at one priority of one hardware class as they were a moment ago, if they were many.
 pub type Known = Arc<Mutex<Option<(Instant, (i64, OfClass), Arc<Vec<QueueShare>>)>>>;
 
-/// How many runs waited at a priority, of one hardware class or of all, and their expected seconds, a moment ago, where they were many.
-pub type Counted = Arc<Mutex<Vec<(Instant, (i64, Option<OfClass>), (u32, f64))>>>;
+/// What waited a moment ago, if it was much.
+pub type Counted = Arc<Mutex<Option<(Instant, Arc<Vec<WaitingRuns>>)>>>;
+
+/// Runs that wait at one priority and name one hardware class, or none.
+pub struct WaitingRuns {
+    pub priority: i64,
+    pub hardware_class: Option<String>,
+    pub runs: i64,
+    /// That they were expected to take.
+    pub seconds: f64,
+}
 
 /// What one participant has waiting.
 #[derive(Clone, Debug)]
