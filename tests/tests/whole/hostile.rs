@@ -34,6 +34,9 @@ const ESTIMATES: &str = "/estimates";
 type Journey = [f64; LOOKED_AT.len() + 1];
 /// The hostile visitors reach a limit within this time, however soon the honest one's run is done.
 const TO_A_LIMIT: Duration = Duration::from_secs(60);
+/// The honest visitor's journeys in the campaign: so many before, with this pause before each, as beside the hostile ones.
+const QUIET_JOURNEYS: usize = 60;
+const PAUSE: Duration = Duration::from_millis(500);
 /// The service has no more memory than this at any time, KiB.
 const MEMORY_KIB: u64 = 250 << 10;
 
@@ -49,9 +52,14 @@ fn one_honest_visitor_goes_on_beside_hostile_ones() {
     let service = Service::start_with(&data, &PLUGINS);
     let honest = Guest::from_address("198.51.100.7");
     // Something is measured then, too.
-    let long = honest.submit(&service, &run(20_000, 60.0));
+    let mut asked_for = run(20_000, 60.0);
+    asked_for["passes"] = json!(20);
+    let long = honest.submit(&service, &asked_for);
     honest.wait(&service, &long, "it is measured", |run| run["state"] == "running");
-    let quiet: Vec<Journey> = (0..20).map(|_| journey(&honest, &service)).collect();
+    let (journeys, pause) = if minutes > 0 { (QUIET_JOURNEYS, PAUSE) } else { (2, Duration::ZERO) };
+    let quiet: Vec<Journey> =
+        (0..journeys).map(|_| (std::thread::sleep(pause), journey(&honest, &service)).1).collect();
+    honest.wait(&service, &long, "it is still measured", |run| run["state"] == "running");
     honest.post(&service, &format!("/runs/{long}/cancel"), &json!({}));
     service.kill();
     fill_the_queue(&data, owners);
@@ -70,7 +78,7 @@ fn one_honest_visitor_goes_on_beside_hostile_ones() {
         let mut beside = Vec::new();
         while !turns.is_finished() {
             beside.push(journey(&honest, &service));
-            std::thread::sleep(Duration::from_millis(500));
+            std::thread::sleep(PAUSE);
         }
         (beside, turns.join().expect("the honest visitor's runs"))
     });
