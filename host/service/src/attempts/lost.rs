@@ -17,13 +17,10 @@ impl Leases {
     /// What this process works on itself is never judged by a clock: a machine that slept goes on.
     pub async fn take_back(&self, just_started: Option<&Worker>) -> Result<()> {
         self.store.shorten_leases().await?;
-        let mut checks = just_started.is_some();
-        for attempt in self.store.silent_attempts(just_started).await? {
-            if !self.work.holding.has(&attempt) && self.lose(&attempt, just_started).await? {
-                checks |= attempt.kind == Kind::Check;
-            }
-        }
-        if checks {
+        let mut silent = self.store.silent_attempts(just_started).await?;
+        silent.retain(|attempt| !self.work.holding.has(attempt));
+        self.lose(&silent, just_started).await?;
+        if just_started.is_some() {
             checks::give_up(&self.store, &self.outbox).await?;
         }
         Ok(())
@@ -32,28 +29,31 @@ impl Leases {
     /// Takes back what a measuring machine worked on: it has ended in the middle of that, or has not heard of it.
     pub async fn take_back_from(&self, machine: &str) -> Result<Vec<Attempt>> {
         let attempts = self.store.attempts_of(machine).await?;
-        for attempt in &attempts {
-            self.lose(attempt, Some(&worker(machine, ""))).await?;
-        }
-        if attempts.iter().any(|attempt| attempt.kind == Kind::Check) {
-            checks::give_up(&self.store, &self.outbox).await?;
-        }
+        self.lose(&attempts, Some(&worker(machine, ""))).await?;
         Ok(attempts)
     }
 
-    /// The job of an attempt waits again, or is given up after so many; false when the attempt was not lost.
-    async fn lose(&self, attempt: &Attempt, given_up: Option<&Worker>) -> Result<bool> {
-        let Attempt { kind, job, number, .. } = attempt;
-        let lost = match kind {
-            Kind::Prepare | Kind::Measure => self.run_ends.lose(attempt, given_up).await?.is_some(),
-            Kind::Check => self.store.lose_check(attempt, given_up).await?,
-            Kind::Stability | Kind::Replay | Kind::Advise => self.store.lose(attempt, given_up).await?,
-        };
-        if lost {
-            tracing::warn!("the worker of attempt {number} at {job} ({}) is gone", kind.name());
-            self.work.wake.notify_one();
+    /// The jobs of attempts wait again, or are given up after so many. Those of a worker that is given up are lost whatever their
+    /// lease.
+    async fn lose(&self, attempts: &[Attempt], given_up: Option<&Worker>) -> Result<()> {
+        let mut checks = false;
+        for attempt in attempts {
+            let Attempt { kind, job, number, .. } = attempt;
+            let lost = match kind {
+                Kind::Prepare | Kind::Measure => self.run_ends.lose(attempt, given_up).await?.is_some(),
+                Kind::Check => self.store.lose_check(attempt, given_up).await?,
+                Kind::Stability | Kind::Replay | Kind::Advise => self.store.lose(attempt, given_up).await?,
+            };
+            if lost {
+                tracing::warn!("the worker of attempt {number} at {job} ({}) is gone", kind.name());
+                checks |= *kind == Kind::Check;
+                self.work.wake.notify_one();
+            }
         }
-        Ok(lost)
+        if checks {
+            checks::give_up(&self.store, &self.outbox).await?;
+        }
+        Ok(())
     }
 }
 

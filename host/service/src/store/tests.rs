@@ -153,6 +153,7 @@ on_both!(
     prepared_runs_go_to_machines_in_turn,
     runs_go_to_machines_of_their_hardware_class,
     errands_wait_for_machines_of_the_usual_class_and_idle_runs_give_way_to_them,
+    what_waits_is_counted_by_priority_and_class_and_the_oldest_is_found,
     rates_are_those_of_the_hardware_class_or_of_any,
     a_machine_reaches_its_own_attempt_alone,
     results_replace_those_of_an_earlier_attempt,

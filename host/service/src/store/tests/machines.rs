@@ -12,7 +12,7 @@ use crate::attempts::{Attempt, Kind};
 use crate::machines::sql::worker as of;
 use crate::model::{MachineFacts, RunSpec, State};
 use crate::runs::accept::Handed;
-use crate::runs::priority::{IDLE, INTERACTIVE};
+use crate::runs::priority::{BACKGROUND, IDLE, INTERACTIVE};
 use crate::runs::share::OfClass;
 use crate::runs::sql::RunRow;
 use crate::stability::runs_sql::StabilityRow;
@@ -142,6 +142,33 @@ pub async fn runs_go_to_machines_of_their_hardware_class(store: Store) {
     prepare(&store).await.unwrap();
     assert_eq!(next("m", "class", "new").await, None);
     assert_eq!(next("n", "new", "new").await.as_deref(), Some("new1"));
+}
+
+pub async fn what_waits_is_counted_by_priority_and_class_and_the_oldest_is_found(store: Store) {
+    assert_eq!(
+        (store.waiting_in_all(BACKGROUND).await.unwrap(), store.oldest_seconds().await.unwrap()),
+        ((0, 0.0), 0.0)
+    );
+    let ago = |seconds: i64| now_us() - seconds * 1_000_000;
+    let add_run = async |id: &str, priority, seconds, class: Option<&str>| {
+        let plain = run(id, Some("a"), priority, ago(seconds));
+        let spec = RunSpec { hardware_class: class.map(str::to_owned), ..plain.spec.clone() };
+        add(&store, RunRow { spec, ..plain }).await;
+    };
+    add_run("idle", IDLE, 4000, None).await;
+    add_run("new", INTERACTIVE, 1000, Some("new")).await;
+    let oldest = async || (store.oldest_seconds().await.unwrap() / 100.0).round() * 100.0;
+    assert_eq!(oldest().await, 1000.0, "idle work does not count");
+    add_run("background", BACKGROUND, 2000, None).await;
+    assert_eq!(oldest().await, 2000.0);
+    add_run("usual", INTERACTIVE, 3000, Some("class")).await;
+    assert_eq!(oldest().await, 3000.0);
+    let new = OfClass { class: "new".into(), usual: "class".into() };
+    assert_eq!(store.waiting_in_all(BACKGROUND).await.unwrap(), (3, 4.5));
+    assert_eq!(store.waiting_in_all(INTERACTIVE).await.unwrap(), (2, 3.0));
+    assert_eq!(store.waiting(BACKGROUND, &usual()).await.unwrap(), (2, 3.0));
+    assert_eq!(store.waiting(INTERACTIVE, &usual()).await.unwrap(), (1, 1.5));
+    assert_eq!(store.waiting(BACKGROUND, &new).await.unwrap(), (1, 1.5));
 }
 
 pub async fn rates_are_those_of_the_hardware_class_or_of_any(store: Store) {
