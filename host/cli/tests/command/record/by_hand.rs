@@ -138,11 +138,16 @@ fn what_a_killed_program_in_rust_recorded_is_kept() {
     assert!(program.exists(), "{} is missing; run `{build}` first", program.display());
     let mut child = command(program).arg(&spool).stdout(Stdio::piped()).spawn().expect("it starts");
     let mut printed: Vec<(u64, u64)> = Vec::new();
+    let mut by_thread = [0; 2];
     for line in BufReader::new(child.stdout.take().expect("piped")).lines().map_while(Result::ok) {
         // The line that it was printing when it was killed may be there in part.
         let numbers = line.split_once(' ').and_then(|(thread, step)| Some((thread.parse().ok()?, step.parse().ok()?)));
-        printed.extend(numbers);
-        if printed.len() == 5000 {
+        if let Some((thread, step)) = numbers {
+            printed.push((thread, step));
+            by_thread[thread as usize] += 1;
+        }
+        // On a busy machine one thread may be long at it before the other one begins.
+        if by_thread.iter().all(|&steps| steps >= 2000) || printed.len() == 1_000_000 {
             child.kill().expect("SIGKILL");
         }
     }
@@ -156,7 +161,7 @@ fn what_a_killed_program_in_rust_recorded_is_kept() {
         let of_thread = recording.queries.iter().filter(|query| query.group == thread);
         let kept: Vec<u64> = of_thread.map(|query| query.configuration.pose_b.translation.x as u64).collect();
         // Each query that the program went on from is there, in order and none twice.
-        assert!(!told.is_empty() && kept.len() >= told.len(), "{} of {} are there", kept.len(), told.len());
+        assert!(told.len() > 1000 && kept.len() >= told.len(), "{} of {} are there", kept.len(), told.len());
         assert!(kept.iter().copied().eq(0..kept.len() as u64), "a query of thread {thread} is missing");
     }
     assert!(recording.scene.scene.objects.len() > 10, "{}", recording.scene.scene.objects.len());
