@@ -7,6 +7,11 @@ mod asking;
 #[cfg(not(feature = "remote"))]
 #[path = "service/no_remote.rs"]
 mod asking;
+#[cfg(feature = "remote")]
+mod client;
+
+#[cfg(feature = "remote")]
+pub use client::client;
 
 use crate::args::{LookArgs, ServiceArgs};
 

@@ -5,32 +5,32 @@ use std::io::Write;
 use std::path::Path;
 
 use reqwest::multipart::{Form, Part};
-use reqwest::{Client, Method, RequestBuilder, Response, StatusCode};
+use reqwest::{Method, RequestBuilder, Response, StatusCode};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::{Service, Upload};
+use super::{Service, Upload, client};
 use crate::failure::{Failure, Result};
 
 impl Service<'_> {
     /// What is at this path.
     pub async fn get<T: DeserializeOwned>(&self, path: &str) -> Result<T> {
-        answer(&self.address(path), self.request(Method::GET, path)).await
+        answer(&self.address(path), self.request(Method::GET, path)?).await
     }
 
     /// Posts this body to this path.
     pub async fn post<T: DeserializeOwned>(&self, path: &str, body: &Value) -> Result<T> {
-        answer(&self.address(path), self.request(Method::POST, path).json(body)).await
+        answer(&self.address(path), self.request(Method::POST, path)?.json(body)).await
     }
 
     /// Says how what is at this path is to be.
     pub async fn put<T: DeserializeOwned>(&self, path: &str, body: &Value) -> Result<T> {
-        answer(&self.address(path), self.request(Method::PUT, path).json(body)).await
+        answer(&self.address(path), self.request(Method::PUT, path)?.json(body)).await
     }
 
     /// Deletes what is at this path.
     pub async fn delete<T: DeserializeOwned>(&self, path: &str) -> Result<T> {
-        answer(&self.address(path), self.request(Method::DELETE, path)).await
+        answer(&self.address(path), self.request(Method::DELETE, path)?).await
     }
 
     /// Sends a file and what is said beside it.
@@ -38,13 +38,13 @@ impl Service<'_> {
         let form = upload.fields.into_iter().fold(Form::new(), |form, (name, value)| form.text(name, value));
         let (name, bytes) = upload.file;
         let form = form.part("file", Part::bytes(bytes).file_name(name));
-        answer(&self.address(path), self.request(Method::POST, path).multipart(form)).await
+        answer(&self.address(path), self.request(Method::POST, path)?.multipart(form)).await
     }
 
     /// Writes what is at this path into a file as it comes; gives its length.
     pub async fn save(&self, path: &str, to: &Path) -> Result<u64> {
         let address = self.address(path);
-        let mut response = granted(&address, self.request(Method::GET, path)).await?;
+        let mut response = granted(&address, self.request(Method::GET, path)?).await?;
         let unwritten = |e| Failure::file("write", to, &e);
         let (mut file, mut length) = (File::create(to).map_err(unwritten)?, 0);
         let cut = |e| Failure::Input(format!("The response from {address} was cut off ({e}); try again."));
@@ -55,12 +55,12 @@ impl Service<'_> {
         Ok(length)
     }
 
-    fn request(&self, method: Method, path: &str) -> RequestBuilder {
-        let request = Client::new().request(method, self.address(path));
-        match self.token {
+    fn request(&self, method: Method, path: &str) -> Result<RequestBuilder> {
+        let request = client(self.server)?.request(method, self.address(path));
+        Ok(match self.token {
             Some(token) => request.bearer_auth(token),
             None => request,
-        }
+        })
     }
 }
 

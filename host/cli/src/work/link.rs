@@ -10,7 +10,8 @@ use reqwest::multipart::{Form, Part};
 use reqwest::{Client, RequestBuilder, Response, StatusCode};
 use serde_json::Value;
 
-use crate::failure::{Failure, Result};
+use crate::failure::Result;
+use crate::service::client;
 
 /// Longer than the service lets a machine wait for work.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -62,9 +63,7 @@ type Answer<T> = std::result::Result<T, Refused>;
 impl Link {
     /// To the service at this URL.
     pub fn new(server: &str, token: &str) -> Result<Self> {
-        let client = Client::builder().connect_timeout(Duration::from_secs(10)).build();
-        let client = client.map_err(|e| Failure::Fault(format!("cannot start the HTTP client: {e}.")))?;
-        Ok(Self { server: server.trim_end_matches('/').to_owned(), token: token.to_owned(), client })
+        Ok(Self { server: server.trim_end_matches('/').to_owned(), token: token.to_owned(), client: client(server)? })
     }
 
     /// What this machine has to do next, once there is something.

@@ -72,3 +72,22 @@ fn what_an_account_has_on_a_service_is_its_own() {
     assert!(link.contains("There is no run"), "{link}");
     assert!(!desk.path("data").exists(), "nothing is made here");
 }
+
+#[test]
+fn without_certificates_of_authorities_services_are_reached_over_plain_http_alone() {
+    let desk = Desk::with(&["libocb_box_tree.so"]);
+    let refused = |args: &[&str], server: &str| {
+        let mut command = desk.command(&[args, &["--server", server, "--token", "none"]].concat());
+        let ended = command.env("SSL_CERT_FILE", "/dev/null").env_remove("SSL_CERT_DIR").output().expect("it starts");
+        let told = String::from_utf8_lossy(&ended.stderr).into_owned();
+        assert_eq!(ended.status.code(), Some(2), "{told}");
+        told
+    };
+    let told = refused(&["data", "show"], "http://127.0.0.1:1");
+    assert!(told.contains("No service answers at http://127.0.0.1:1/"), "{told}");
+    for command in [&["data", "show"][..], &["work", "--once"]] {
+        let told = refused(command, "https://127.0.0.1:1");
+        assert!(told.starts_with("ocb: Cannot set up HTTPS to https://127.0.0.1:1: "), "{told}");
+        assert!(told.contains("No CA certificates") && told.contains("(Debian: ca-certificates)"), "{told}");
+    }
+}
