@@ -2,7 +2,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help serve build dist beside runner pages stock plugins-cpp recorders plugins-native check check-oracle test aarch64 bench soak clean tools
+.PHONY: help serve build dist beside runner pages stock plugins-cpp recorders plugins-native check check-oracle test aarch64 systemd bench soak clean tools
 
 PORT ?= 8080
 DATA ?= data
@@ -80,6 +80,9 @@ check-oracle: ## the oracle against CGAL, integers and planted faults (some 20 m
 
 aarch64: ## build what is portable for aarch64 and run its tests under qemu (some 20 minutes)
 	tests/setup/aarch64.sh
+
+systemd: build ## the Debian package under systemd, in a virtual machine with Debian 13 (some 7 minutes)
+	host/dist/systemd.sh
 
 bench: build ## every algorithm side by side (OBJECTS=files), the clock, finding positions against peers, first pictures and selections on pages, machines for a day's runs
 	cargo bench --workspace --bench algorithms -- $(abspath $(OBJECTS))

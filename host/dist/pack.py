@@ -9,6 +9,7 @@ Version: {version}
 Architecture: amd64
 Maintainer: The OpenCollBench developers <opencollbench@localhost>
 Depends: libc6 (>= {glibc}), libgcc-s1, libstdc++6, systemd
+Recommends: ca-certificates, libgomp1
 Section: science
 Priority: optional
 Description: benchmarks of collision detection, mapped onto the object

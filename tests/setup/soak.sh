@@ -9,8 +9,8 @@
 # (OCB_HOSTILE_MINUTES); a thousand runs are shared by machines that are killed a hundred times (OCB_MACHINE_RUNS,
 # OCB_MACHINE_KILLS); two hundred runs of forged plugins, in an hour and a half (OCB_FORGERS), which want a machine with
 # nothing else on it; the libraries built for this CPU (`make plugins-native`) answer as they should, and so does all that is
-# portable on aarch64 under qemu. Then the restart tests (the service is killed at every stage of a run) over and over. The first
-# failure ends it; the last line says how often they passed.
+# portable on aarch64 under qemu; systemd runs the units of the Debian package in a virtual machine. Then the restart tests (the
+# service is killed at every stage of a run) over and over. The first failure ends it; the last line says how often they passed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 minutes=${1:?usage: soak.sh MINUTES}
@@ -43,6 +43,7 @@ for name in sys.argv[2].split(","):
 CHECK
 npm --prefix tests/e2e ci --no-audit --no-fund && node tests/e2e/every-page.mjs
 tests/setup/aarch64.sh all
+host/dist/systemd.sh
 rounds=0
 started=$SECONDS
 while [ $((SECONDS - started)) -lt $((minutes * 60)) ]; do
