@@ -25,11 +25,11 @@ test('the start page shows a measured heatmap of a stock object', async (t) => {
   await v.go('/')
   // On the first start the service is still measuring it: the page says so, and shows what there is.
   await v.at('featured-viewer').locator('canvas').waitFor({ timeout: 120_000 })
-  const seen = await until('a coloured object', async () => {
-    const c = await v.colours(v.at('featured-viewer'))
-    return c.hues >= 4 && c
+  // On a busy machine the first picture is of a few queries.
+  await until('a coloured object', async () => {
+    const { hues, coloured } = await v.colours(v.at('featured-viewer'))
+    return hues >= 4 && coloured > 2000
   })
-  assert.ok(seen.coloured > 2000, `only ${seen.coloured} coloured pixels`)
   const marked = await v.at('preliminary').count()
   assert.ok(marked || (await v.api('/featured')).state === 'done', 'a picture that will change is not marked')
   const featured = await until('the end of its run', async () => {
