@@ -2,11 +2,26 @@
 # systemd.sh [PACKAGE]: starts a virtual machine with Debian 13, in which systemd runs the units of this Debian package, or of what
 # was built, and systemd.py says what has to hold there. Like tools.sh it installs what it can and says what. Its last line counts.
 set -euo pipefail
-cd "$(dirname "$0")/../.."
+here=$(cd "$(dirname "$0")" && pwd)
+package=${1:+$(realpath "$1")}
+cd "$here/../.."
 . tests/setup/count.sh
 say() { printf 'systemd: %s\n' "$*" >&2; }
 die() { say "$*"; exit 1; }
-[ "$(id -u)" = 0 ] || exec sudo -n "$0" "$@"
+
+work=$(mktemp -d)
+machine=
+trap '[ -z "$machine" ] || kill "$machine"; rm -rf "$work"' EXIT
+if [ -z "$package" ]; then
+  host/dist/pack.py "$work/packages" >/dev/null
+  package=$(echo "$work"/packages/*.deb)
+fi
+# What is left needs root. Packing does not, and may have its compiler in the home of who calls this.
+if [ "$(id -u)" != 0 ]; then
+  sudo -n "$here/systemd.sh" "$package"
+  exit
+fi
+
 missing=()
 command -v qemu-system-x86_64 >/dev/null || missing+=(qemu-system-x86)
 command -v mmdebstrap >/dev/null || missing+=(mmdebstrap)
@@ -15,15 +30,6 @@ if [ ${#missing[@]} -gt 0 ]; then
   say "installing with apt-get: ${missing[*]}"
   apt-get update -qq
   DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
-fi
-
-work=$(mktemp -d)
-machine=
-trap '[ -z "$machine" ] || kill "$machine"; rm -rf "$work"' EXIT
-package=${1:-}
-if [ -z "$package" ]; then
-  host/dist/pack.py "$work/packages" >/dev/null
-  package=$(echo "$work"/packages/*.deb)
 fi
 
 # Debian from where this machine has its packages.

@@ -11,9 +11,9 @@ use crate::failure::{Failure, Result};
 /// HTTP all the same.
 pub fn client(server: &str) -> Result<Client> {
     let builder = || Client::builder().connect_timeout(Duration::from_secs(10));
-    let plain = Url::parse(server).is_ok_and(|url| url.scheme() == "http");
+    let secure = Url::parse(server).is_ok_and(|url| url.scheme() == "https");
     let built = match builder().build() {
-        Err(_) if plain => builder().tls_certs_only([]).build(),
+        Err(_) if !secure => builder().tls_certs_only([]).build(),
         built => built,
     };
     built.map_err(|error| {
