@@ -83,8 +83,10 @@ fn without_certificates_of_authorities_services_are_reached_over_plain_http_alon
         assert_eq!(ended.status.code(), Some(2), "{told}");
         told
     };
-    let told = refused(&["data", "show"], "http://127.0.0.1:1");
-    assert!(told.contains("No service answers at http://127.0.0.1:1/"), "{told}");
+    for server in ["http://127.0.0.1:1", "127.0.0.1:1"] {
+        let told = refused(&["data", "show"], server);
+        assert!(told.contains(&format!("No service answers at {server}/")), "{told}");
+    }
     for command in [&["data", "show"][..], &["work", "--once"]] {
         let told = refused(command, "https://127.0.0.1:1");
         assert!(told.starts_with("ocb: Cannot set up HTTPS to https://127.0.0.1:1: "), "{told}");
