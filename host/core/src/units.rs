@@ -5,6 +5,8 @@
 //! every process in the other, by more than [`FACTOR`]. For answers the question is how likely the wrong ones would
 //! fall so unevenly on the two units if the unit did not matter.
 
+use std::cmp::Ordering;
+
 use serde::{Deserialize, Serialize};
 
 use crate::comparison::{Interval, Times};
@@ -125,13 +127,13 @@ impl Pace {
         Some(Interval { value, lo, hi })
     }
 
-    /// Every process in one unit takes more than [`FACTOR`] times as long as every process in the other.
-    pub fn differs(&self, other: &Self) -> bool {
+    /// Slower or faster than in the other unit: every process in one takes more than [`FACTOR`] times as long as every process in
+    /// the other. Absent otherwise.
+    pub fn beside(&self, other: &Self) -> Option<Ordering> {
         let enough = self.0.len().min(other.0.len()) >= LEAST_PROCESSES;
-        match (self.spread(), other.spread()) {
-            (Some(one), Some(other)) if enough => one.lo > FACTOR * other.hi || other.lo > FACTOR * one.hi,
-            _ => false,
-        }
+        let (one, other) = self.spread().zip(other.spread()).filter(|_| enough)?;
+        let slower = (one.lo > FACTOR * other.hi).then_some(Ordering::Greater);
+        slower.or((other.lo > FACTOR * one.hi).then_some(Ordering::Less))
     }
 }
 
@@ -159,16 +161,16 @@ mod tests {
     fn a_time_depends_on_the_unit_when_every_process_is_beyond_the_factor() {
         let differs = |n, elsewhere: &[(u32, f64)]| {
             let [official, other] = pace(n, elsewhere);
-            assert_eq!(official.differs(&other), other.differs(&official));
-            official.differs(&other)
+            assert_eq!(official.beside(&other).map(Ordering::reverse), other.beside(&official));
+            other.beside(&official)
         };
-        assert!(differs(100, &[(0, 1.7), (2, 1.8)]), "slower");
-        assert!(differs(100, &[(0, 0.5), (2, 0.6)]), "faster");
-        assert!(!differs(100, &[(0, 2.5), (2, 1.0)]), "one slow moment");
-        assert!(!differs(100, &[(0, 1.5), (2, 1.55)]), "less than the factor above the slowest process");
-        assert!(!differs(100, &[(0, 9.0)]), "a single process");
-        assert!(!differs(LEAST_QUESTIONS - 1, &[(0, 9.0), (2, 9.0)]), "too few questions");
-        assert!(differs(LEAST_QUESTIONS, &[(0, 9.0), (2, 9.0)]));
+        assert_eq!(differs(100, &[(0, 1.7), (2, 1.8)]), Some(Ordering::Greater), "slower");
+        assert_eq!(differs(100, &[(0, 0.5), (2, 0.6)]), Some(Ordering::Less), "faster");
+        assert_eq!(differs(100, &[(0, 2.5), (2, 1.0)]), None, "one slow moment");
+        assert_eq!(differs(100, &[(0, 1.5), (2, 1.55)]), None, "less than the factor above the slowest process");
+        assert_eq!(differs(100, &[(0, 9.0)]), None, "a single process");
+        assert_eq!(differs(LEAST_QUESTIONS - 1, &[(0, 9.0), (2, 9.0)]), None, "too few questions");
+        assert_eq!(differs(LEAST_QUESTIONS, &[(0, 9.0), (2, 9.0)]), Some(Ordering::Greater));
     }
 
     #[test]

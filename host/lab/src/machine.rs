@@ -4,7 +4,7 @@ use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use nix::sched::{CpuSet, sched_getaffinity, sched_setaffinity};
 use nix::unistd::Pid;
@@ -12,7 +12,7 @@ use nix::unistd::Pid;
 use crate::sha256_hex;
 use crate::{LabError, Result};
 
-/// How often the right to measure is asked for.
+/// How often a lock is asked for.
 const TICK: Duration = Duration::from_millis(100);
 /// Locks of the machine: the right to measure, and that to be the next who has it.
 const THE_RIGHT: &str = "measuring";
@@ -163,25 +163,29 @@ fn memory_bytes() -> u64 {
     kib.unwrap_or(0) * 1024
 }
 
+/// How long a process that ends may still keep the data folder: what a killed one had just begun to start shares its lock until
+/// it has become the other program.
+const ENDS_WITHIN: Duration = Duration::from_secs(2);
+
 /// Locks the data folder for this process; the lock goes with the process, also when it is killed.
 pub fn lock_data_folder(data: &Path) -> Result<File> {
-    let path = data.join("lock");
-    let file = File::options()
-        .create(true)
-        .truncate(false)
-        .write(true)
-        .read(true)
-        .open(&path)
-        .map_err(|e| LabError::Fault(format!("The data folder {} cannot be used: {e}.", data.display())))?;
-    match file.try_lock() {
-        Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => Err(LabError::Busy(format!(
-            "The data folder {} is in use by another process of OpenCollBench; stop that process, or choose another \
-             folder.",
-            data.display()
-        ))),
-        Err(TryLockError::Error(e)) => {
-            Err(LabError::Fault(format!("The data folder {} cannot be locked: {e}.", data.display())))
+    let fault = |what, e| LabError::Fault(format!("The data folder {} cannot be {what}: {e}.", data.display()));
+    let mut options = File::options();
+    let options = options.create(true).truncate(false).write(true).read(true);
+    let file = options.open(data.join("lock")).map_err(|e| fault("used", e))?;
+    let end = Instant::now() + ENDS_WITHIN;
+    loop {
+        match file.try_lock() {
+            Ok(()) => return Ok(file),
+            Err(TryLockError::WouldBlock) if Instant::now() < end => thread::sleep(TICK),
+            Err(TryLockError::WouldBlock) => {
+                return Err(LabError::Busy(format!(
+                    "The data folder {} is in use by another process of OpenCollBench; stop that process, or choose \
+                     another folder.",
+                    data.display()
+                )));
+            }
+            Err(TryLockError::Error(e)) => return Err(fault("locked", e)),
         }
     }
 }
@@ -272,6 +276,18 @@ mod tests {
         let _first = lock_data_folder(folder.path()).unwrap();
         let second = lock_data_folder(folder.path()).unwrap_err().to_string();
         assert!(second.contains("in use by another process"), "{second}");
+    }
+
+    #[test]
+    fn a_folder_whose_process_is_just_ending_is_waited_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = lock_data_folder(folder.path()).unwrap();
+        let ends = std::thread::spawn(move || {
+            std::thread::sleep(ENDS_WITHIN / 4);
+            drop(first);
+        });
+        lock_data_folder(folder.path()).unwrap();
+        ends.join().unwrap();
     }
 
     #[test]

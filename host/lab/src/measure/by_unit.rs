@@ -12,10 +12,8 @@ pub const UNITS: usize = 3;
 /// Their exponents: the unit of the files first.
 const EXPONENTS: [i32; UNITS] = [0, -3, 3];
 
-/// Mean times nearer to each other than this are within the spread of an empty round trip, nanoseconds.
+/// A smaller difference than this is within the spread of an empty round trip, nanoseconds.
 const LEAST_NS: f64 = 500.0;
-/// And by a smaller factor it may be the reference algorithm that another program slowed down, in one unit and not in the other.
-const LEAST_FACTOR: f64 = 1.5;
 
 /// Of many configurations an eighth is asked in each other unit, so that a run of five rounds becomes a twentieth longer.
 const SHARE: usize = 8;
@@ -38,7 +36,10 @@ pub struct Found {
     processes: usize,
     n: usize,
     mean_ns: Option<Estimated>,
+    /// Beside the reference algorithm.
     pace: Pace,
+    /// By itself.
+    alone: Pace,
     /// All answers.
     tally: Tally,
     /// Those to configurations that were asked in the unit of the files as well, and the answers to these there.
@@ -46,12 +47,15 @@ pub struct Found {
 }
 
 impl Found {
-    fn is_apart(&self, other: &Self) -> bool {
-        let apart = |(here, there): (Estimated, Estimated)| {
-            let [less, more] = [here.value.min(there.value), here.value.max(there.value)];
-            more - less >= LEAST_NS && more >= LEAST_FACTOR * less
+    /// Slower or faster than in the unit of the files, beside the reference algorithm and by itself: another program may have
+    /// slowed down one of the two, in one unit and not in the other.
+    fn is_apart(&self, file: &Self) -> bool {
+        let beside = self.pace.beside(&file.pace);
+        let paces = self.alone.spread().zip(file.alone.spread());
+        let differ = |(usual, (here, there)): (Estimated, (Interval, Interval))| {
+            (here.value - there.value).abs() * usual.value >= LEAST_NS
         };
-        self.mean_ns.zip(other.mean_ns).is_some_and(apart)
+        beside.is_some() && beside == self.alone.beside(&file.alone) && file.mean_ns.zip(paces).is_some_and(differ)
     }
 
     /// For tables and pages.
@@ -93,6 +97,7 @@ pub fn of(measured: &Measured, reference: Option<&Measured>, official: Option<&T
             n: times.iter().filter(|times| !times.is_empty()).count(),
             mean_ns: if index == 0 { official.map(|time| time.mean_ns) } else { mean(&times) },
             pace: Pace::of(&times, &usual, beside),
+            alone: Pace::of(&times, &usual, None),
             tally: sum(&mut tallies(index)),
             common: [sum(&mut common(index)), sum(&mut common(0))],
         }
@@ -121,8 +126,7 @@ pub fn dependence(units: &[Found]) -> Option<UnitDependence> {
     let (mut time, mut answers, mut parts) = (Vec::new(), Vec::new(), Vec::new());
     for other in others {
         let mut said = Vec::new();
-        let slower_or_faster = other.pace.differs(&file.pace) && other.is_apart(file);
-        if let Some(Interval { value, lo, hi }) = other.pace.spread().filter(|_| slower_or_faster) {
+        if let Some(Interval { value, lo, hi }) = other.pace.spread().filter(|_| other.is_apart(file)) {
             time.push(other.exponent);
             said.push(format!("a query takes {} times as long ({} to {})", times(value), times(lo), times(hi)));
         }
@@ -161,12 +165,14 @@ mod tests {
         let of = |all: &[(u32, f64)]| vec![all.iter().map(|(p, factor)| (*p, 1000.0 * factor)).collect(); 50];
         let usual = Usual::of(&of(&[(0, 1.0), (1, 1.0)]));
         let times: Vec<Vec<(u32, f64)>> = of(processes);
+        let pace = Pace::of(&times, &usual, None);
         Found {
             exponent,
             processes: processes.len(),
             n: times.len(),
             mean_ns: mean(&times),
-            pace: Pace::of(&times, &usual, None),
+            alone: pace.clone(),
+            pace,
             tally,
             common: [tally, file],
         }
@@ -194,14 +200,17 @@ mod tests {
         assert_eq!(dependence(&three([(0, 0.6), (2, 0.6)], 0)), None, "within the spread of the clock");
         assert_eq!(dependence(&three(SAME, 1)), None, "one wrong answer may be chance");
         assert_eq!(dependence(&[]), None);
-        // Four times as quick beside the reference algorithm, and hardly quicker by itself: it was the reference's bad moment.
+        // Four times as quick beside the reference algorithm: it was the reference's bad moment where it is as quick as ever by
+        // itself, or even slower on the mean, for which one interruption is enough.
         let mut beside = three([(0, 0.25), (2, 0.25)], 0);
-        for (unit, mean_ns) in [(0, 28_000.0), (1, 20_000.0)] {
-            beside[unit].mean_ns = Some(Estimated { value: mean_ns, lo: mean_ns, hi: mean_ns });
+        for unit in &mut beside {
+            unit.mean_ns = Some(Estimated { value: 28_000.0, lo: 28_000.0, hi: 28_000.0 });
         }
-        assert_eq!(dependence(&beside), None);
-        beside[1].mean_ns = Some(Estimated { value: 7_000.0, lo: 7_000.0, hi: 7_000.0 });
         assert!(dependence(&beside).is_some());
+        for of_it in [[(0, 0.9), (2, 1.0)], [(0, 4.0), (2, 4.0)]] {
+            beside[1].alone = three(of_it, 0).remove(1).alone;
+            assert_eq!(dependence(&beside), None);
+        }
         // What was asked in another unit alone has nothing to be compared with.
         assert_eq!(dependence(&three([(0, 9.0), (2, 9.0)], 9)[1..]), None);
     }
