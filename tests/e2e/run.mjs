@@ -10,7 +10,7 @@ import { apart, root, startService } from './service.mjs'
 const here = join(root, 'tests/e2e')
 const chosen = process.argv.slice(2)
 // The long ones first, so that none of them is left alone at the end.
-const LONG = ['1-', '7-', '5-', '2-stock', '6-', '9-campaign', '9-advisor']
+const LONG = ['1-', '7-', '5-', '2-stock', '6-', '2-wall', '9-workload', '9-campaign']
 const rank = (file) => [...LONG, ''].findIndex((start) => file.startsWith(start))
 const journeys = readdirSync(join(here, 'journeys'))
   .filter((f) => f.endsWith('.test.mjs') && (chosen.length === 0 || chosen.some((c) => f.startsWith(c))))

@@ -113,6 +113,11 @@ async function colours(context, locator) {
   }
 }
 
+/** Chooses these algorithms in the builder and no others. */
+export async function choose(v, chosen) {
+  for (const { id } of await v.api('/algorithms')) await v.at(`algorithm-${id}`).setChecked(chosen.includes(id))
+}
+
 /** The run's id from the address of its page. */
 export async function runId(page) {
   await page.waitForURL(/\/r\/[0-9a-f-]{36}/)

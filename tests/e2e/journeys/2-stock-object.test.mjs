@@ -1,12 +1,7 @@
 // From a stock object to a picked value: builder, live page, explorer.
 import assert from 'node:assert/strict'
 import { test } from 'node:test'
-import { measured, runId, until, visitor } from '../visitor.mjs'
-
-/** Chooses these algorithms and no others. */
-async function choose(v, chosen) {
-  for (const { id } of await v.api('/algorithms')) await v.at(`algorithm-${id}`).setChecked(chosen.includes(id))
-}
+import { choose, measured, runId, until, visitor } from '../visitor.mjs'
 
 /** Chooses the torus knot and a set of `count` configurations, measured quickly. */
 async function build(v, count) {

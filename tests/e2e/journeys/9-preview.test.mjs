@@ -1,11 +1,11 @@
 // The cheaper run first: a quick look, what more would buy, and the same run refined.
 import assert from 'node:assert/strict'
 import { test } from 'node:test'
-import { runId, until, visitor } from '../visitor.mjs'
+import { choose, runId, until, visitor } from '../visitor.mjs'
 
 const WHOLE = 6000
 
-/** Random poses of a small knot against itself: all but free to find. */
+/** Random poses of a small knot against itself, all but free to find, for two algorithms: each more takes half a minute. */
 async function build(v) {
   await v.go('/new')
   await v.at('stock-card-torus-knot').click()
@@ -13,6 +13,7 @@ async function build(v) {
   await v.at('method-random').click()
   await v.at('count').fill(String(WHOLE))
   await v.at('passes').fill('3')
+  await choose(v, ['box-tree', 'ocb-fast'])
   await until('an estimate', async () => (await v.value('estimate-configurations')) === WHOLE)
   await v.at('efforts').waitFor()
 }

@@ -12,6 +12,7 @@ import { until, visitor } from '../visitor.mjs'
 async function upload(v, file, passes = 2) {
   await v.go('/workloads')
   await v.at('workload-file').setInputFiles(file)
+  await v.at('algorithm-box-tree').waitFor()
   for (const box of await v.page.locator('[data-testid^="algorithm-"]').all()) await box.uncheck()
   await v.page.getByText('Choose at least one algorithm.').waitFor()
   assert.ok(await v.at('workload-start').isDisabled())

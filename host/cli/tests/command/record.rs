@@ -6,6 +6,7 @@ mod coal;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::LazyLock;
 
 use ocb_core::workload::{Kind, Recorded};
 use ocb_service::Recording;
@@ -29,20 +30,20 @@ fn said(Output { status, stdout, stderr }: Output) -> (i32, String, String) {
 }
 
 /// A C++ program, compiled as its author would.
-fn compiled(desk: &Desk, name: &str, options: &[&str]) -> PathBuf {
-    let program = desk.path(name);
+fn compiled(name: &str, options: &[&str]) -> PathBuf {
+    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let new = program.with_extension(std::process::id().to_string());
     let mut compiler = command("c++");
     compiler.args(["-std=c++17", "-O2", "-isystem", "/usr/include/eigen3"]);
-    compiler.arg(format!("{ROOT}/tests/record/{name}.cpp")).arg("-o").arg(&program).args(options).arg("-pthread");
+    compiler.arg(format!("{ROOT}/tests/record/{name}.cpp")).arg("-o").arg(&new).args(options).arg("-pthread");
     let (code, _, stderr) = said(compiler.output().expect("a compiler"));
     assert_eq!(code, 0, "{stderr}");
+    std::fs::rename(new, &program).expect("the program");
     program
 }
 
-/// The program on FCL.
-fn robot(desk: &Desk) -> PathBuf {
-    compiled(desk, "robot", &["-lfcl", "-lccd"])
-}
+/// The program on FCL; to compile it takes longer than the tests.
+static ROBOT: LazyLock<PathBuf> = LazyLock::new(|| compiled("robot", &["-lfcl", "-lccd"]));
 
 /// Python with the libraries, and a program.
 fn python(program: &str) -> [PathBuf; 2] {
@@ -98,9 +99,9 @@ fn dropped(recording: &Recording) -> Vec<(&str, u64)> {
 #[test]
 fn a_program_on_libfcl_gives_the_same_answers_and_is_recorded() {
     let desk = Desk::new();
-    let robot = robot(&desk);
-    let plain = said(command(&robot).arg("20").output().expect("it starts"));
-    let (code, stdout, stderr) = record(&desk, "r.ocbrec", &[], &[&robot], &["20"]);
+    let robot = ROBOT.as_path();
+    let plain = said(command(robot).arg("20").output().expect("it starts"));
+    let (code, stdout, stderr) = record(&desk, "r.ocbrec", &[], &[robot], &["20"]);
     assert_eq!((code, &stdout), (CODE, &plain.1), "{stderr}");
     assert_eq!(plain.0, CODE);
     assert!(stderr.contains("1 queries (a cone is not a recorded kind of object)"), "{stderr}");
@@ -197,8 +198,8 @@ fn coal_and_mujoco_are_recorded_in_python() {
 #[test]
 fn what_a_killed_program_asked_is_kept() {
     let desk = Desk::new();
-    let robot = robot(&desk);
-    let (code, stdout, stderr) = record(&desk, "r.ocbrec", &[], &[&robot], &["30", "killed"]);
+    let robot = ROBOT.as_path();
+    let (code, stdout, stderr) = record(&desk, "r.ocbrec", &[], &[robot], &["30", "killed"]);
     assert_eq!(code, KILLED, "{stderr}");
     assert!(stderr.contains("ended by signal 9"), "{stderr}");
     let queries = read(&desk, "r.ocbrec").queries;
@@ -214,9 +215,9 @@ fn what_a_killed_program_asked_is_kept() {
 #[test]
 fn of_too_many_queries_whole_groups_are_kept() {
     let desk = Desk::new();
-    let robot = robot(&desk);
-    record(&desk, "all.ocbrec", &[], &[&robot], &["100"]);
-    record(&desk, "few.ocbrec", &["--limit", "100"], &[&robot], &["100"]);
+    let robot = ROBOT.as_path();
+    record(&desk, "all.ocbrec", &[], &[robot], &["100"]);
+    record(&desk, "few.ocbrec", &["--limit", "100"], &[robot], &["100"]);
     let (all, few) = (read(&desk, "all.ocbrec"), read(&desk, "few.ocbrec"));
     assert!((40..=101).contains(&few.queries.len()), "{}", few.queries.len());
     assert_eq!(few.about.seen, all.about.seen);

@@ -2,25 +2,33 @@
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use super::{CODE, Desk, KILLED, ROOT, assert_as_printed, command, compiled, dropped, python, read, record, said};
 
+/// Where the wheel of Coal is.
+fn coal() -> String {
+    format!("{ROOT}/.tools/coal/cmeel.prefix")
+}
+
 /// The program, linked with Coal as its wheel ships it.
-fn robot(desk: &Desk) -> PathBuf {
-    let coal = format!("{ROOT}/.tools/coal/cmeel.prefix");
-    assert!(Path::new(&coal).join("lib/libcoal.so").exists(), "not run: Coal is not installed");
+fn robot() -> &'static Path {
+    static ROBOT: LazyLock<PathBuf> = LazyLock::new(|| {
+        let (include, lib) = (format!("-isystem{}/include", coal()), format!("-L{}/lib", coal()));
+        compiled("coal_robot", &[&include, &lib, "-lcoal", &format!("-Wl,-rpath,{}/lib", coal())])
+    });
+    assert!(Path::new(&coal()).join("lib/libcoal.so").exists(), "not run: Coal is not installed");
     let recorder = Path::new(env!("CARGO_BIN_EXE_ocb")).with_file_name("record/libocb_record_coal.so");
     assert!(recorder.exists(), "{} is missing; run `make recorders` first", recorder.display());
-    let (include, lib) = (format!("-isystem{coal}/include"), format!("-L{coal}/lib"));
-    compiled(desk, "coal_robot", &[&include, &lib, "-lcoal", &format!("-Wl,-rpath,{coal}/lib")])
+    &ROBOT
 }
 
 #[test]
 fn a_program_on_libcoal_gives_the_same_answers_and_is_recorded() {
     let desk = Desk::new();
-    let robot = robot(&desk);
-    let plain = said(command(&robot).arg("20").output().expect("it starts"));
-    let (code, stdout, stderr) = record(&desk, "c.ocbrec", &[], &[&robot], &["20"]);
+    let robot = robot();
+    let plain = said(command(robot).arg("20").output().expect("it starts"));
+    let (code, stdout, stderr) = record(&desk, "c.ocbrec", &[], &[robot], &["20"]);
     assert_eq!((code, &stdout), (CODE, &plain.1), "{stderr}");
     assert_eq!(plain.0, CODE, "{}", plain.2);
 
@@ -79,8 +87,8 @@ fn what_pinocchio_asks_from_python_is_recorded() {
 #[test]
 fn what_a_killed_program_on_libcoal_asked_is_kept() {
     let desk = Desk::new();
-    let robot = robot(&desk);
-    let (code, stdout, stderr) = record(&desk, "k.ocbrec", &[], &[&robot], &["30", "killed"]);
+    let robot = robot();
+    let (code, stdout, stderr) = record(&desk, "k.ocbrec", &[], &[robot], &["30", "killed"]);
     assert_eq!(code, KILLED, "{stderr}");
     let queries = read(&desk, "k.ocbrec").queries;
     assert_eq!((queries.len(), assert_as_printed(&queries, &stdout)), (450, 450));
