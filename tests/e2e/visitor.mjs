@@ -20,8 +20,7 @@ after(async () => (await browser)?.close())
 /** Opens a profile for test `t`, on the service of the journeys or the one at `base`; it is closed, and its problems are asserted to be none, when the test ends. */
 export async function visitor(t, { scheme = 'light', width = 1280, height = 900, base = url } = {}) {
   const context = await (await opened()).newContext({ colorScheme: scheme, viewport: { width, height }, acceptDownloads: true })
-  // Longer than any page takes, beside other work as well.
-  context.setDefaultTimeout(60_000)
+  context.setDefaultTimeout(30_000)
   const page = await context.newPage()
   const problems = []
   const expected = new Set()

@@ -50,7 +50,7 @@ def make_copy() -> None:
 
 def run_tests(test: str, sound: dict[str, float], setting: str, finder: str | None = None) -> str | None:
     """What failed, if anything did. `sound`: seconds that the parts of a test program take without a fault, where known.
-    `finder`: a test that is run before all others."""
+    `finder`: a test of the oracle that is run before all others."""
     environment = os.environ | {"CARGO_TARGET_DIR": str(target), "RUST_BACKTRACE": "0", "CARGO_TERM_COLOR": "never"}
     environment.setdefault("OCB_SHARED", str(root.parent / "shared"))
     # Another profile than that of the workspace: else the core with a fault would lie where the next build looks for its own,
@@ -144,9 +144,10 @@ def main() -> None:
         started = time.monotonic()
         file = copy / sources / fault["file"]
         whole = file.read_text()
+        finder = fault["quick"] if which == "quick" else None
         file.write_text(whole.replace(fault["find"], fault["replace"]))
         try:
-            failed = run_tests(fault.get("test", "oracle"), sound, setting, fault.get("quick"))
+            failed = run_tests(fault.get("test", "oracle"), sound, setting, finder)
         finally:
             file.write_text(whole)
         if not failed:

@@ -127,9 +127,9 @@ impl Pace {
         Some(Interval { value, lo, hi })
     }
 
-    /// Slower or faster than in the other unit: every process in one takes more than [`FACTOR`] times as long as every process in
+    /// Whether it is slower or faster than in the other unit: every process in one takes more than [`FACTOR`] times as long as every process in
     /// the other. Absent otherwise.
-    pub fn beside(&self, other: &Self) -> Option<Ordering> {
+    pub fn differs_from(&self, other: &Self) -> Option<Ordering> {
         let enough = self.0.len().min(other.0.len()) >= LEAST_PROCESSES;
         let (one, other) = self.spread().zip(other.spread()).filter(|_| enough)?;
         let slower = (one.lo > FACTOR * other.hi).then_some(Ordering::Greater);
@@ -161,8 +161,8 @@ mod tests {
     fn a_time_depends_on_the_unit_when_every_process_is_beyond_the_factor() {
         let differs = |n, elsewhere: &[(u32, f64)]| {
             let [official, other] = pace(n, elsewhere);
-            assert_eq!(official.beside(&other).map(Ordering::reverse), other.beside(&official));
-            other.beside(&official)
+            assert_eq!(official.differs_from(&other).map(Ordering::reverse), other.differs_from(&official));
+            other.differs_from(&official)
         };
         assert_eq!(differs(100, &[(0, 1.7), (2, 1.8)]), Some(Ordering::Greater), "slower");
         assert_eq!(differs(100, &[(0, 0.5), (2, 0.6)]), Some(Ordering::Less), "faster");

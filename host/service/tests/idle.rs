@@ -245,7 +245,8 @@ async fn advice_of_an_example_gives_way_and_ends_later() {
     let put_back = "SELECT COUNT(*) FROM attempts WHERE kind = 'advise' AND outcome = 'put back'";
     until(&database, put_back, |times: &i64| *times == 1).await;
     // The rest of it is about a smaller object, which takes seconds.
-    let smaller = "UPDATE advice SET info = REPLACE(info, 'torus-knot@8000', 'torus-knot@600') WHERE owner IS NULL";
+    let smaller = "UPDATE advice SET info = REPLACE(info, 'torus-knot@8000', 'torus-knot@600') \
+                   WHERE owner IS NULL AND info LIKE '%torus-knot@8000%'";
     assert_eq!(sqlx::query(smaller).execute(&database).await.unwrap().rows_affected(), 1);
     let refused = engine.cancel_advice(&id, Some("me")).await.unwrap_err();
     assert!(matches!(refused, EngineError::Forbidden(_)), "it is nobody's: {refused}");

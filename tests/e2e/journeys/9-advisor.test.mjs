@@ -3,7 +3,7 @@ import assert from 'node:assert/strict'
 import { test } from 'node:test'
 import { until, url, visitor } from '../visitor.mjs'
 
-/** A knot of few triangles among the visitor's own objects: advice on that of the list takes a minute and more. */
+/** A knot of few triangles among the visitor's own objects: advice on the stock object takes much longer. */
 async function smallKnot(v) {
   const mesh = await v.context.request.get(`${url}/api/v1/objects/stock:torus-knot@1000/mesh.glb`)
   const multipart = { file: { name: 'knot.glb', mimeType: 'model/gltf-binary', buffer: await mesh.body() } }

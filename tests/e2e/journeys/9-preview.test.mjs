@@ -5,7 +5,7 @@ import { choose, runId, until, visitor } from '../visitor.mjs'
 
 const WHOLE = 6000
 
-/** Random poses of a small knot against itself, all but free to find, for two algorithms: each more takes half a minute. */
+/** Random poses of a small knot against itself, all but free to find, for two algorithms: all of them take minutes. */
 async function build(v) {
   await v.go('/new')
   await v.at('stock-card-torus-knot').click()

@@ -50,12 +50,14 @@ impl Found {
     /// Slower or faster than in the unit of the files, beside the reference algorithm and by itself: another program may have
     /// slowed down one of the two, in one unit and not in the other.
     fn is_apart(&self, file: &Self) -> bool {
-        let beside = self.pace.beside(&file.pace);
+        let differs = self.pace.differs_from(&file.pace);
         let paces = self.alone.spread().zip(file.alone.spread());
         let differ = |(usual, (here, there)): (Estimated, (Interval, Interval))| {
             (here.value - there.value).abs() * usual.value >= LEAST_NS
         };
-        beside.is_some() && beside == self.alone.beside(&file.alone) && file.mean_ns.zip(paces).is_some_and(differ)
+        differs.is_some()
+            && differs == self.alone.differs_from(&file.alone)
+            && file.mean_ns.zip(paces).is_some_and(differ)
     }
 
     /// For tables and pages.
