@@ -8,7 +8,7 @@ use super::support::{Algorithm, configurations, hit, mesh};
 
 const OBJECT: &str = "bunny65k";
 /// The powers of two by which the scene is multiplied, which rounds nothing.
-const SCALES: [i32; 5] = [10, 0, -3, -4, -6];
+const SCALES: [i32; 5] = [10, 0, -3, -4, -5];
 /// Configurations of each set.
 const COUNT: usize = 20;
 

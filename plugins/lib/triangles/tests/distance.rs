@@ -30,10 +30,11 @@ fn place(t: Triangle, [x, y, z]: [Vector; 3], origin: Vector) -> Triangle {
     t.map(|p| add_scaled(add_scaled(add_scaled(origin, p[0], x), p[1], y), p[2], z))
 }
 
-/// Three orthonormal directions.
+/// Three orthonormal directions, also where the two given ones are almost the same: then one step is not orthogonal enough.
 fn axes(seed: Vector, other: Vector) -> [Vector; 3] {
     let z = unit(seed);
     let x = unit(cross(z, add(other, [0.011, 0.027, 0.039])));
+    let x = unit(add_scaled(x, -dot(x, z), z));
     [x, cross(z, x), z]
 }
 
