@@ -73,11 +73,10 @@ impl Algorithm for Faulty {
             let long = Duration::from_millis(60).max(60 * begun.elapsed());
             while begun.elapsed() < long {}
         }
-        let near = |limit: f64| scene.nearest().is_some_and(|(closest, _)| closest.squared.sqrt() <= limit);
         let found = scene.first().map_or(Collision::Apart, |[i, j]| Collision::Pair(i, j));
         Ok(match self.fault {
             // An absolute length decides.
-            1 if near(1e-6) => Collision::Somewhere,
+            1 if scene.near(1e-6) => Collision::Somewhere,
             // What is in the box of the other object counts as inside.
             16 if scene.enclosed() => Collision::Somewhere,
             _ => found,
@@ -218,6 +217,17 @@ impl Scene {
         all.min_by(|(one, _), (other, _)| one.squared.total_cmp(&other.squared))
     }
 
+    /// No further apart than this. Only pairs whose boxes are so near are looked at: the search for failures asks hundreds of times.
+    fn near(&self, limit: f64) -> bool {
+        let boxes = |all: &[Triangle]| all.iter().map(bounds).collect::<Vec<_>>();
+        let (boxes_a, boxes_b) = (boxes(&self.a), boxes(&self.b));
+        let apart = |[low, high]: &[Vector; 2], [other_low, other_high]: &[Vector; 2]| {
+            (0..3).any(|k| low[k] - limit > other_high[k] || other_low[k] - limit > high[k])
+        };
+        let near = |i: usize, j: usize| distance(&self.a[i], &self.b[j]).squared.sqrt() <= limit;
+        (0..self.a.len()).any(|i| (0..self.b.len()).any(|j| !apart(&boxes_a[i], &boxes_b[j]) && near(i, j)))
+    }
+
     /// The centres of both are hardly apart.
     fn deep(&self) -> bool {
         self.a.len() > 100 && norm(self.frame.offset) < 0.02
@@ -249,6 +259,11 @@ fn normal(t: &Triangle) -> Vector {
 
 fn norm(v: Vector) -> f64 {
     dot(v, v).sqrt()
+}
+
+/// Lowest and highest coordinates.
+fn bounds(t: &Triangle) -> [Vector; 2] {
+    [f64::min, f64::max].map(|of| std::array::from_fn(|k| of(of(t[0][k], t[1][k]), t[2][k])))
 }
 
 /// Longer than wide by more than this.
