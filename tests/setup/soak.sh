@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # soak.sh MINUTES: first at full size what the tests do in slices: a million files for the jail's gate and a million for the
 # readers of objects, ten million messages for the supervisor, a thousand trials, a hundred rounds of honest plugins (OCB_FUZZ,
-# OCB_TRIALS, OCB_HONEST), ten million pairs of triangles for the oracle's filters (OCB_PAIRS), a hundred thousand
+# OCB_TRIALS, OCB_HONEST), ten measurements of attacks that statistics find (OCB_MEASUREMENTS), ten million pairs of triangles for the oracle's filters (OCB_PAIRS), a hundred thousand
 # configurations that no certified level of detail may contradict (OCB_HELD_OUT), a hundred runs that end early
 # (OCB_REPETITIONS); the service is killed two hundred times (OCB_KILLS), two hundred visitors come for a minute
 # (OCB_LOAD_SECONDS), and must not change sixty runs (OCB_LOAD_ROUNDS), every route is asked a hundred times and more
@@ -17,6 +17,7 @@ minutes=${1:?usage: soak.sh MINUTES}
 export OCB_FUZZ=${OCB_FUZZ:-1000000} OCB_TRIALS=${OCB_TRIALS:-1000} OCB_HONEST=${OCB_HONEST:-100}
 export OCB_PAIRS=${OCB_PAIRS:-10000000} OCB_REPETITIONS=${OCB_REPETITIONS:-100}
 cargo test --release --workspace --test fuzz --test leftovers --test honest_plugins -- --nocapture
+OCB_MEASUREMENTS=${OCB_MEASUREMENTS:-10} cargo test --release --workspace --test catalogue -- --nocapture
 cargo test --release --workspace --lib troublesome_pairs -- --nocapture
 cargo test --release --workspace --test early --test early_stopping -- --nocapture
 cargo build --release --workspace

@@ -104,7 +104,9 @@ impl Expected {
             (Expected::Harmless, Outcome::Completed) => ran.caught.is_empty() && ran.wrong == 0,
             (Expected::Wrong | Expected::WrongOrViolation, Outcome::Completed) => ran.wrong_in == PROCESSES,
             (Expected::WrongOrViolation, Outcome::ProtocolViolation { phase: p, .. }) => *p == phase,
-            (Expected::Caught(checks), Outcome::Completed) => ran.wrong == 0 && found(&ran.caught, checks) >= FOUND,
+            (Expected::Caught(checks), Outcome::Completed) => {
+                ran.wrong == 0 && found(&ran.caught, checks) >= ran.measurements * FOUND / MEASUREMENTS
+            }
             (Expected::SaysAlike(words), Outcome::Failed { .. }) => Expected::Says(words).met_by(ran, phase),
             (Expected::Judged(verdicts), Outcome::Completed) => ran.verdicts == verdicts,
             (Expected::WorkSeen, Outcome::Completed) => ran.shortest_ns > LEAST_WORK_NS,

@@ -131,7 +131,8 @@ fn every_attack_has_its_outcome() {
     assert!(wrong.is_empty(), "{} of {} went otherwise:\n{}", wrong.len(), all.len(), wrong.join("\n"));
 }
 
-/// An attack that statistics find is found in at least nine of ten measurements on quiet CPUs; the test prints in how many.
+/// An attack that statistics find is found in at least nine of ten measurements on quiet CPUs, of which the campaign makes all and
+/// others three; the test prints in how many.
 #[test]
 fn attacks_on_many_questions_have_their_outcome() {
     let _alone = alone();

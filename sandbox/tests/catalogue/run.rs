@@ -24,13 +24,16 @@ pub struct Ran {
     pub wrong_in: usize,
     /// The checks that measurements did not meet, one of each that did not.
     pub caught: Vec<Finding>,
+    /// How many there were.
+    pub measurements: usize,
 }
 
 impl Ran {
     /// Nothing came of it yet.
     pub fn new() -> Self {
         let ending = Ending::from(Outcome::Completed);
-        Ran { ending, shortest_ns: 0.0, bounded: true, verdicts: vec![], wrong: 0, wrong_in: 0, caught: vec![] }
+        let (verdicts, caught) = (vec![], vec![]);
+        Ran { ending, shortest_ns: 0.0, bounded: true, verdicts, wrong: 0, wrong_in: 0, caught, measurements: 0 }
     }
 }
 

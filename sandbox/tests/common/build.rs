@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
+use std::time::SystemTime;
 
 use ocb_sandbox::protocol::{answer, request};
 
@@ -11,7 +12,7 @@ const CPP: &[&str] = &["-std=gnu++17", "-O1", "-fPIC", "-shared", "-fvisibility=
 const RUST: &[&str] = &["--edition", "2024", "-O"];
 const INCLUDE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../plugin-api/include");
 /// The plugin's side of the interface in Rust, which depends on nothing.
-const INTERFACE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../plugin-api/src/lib.rs");
+const INTERFACE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../plugin-api/src");
 
 /// `fixtures/fixture.c` with these faults.
 pub fn fixture(defines: &[&str]) -> PathBuf {
@@ -46,7 +47,7 @@ pub fn honest(name: &str) -> PathBuf {
     let from = source(&format!("honest/{name}"));
     let interface = once("libopencollbench_plugin.rlib", |file| {
         let crate_name = ["--crate-type", "rlib", "--crate-name", "opencollbench_plugin"];
-        rustc(&[RUST, &crate_name, &[INTERFACE, "-o", file]].concat());
+        rustc(&[RUST, &crate_name, &[&format!("{INTERFACE}/lib.rs"), "-o", file]].concat());
     });
     let interface = format!("opencollbench_plugin={}", interface.display());
     once(&format!("{name}.so"), |file| match name.rsplit('.').next() {
@@ -60,18 +61,39 @@ fn source(name: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures").join(name).to_str().unwrap().into()
 }
 
-/// The file of that name, made by the first who asks, one at a time.
+/// The file of that name, made by the first who asks, one at a time, unless it is newer than all that it is made of.
 fn once(name: &str, make: impl FnOnce(&str)) -> PathBuf {
-    static MADE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-    let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    static MAKING: Mutex<()> = Mutex::new(());
+    let _one = MAKING.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = std::env::current_exe().unwrap().with_extension("fixtures");
     std::fs::create_dir_all(&folder).unwrap();
     let file = folder.join(name);
-    if !made.contains(&file) {
-        make(file.to_str().unwrap());
-        made.push(file.clone());
+    if changed(&file).is_none_or(|made| made <= newest_source()) {
+        // Whoever is interrupted leaves no half of it behind.
+        let part = folder.join(format!("part-{name}"));
+        make(part.to_str().unwrap());
+        std::fs::rename(part, &file).unwrap();
     }
     file
+}
+
+/// When the newest of this program, the fixtures' sources and the interface was written.
+fn newest_source() -> SystemTime {
+    static NEWEST: OnceLock<SystemTime> = OnceLock::new();
+    *NEWEST.get_or_init(|| {
+        let mut left = vec![std::env::current_exe().unwrap(), source("").into(), INCLUDE.into(), INTERFACE.into()];
+        let mut newest = SystemTime::UNIX_EPOCH;
+        while let Some(path) = left.pop() {
+            newest = newest.max(changed(&path).unwrap());
+            let inside = std::fs::read_dir(&path).into_iter().flatten();
+            left.extend(inside.map(|entry| entry.unwrap().path()));
+        }
+        newest
+    })
+}
+
+fn changed(path: &Path) -> Option<SystemTime> {
+    std::fs::metadata(path).and_then(|file| file.modified()).ok()
 }
 
 /// Runs the C compiler, which compiles C++ as well.
