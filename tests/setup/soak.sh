@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
 # soak.sh MINUTES: first at full size what the tests do in slices: a million files for the jail's gate and a million for the
 # readers of objects, ten million messages for the supervisor, a thousand trials, a hundred rounds of honest plugins (OCB_FUZZ,
-# OCB_TRIALS, OCB_HONEST), ten measurements of attacks that statistics find (OCB_MEASUREMENTS), ten million pairs of triangles for the oracle's filters (OCB_PAIRS), a hundred thousand
-# configurations that no certified level of detail may contradict (OCB_HELD_OUT), a hundred runs that end early
-# (OCB_REPETITIONS); the service is killed two hundred times (OCB_KILLS), two hundred visitors come for a minute
-# (OCB_LOAD_SECONDS), and must not change sixty runs (OCB_LOAD_ROUNDS), every route is asked a hundred times and more
-# (OCB_API_EXAMPLES), and an honest visitor goes on beside hostile ones and ten thousand waiting runs for an hour
-# (OCB_HOSTILE_MINUTES); a thousand runs are shared by machines that are killed a hundred times (OCB_MACHINE_RUNS,
-# OCB_MACHINE_KILLS); two hundred runs of forged plugins, in an hour and a half (OCB_FORGERS), which want a machine with
-# nothing else on it; the libraries built for this CPU (`make plugins-native`) answer as they should, and so does all that is
-# portable on aarch64 under qemu; systemd runs the units of the Debian package in a virtual machine. Then the restart tests (the
-# service is killed at every stage of a run) over and over. The first failure ends it; the last line says how often they passed.
+# OCB_TRIALS, OCB_HONEST), ten measurements of attacks that statistics find (OCB_MEASUREMENTS), ten million pairs of triangles
+# for the oracle's filters (OCB_PAIRS), a hundred thousand configurations that no certified level of detail may contradict
+# (OCB_HELD_OUT), a hundred runs that end early (OCB_REPETITIONS); the service is killed two hundred times (OCB_KILLS), two
+# hundred visitors come for a minute (OCB_LOAD_SECONDS), and must not change sixty runs (OCB_LOAD_ROUNDS), every route is asked
+# a hundred times and more (OCB_API_EXAMPLES), and an honest visitor goes on beside hostile ones and ten thousand waiting runs
+# for an hour (OCB_HOSTILE_MINUTES); a thousand runs are shared by machines that are killed a hundred times (OCB_MACHINE_RUNS,
+# OCB_MACHINE_KILLS); two hundred runs of forged plugins, in an hour and a half (OCB_FORGERS), which want a machine with nothing
+# else on it; the libraries built for this CPU (`make plugins-native`) answer as they should, and so does all that is portable
+# on aarch64 under qemu; systemd runs the units of the Debian package in a virtual machine. Then the restart tests (the service
+# is killed at every stage of a run) over and over. The first failure ends it; the last line says how often they passed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 minutes=${1:?usage: soak.sh MINUTES}

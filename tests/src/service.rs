@@ -197,16 +197,25 @@ impl Guest {
         run["id"].as_str().expect("an id").to_owned()
     }
 
-    /// Looks at the run until `enough` of it, and gives it as it was then.
+    /// Looks at the run until `enough` of it, and gives it as it was then. What may be over in a moment wants [`Guest::catch`].
     pub fn wait(&self, service: &Service, run: &str, what: &str, enough: impl Fn(&Value) -> bool) -> Value {
+        self.until(service, run, Duration::from_millis(50), what, enough)
+    }
+
+    /// The same in a hurry, which keeps a CPU busy.
+    pub fn catch(&self, service: &Service, run: &str, what: &str, enough: impl Fn(&Value) -> bool) -> Value {
+        self.until(service, run, Duration::from_millis(5), what, enough)
+    }
+
+    fn until(&self, at: &Service, run: &str, every: Duration, what: &str, enough: impl Fn(&Value) -> bool) -> Value {
         let end = Instant::now() + Duration::from_secs(180);
         loop {
-            let now = self.get(service, &format!("/runs/{run}"));
+            let now = self.get(at, &format!("/runs/{run}"));
             if enough(&now) {
                 return now;
             }
             assert!(Instant::now() < end, "waited in vain until {what}: {now}");
-            std::thread::sleep(Duration::from_millis(5));
+            std::thread::sleep(every);
         }
     }
 }

@@ -58,7 +58,7 @@ fn finishes_after_a_kill(what: &str, count: u32, there: impl Fn(&Value) -> bool)
     for _ in 0..20 {
         let service = Service::start_with(&data, &PLUGINS);
         let id = guest.submit(&service, &spec(count));
-        let seen = guest.wait(&service, &id, what, |run| there(run) || run["state"] == "done");
+        let seen = guest.catch(&service, &id, what, |run| there(run) || run["state"] == "done");
         let runners = descendants(service.pid());
         service.kill();
         assert_gone(&runners);

@@ -41,7 +41,7 @@ fn wait(what: &str, within: Duration, there: impl Fn() -> bool) {
     let end = Instant::now() + within;
     while !there() {
         assert!(Instant::now() < end, "waited in vain until {what}");
-        std::thread::sleep(Duration::from_millis(20));
+        std::thread::sleep(Duration::from_millis(200));
     }
 }
 
