@@ -115,7 +115,7 @@ def run(waiting: list[Program]) -> list[Program]:
     """Those that failed. The longest starts first that may run beside what runs."""
     running: dict[int, Program] = {}
     ended: list[tuple[Program, float, float]] = []
-    failed = []
+    failed, begun = [], time.monotonic()
     try:
         while waiting or running:
             free = PLACES - sum(map(place, running.values()))
@@ -125,7 +125,7 @@ def run(waiting: list[Program]) -> list[Program]:
                 waiting.remove(program)
                 program.start()
                 running[program.process.pid] = program
-                print(f"     Started {program.title}", flush=True)
+                print(f"     Started {program.title} after {time.monotonic() - begun:.0f} s", flush=True)
                 continue
             pid, status, used = os.wait4(-1, 0)
             if not (program := running.pop(pid, None)):
@@ -142,6 +142,7 @@ def run(waiting: list[Program]) -> list[Program]:
     print("\nThe longest, in seconds, and the seconds of CPU that they and what they started took:")
     for program, seconds, cpu in sorted(ended, key=lambda of: -of[1])[:25]:
         print(f"{seconds:7.1f} {cpu:7.1f}  {program.kind:8} {program.title}")
+    print(f"{sum(cpu for *_, cpu in ended):15.1f}  all")
     return failed
 
 
