@@ -19,8 +19,8 @@ from typing import IO
 
 root = Path(__file__).resolve().parents[2]
 cargo = ["cargo", "test", "--release", "--workspace"]
-# Three programs side by side on two CPUs, because each waits at times; one that mostly waits leaves half of its place to another.
-PLACES = 3
+# Three programs side by side on two CPUs, because each waits at times, and one more that mostly waits, which takes half of a place.
+PLACES = 3.5
 # So many at a time measure.
 MOST_MEASURE = 2
 # Each has a measuring lock of its own, where it may.
