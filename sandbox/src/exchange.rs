@@ -55,6 +55,8 @@ pub(crate) struct Resting {
     pub told: Instant,
     /// What the runner had computed when it slept; absent where the kernel does not count.
     pub usage: Option<Usage>,
+    /// A wait for its CPU that has begun and is counted when it ends: its part until now, at most so long, nanoseconds.
+    pub waiting_ns: f64,
 }
 
 /// How long one command took.
@@ -156,7 +158,16 @@ impl Exchange {
             std::hint::spin_loop();
         }
         self.settles(REST);
-        Ok(Resting { told, usage: self.meter.read() })
+        Ok(Resting { told, usage: self.meter.read(), waiting_ns: 0.0 })
+    }
+
+    /// The end of a rest, just before the runner is told to go on. On a busy machine it may not even have fallen asleep.
+    pub fn resumed(&self, rest: Option<&Resting>) -> Resting {
+        let (told, ready) = (Instant::now(), self.meter.is_ready());
+        let usage = self.meter.read();
+        let used = rest.and_then(|rest| Some(((told - rest.told).as_nanos() as f64, usage?.since(rest.usage?))));
+        let waiting_ns = used.filter(|_| ready).map_or(0.0, |(rested_ns, used)| uncounted_ns(rested_ns, used));
+        Resting { told, usage, waiting_ns }
     }
 
     /// How long the runner has computed since an earlier rest although nothing was open: more than the time between that rest's
@@ -166,7 +177,7 @@ impl Exchange {
         let Some((then, now_used)) = resumed.usage.zip(now.usage) else { return 0.0 };
         let used = now_used.since(then);
         let open_ns = match self.kind {
-            ClockKind::Spin => (now.told - resumed.told).as_nanos() as f64 - used.delay_ns,
+            ClockKind::Spin => on_cpu_ns((now.told - resumed.told).as_nanos() as f64, used, resumed.waiting_ns),
             ClockKind::Futex => asked_ns + FALLING_ASLEEP_NS * questions as f64,
         };
         (used.run_ns - open_ns - FALLING_ASLEEP_NS).max(0.0)
@@ -397,4 +408,31 @@ impl Exchange {
 
 fn violation(phase: Phase, rule: &str) -> Outcome {
     Outcome::ProtocolViolation { phase, rule: rule.into() }
+}
+
+/// Of so long a rest, what was neither computing nor a wait that has ended.
+fn uncounted_ns(rested_ns: f64, used: Usage) -> f64 {
+    (rested_ns - used.run_ns - used.delay_ns).max(0.0)
+}
+
+/// Of so long a stretch, how long the runner had its CPU. Of a wait that ended in it, the part before it counts for the rest.
+fn on_cpu_ns(stretch_ns: f64, used: Usage, waiting_ns: f64) -> f64 {
+    stretch_ns - (used.delay_ns - waiting_ns).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wait_that_began_in_the_rest_is_none_of_the_stretch() {
+        // It computes in 1 ms of a rest of 15 ms, and then waits for its CPU until 3 ms of a stretch of 20 ms have passed.
+        let waiting_ns = uncounted_ns(15e6, Usage { run_ns: 1e6, delay_ns: 0.0 });
+        let stretch = Usage { run_ns: 17e6, delay_ns: 17e6 };
+        assert_eq!(on_cpu_ns(20e6, stretch, waiting_ns), 17e6);
+        // Without that it had computed 14 ms more than it could.
+        assert_eq!(on_cpu_ns(20e6, stretch, 0.0), 3e6);
+        // Whoever only slept in the rest has waited in the stretch alone.
+        assert_eq!(on_cpu_ns(20e6, Usage { run_ns: 15e6, delay_ns: 5e6 }, 0.0), 15e6);
+    }
 }

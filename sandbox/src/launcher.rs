@@ -1,7 +1,6 @@
 //! From a plugin file to a session that can be asked, or to what the file says of itself.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use ocb_core::mesh::Mesh;
 use ocb_core::query::{Query, Semantics};
@@ -205,8 +204,8 @@ impl Launcher {
                 return Err(Outcome::Failed { phase: Phase::Load, reason });
             }
             // Between its structures and the first question it is to do nothing, and what it does all the same is building.
-            exchange.rest(policy.query_seconds)?;
-            let resumed = Resting { told: Instant::now(), usage: exchange.meter().read() };
+            let rest = exchange.rest(policy.query_seconds)?;
+            let resumed = exchange.resumed(Some(&rest));
             let mut wall_ns = 0.0;
             for mesh in &sheet.meshes {
                 wall_ns += exchange.built(mesh, policy.build_seconds)?.raw_ns;

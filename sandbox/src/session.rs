@@ -1,7 +1,6 @@
 //! One jailed runner, as its supervisor uses it: ask, time, end. A whole pass of questions: `pass.rs`.
 
 use std::marker::PhantomData;
-use std::time::Instant;
 
 use ocb_core::configuration::Configuration;
 use ocb_core::instance::Presented;
@@ -220,8 +219,9 @@ impl Session {
 
     /// Ends a rest: the moment, how long it was, and how much the runner has computed in it all the same, nanoseconds.
     pub(crate) fn resume(&mut self) -> (Resting, [f64; 2]) {
-        let now = Resting { told: Instant::now(), usage: self.usage() };
-        let Some(resting) = self.resting.take() else { return (now, [0.0; 2]) };
+        let resting = self.resting.take();
+        let now = self.exchange.resumed(resting.as_ref());
+        let Some(resting) = resting else { return (now, [0.0; 2]) };
         let computed_ns = now.usage.zip(resting.usage).map_or(0.0, |(now, then)| now.since(then).run_ns);
         (now, [(now.told - resting.told).as_nanos() as f64, computed_ns])
     }

@@ -37,8 +37,8 @@ step build bash -c 'make -sk --jobs=3 pages stock plugins-cpp recorders; made=$?
 step vitest npm --prefix web/app run test
 start_services || broken+=(services)
 step rust tests/setup/rust.py
-# What compares no times goes beside what waits and measures, and gives way to it, but not to all else on a busy machine (at nice 19
-# it got a twentieth of a CPU); one after the other, because two of them compile.
+# What only computes goes beside what waits and measures, and gives way to it, but not to all else on a busy machine (at nice 19 it
+# got a twentieth of a CPU); one after the other, because both compile.
 meanwhile() { # meanwhile NAME COMMAND...: run it, keep its output and how it ended
   nice -n 5 "${@:2}" > "$logs/beside-$1.log" 2>&1 &
   wait $!
@@ -47,15 +47,15 @@ meanwhile() { # meanwhile NAME COMMAND...: run it, keep its output and how it en
 (
   trap 'kill $(jobs -p); exit 143' TERM
   meanwhile faults tests/oracle-check/faults.py quick
-  meanwhile python host/python/test.sh
   meanwhile check make -s check
 ) &
 beside=$!
 step dist host/dist/test.sh
+step python host/python/test.sh
 step browser bash -c 'npm --prefix tests/e2e ci --no-audit --no-fund && npm --prefix tests/e2e test'
 wait "$beside"
 beside=
-for name in faults python check; do
+for name in faults check; do
   step "$name" bash -c 'cat "$1.log"; exit "$(cat "$1.code")"' "$name" "$logs/beside-$name"
 done
 
