@@ -59,6 +59,13 @@ pub(crate) struct Resting {
     pub waiting_ns: f64,
 }
 
+impl Resting {
+    /// How long the runner has waited for its CPU since, of what the kernel has counted since.
+    pub fn waited_ns(&self, counted: Usage) -> f64 {
+        (counted.delay_ns - self.waiting_ns).max(0.0)
+    }
+}
+
 /// How long one command took.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Timed {
@@ -177,7 +184,7 @@ impl Exchange {
         let Some((then, now_used)) = resumed.usage.zip(now.usage) else { return 0.0 };
         let used = now_used.since(then);
         let open_ns = match self.kind {
-            ClockKind::Spin => on_cpu_ns((now.told - resumed.told).as_nanos() as f64, used, resumed.waiting_ns),
+            ClockKind::Spin => (now.told - resumed.told).as_nanos() as f64 - resumed.waited_ns(used),
             ClockKind::Futex => asked_ns + FALLING_ASLEEP_NS * questions as f64,
         };
         (used.run_ns - open_ns - FALLING_ASLEEP_NS).max(0.0)
@@ -415,24 +422,19 @@ fn uncounted_ns(rested_ns: f64, used: Usage) -> f64 {
     (rested_ns - used.run_ns - used.delay_ns).max(0.0)
 }
 
-/// Of so long a stretch, how long the runner had its CPU. Of a wait that ended in it, the part before it counts for the rest.
-fn on_cpu_ns(stretch_ns: f64, used: Usage, waiting_ns: f64) -> f64 {
-    stretch_ns - (used.delay_ns - waiting_ns).max(0.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn a_wait_that_began_in_the_rest_is_none_of_the_stretch() {
-        // It computes in 1 ms of a rest of 15 ms, and then waits for its CPU until 3 ms of a stretch of 20 ms have passed.
+        let resumed = |waiting_ns| Resting { told: Instant::now(), usage: None, waiting_ns };
+        // It computes in 1 ms of a rest of 15 ms, and then waits for its CPU until 3 ms of the stretch have passed: the kernel
+        // counts 17 ms then.
         let waiting_ns = uncounted_ns(15e6, Usage { run_ns: 1e6, delay_ns: 0.0 });
-        let stretch = Usage { run_ns: 17e6, delay_ns: 17e6 };
-        assert_eq!(on_cpu_ns(20e6, stretch, waiting_ns), 17e6);
-        // Without that it had computed 14 ms more than it could.
-        assert_eq!(on_cpu_ns(20e6, stretch, 0.0), 3e6);
-        // Whoever only slept in the rest has waited in the stretch alone.
-        assert_eq!(on_cpu_ns(20e6, Usage { run_ns: 15e6, delay_ns: 5e6 }, 0.0), 15e6);
+        assert_eq!(resumed(waiting_ns).waited_ns(Usage { run_ns: 20e6, delay_ns: 17e6 }), 3e6);
+        // A wait that ended in the rest is counted there already, and whoever slept in it has only waited since.
+        assert_eq!(uncounted_ns(15e6, Usage { run_ns: 1e6, delay_ns: 14e6 }), 0.0);
+        assert_eq!(resumed(0.0).waited_ns(Usage { run_ns: 15e6, delay_ns: 5e6 }), 5e6);
     }
 }

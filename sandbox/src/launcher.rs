@@ -213,8 +213,8 @@ impl Launcher {
             let built = exchange.rest(policy.query_seconds)?;
             let (mut build_ns, single) = (wall_ns, policy.threads == 1);
             if let (Some((then, now)), true) = (resumed.usage.zip(built.usage), single) {
-                build_ns +=
-                    exchange.beside_ns(&resumed, &built, wall_ns, sheet.meshes.len()) - now.since(then).delay_ns;
+                let waited_ns = resumed.waited_ns(now.since(then));
+                build_ns += exchange.beside_ns(&resumed, &built, wall_ns, sheet.meshes.len()) - waited_ns;
             }
             let null = clock.null_median_ns * sheet.meshes.len() as f64;
             let set_up = SetUp { load_ns, build_ns: (build_ns - null).max(clock.resolution_ns()) };
