@@ -105,7 +105,7 @@ impl Expected {
             (Expected::Wrong | Expected::WrongOrViolation, Outcome::Completed) => ran.wrong_in == PROCESSES,
             (Expected::WrongOrViolation, Outcome::ProtocolViolation { phase: p, .. }) => *p == phase,
             (Expected::Caught(checks), Outcome::Completed) => {
-                ran.wrong == 0 && found(&ran.caught, checks) >= ran.measurements * FOUND / MEASUREMENTS
+                ran.wrong == 0 && found(&ran.caught, checks) >= (ran.measurements * FOUND).div_ceil(MEASUREMENTS)
             }
             (Expected::SaysAlike(words), Outcome::Failed { .. }) => Expected::Says(words).met_by(ran, phase),
             (Expected::Judged(verdicts), Outcome::Completed) => ran.verdicts == verdicts,

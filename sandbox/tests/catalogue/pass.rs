@@ -25,7 +25,7 @@ fn measurements() -> usize {
     std::env::var("OCB_MEASUREMENTS").map_or(3, |number| number.parse().expect("OCB_MEASUREMENTS is a number"))
 }
 
-/// Passes in fresh processes: one measurement, or a fixed number where statistics find the attack.
+/// Passes in fresh processes: one measurement, or several where statistics find the attack.
 pub fn ask(launcher: &Launcher, attack: &Attack, defines: &[&str]) -> Ran {
     let mut ran = Ran::new();
     let measurements = if let Expected::Caught(_) = attack.expected { measurements() } else { 1 };

@@ -24,7 +24,7 @@ pub struct Ran {
     pub wrong_in: usize,
     /// The checks that measurements did not meet, one of each that did not.
     pub caught: Vec<Finding>,
-    /// How many there were.
+    /// How many measurements there were.
     pub measurements: usize,
 }
 
