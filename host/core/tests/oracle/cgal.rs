@@ -13,18 +13,23 @@ use crate::common::reference::Grid;
 
 const PAIRS: usize = 20_000;
 
-/// Builds the program, unless it is newer than its source, and lets it answer.
+/// Builds the program, unless it is newer than its source and this program, and lets it answer.
 #[expect(clippy::disallowed_methods, reason = "the second opinion is a program of its own")]
 fn ask_cgal(input: &str) -> String {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/oracle-check/cgal.cpp");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let program = folder.join("cgal");
     let changed = |path: &Path| std::fs::metadata(path).and_then(|file| file.modified()).ok();
-    let new = changed(&program) > changed(&source);
-    let mut compiler = Command::new("c++");
-    compiler.args(["-std=c++17", "-O2", "-o"]).args([&program, &source]).args(["-lmpfr", "-lgmp"]);
-    let built = new || compiler.status().expect("c++ starts").success();
-    assert!(built, "{} needs CGAL (Debian: libcgal-dev); `make check-oracle` installs it", source.display());
+    let this = std::env::current_exe().expect("this program");
+    if changed(&program) <= changed(&source).max(changed(&this)) {
+        // Whoever is interrupted leaves no half of it behind.
+        let part = folder.join("cgal.part");
+        let mut compiler = Command::new("c++");
+        compiler.args(["-std=c++17", "-O2", "-o"]).args([&part, &source]).args(["-lmpfr", "-lgmp"]);
+        let built = compiler.status().expect("c++ starts").success();
+        assert!(built, "{} needs CGAL (Debian: libcgal-dev); `make check-oracle` installs it", source.display());
+        std::fs::rename(part, &program).expect("the program has its name");
+    }
     // By way of a file: nobody has to read and write at once.
     let questions = folder.join("pairs.txt");
     std::fs::write(&questions, input).expect("the pairs are written");
