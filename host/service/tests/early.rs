@@ -55,13 +55,14 @@ async fn the_winner_of_a_part_is_that_of_the_whole() {
         same += u32::from(beside.iter().all(|b| b.fastest == winner(&run)));
         n.push(f64::from(*measured) / *of as f64);
     }
-    // Of each set of measurements some need far more: the usual one counts.
     n.sort_by(f64::total_cmp);
-    let asked = n[n.len() / 2];
+    let mean = n.iter().sum::<f64>() / f64::from(repetitions);
+    // One that other work prolongs makes the mean of three, but not that of the campaign.
+    let asked = if repetitions < 10 { n[n.len() / 2] } else { mean };
     println!(
-        "{same} of {repetitions} name the winner of the whole, {}, in the median at {:.1} % of its questions",
+        "{same} of {repetitions} name the winner of the whole, {}, at {:.1} % of its questions",
         winner(&run),
-        100.0 * asked
+        100.0 * mean
     );
     println!("shares of {} configurations: {n:?}", run.results[0].n);
     assert!(f64::from(repetitions - same) <= (ERROR * f64::from(repetitions)).ceil(), "{same} of {repetitions}");

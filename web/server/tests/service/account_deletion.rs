@@ -59,6 +59,8 @@ async fn what_is_public_outlives_its_account_and_the_rest_is_gone() {
     problem(foreign.json(&json!({ "password": PASSWORD })).send().await.expect("an answer"), 403).await;
     assert_eq!(owner.json("/api/v1/account/deletion-preview").await["goes"]["runs"], 2, "nothing has happened yet");
 
+    let long = owner.json(&format!("/api/v1/runs/{under_way}")).await;
+    assert!(long["state"] == "queued" || long["state"] == "running", "it has ended before its account: {long}");
     let blobs = service.blobs();
     let gone = leave(owner, PASSWORD).await;
     assert!(header(&gone, "set-cookie").starts_with("ocb_session=;"), "{:?}", gone.headers());
