@@ -10,7 +10,7 @@ export const url = process.env.OCB_E2E_URL
 const pictures = process.env.OCB_E2E_PICTURES ?? 'pictures'
 
 // Software WebGL: the machine that runs the tests has no graphics card. Without the last flag, pages too are put together by
-// it, which costs more than all they draw. Chromium's own sandbox needs a user that is not root.
+// it, which took a quarter of the CPU time of three journeys. Chromium's own sandbox needs a user that is not root.
 const FLAGS = ['--no-sandbox', '--disable-dev-shm-usage', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-gpu-compositing']
 
 // One browser for all visitors of a file, started by the first: to start one takes longer than most of them stay.

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # soak.sh MINUTES: first at full size what the tests do in slices: a million files for the jail's gate and a million for the
 # readers of objects, ten million messages for the supervisor, a thousand trials, a hundred rounds of honest plugins (OCB_FUZZ,
-# OCB_TRIALS, OCB_HONEST), ten measurements of attacks that statistics find (OCB_MEASUREMENTS), ten million pairs of triangles
-# for the oracle's filters (OCB_PAIRS), a hundred thousand configurations that no certified level of detail may contradict
-# (OCB_HELD_OUT), a hundred runs that end early (OCB_REPETITIONS); the service is killed two hundred times (OCB_KILLS), two
-# hundred visitors come for a minute (OCB_LOAD_SECONDS), and must not change sixty runs (OCB_LOAD_ROUNDS), every route is asked
-# a hundred times and more (OCB_API_EXAMPLES), and an honest visitor goes on beside hostile ones and ten thousand waiting runs
-# for an hour (OCB_HOSTILE_MINUTES); a thousand runs are shared by machines that are killed a hundred times (OCB_MACHINE_RUNS,
+# OCB_TRIALS, OCB_HONEST), ten measurements of attacks that statistics find (OCB_MEASUREMENTS), the whole of the known sets of
+# the bunny (OCB_REAL_INPUT), ten million pairs of triangles for the oracle's filters (OCB_PAIRS), a hundred thousand
+# configurations that no certified level of detail may contradict (OCB_HELD_OUT), a hundred runs that end early
+# (OCB_REPETITIONS); the service is killed two hundred times (OCB_KILLS), two hundred visitors come for a minute
+# (OCB_LOAD_SECONDS), and must not change sixty runs (OCB_LOAD_ROUNDS), every route is asked a hundred times and more
+# (OCB_API_EXAMPLES), and an honest visitor goes on beside hostile ones and ten thousand waiting runs for an hour
+# (OCB_HOSTILE_MINUTES); a thousand runs are shared by machines that are killed a hundred times (OCB_MACHINE_RUNS,
 # OCB_MACHINE_KILLS); two hundred runs of forged plugins, in an hour and a half (OCB_FORGERS), which want a machine with nothing
 # else on it; the libraries built for this CPU (`make plugins-native`) answer as they should, and so does all that is portable
 # on aarch64 under qemu; systemd runs the units of the Debian package in a virtual machine. Then the restart tests (the service
@@ -18,6 +19,7 @@ export OCB_FUZZ=${OCB_FUZZ:-1000000} OCB_TRIALS=${OCB_TRIALS:-1000} OCB_HONEST=$
 export OCB_PAIRS=${OCB_PAIRS:-10000000} OCB_REPETITIONS=${OCB_REPETITIONS:-100}
 cargo test --release --workspace --test fuzz --test leftovers --test honest_plugins -- --nocapture
 OCB_MEASUREMENTS=${OCB_MEASUREMENTS:-10} cargo test --release --workspace --test catalogue -- --nocapture
+OCB_REAL_INPUT=${OCB_REAL_INPUT:-1000} cargo test --release --workspace --test real_input
 cargo test --release --workspace --lib troublesome_pairs -- --nocapture
 cargo test --release --workspace --test early --test early_stopping -- --nocapture
 cargo build --release --workspace

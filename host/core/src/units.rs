@@ -127,8 +127,8 @@ impl Pace {
         Some(Interval { value, lo, hi })
     }
 
-    /// Whether it is slower or faster than in the other unit: every process in one takes more than [`FACTOR`] times as long as every process in
-    /// the other. Absent otherwise.
+    /// Whether it is slower or faster than in the other unit: every process in one takes more than [`FACTOR`] times as long as
+    /// every process in the other. Absent otherwise.
     pub fn differs_from(&self, other: &Self) -> Option<Ordering> {
         let enough = self.0.len().min(other.0.len()) >= LEAST_PROCESSES;
         let (one, other) = self.spread().zip(other.spread()).filter(|_| enough)?;
