@@ -6,6 +6,7 @@
 mod answers;
 mod csv;
 mod ipc;
+mod lists;
 mod recorded;
 mod records;
 mod sets;

@@ -7,7 +7,7 @@ use arrow_array::{Array, ArrayRef, BooleanArray, Float64Array, RecordBatch, Stri
 use ocb_core::configuration::Configuration;
 use ocb_core::workload::{Answered, Kind, Recorded};
 
-use super::sets::{lists, pose};
+use super::lists::{Poses, lists};
 use super::{SCHEMA_VERSION, batch, column, from_parquet, to_parquet};
 use crate::Result;
 
@@ -55,6 +55,8 @@ fn rows(batch: &RecordBatch, objects: usize, all: &mut Vec<Recorded>) -> std::re
     let (limit, distance, seconds) = (lengths("limit")?, lengths("distance")?, lengths("seconds")?);
     let kind = column::<StringArray>(batch, "kind").map_err(whole)?;
     let hit = column::<BooleanArray>(batch, "hit").map_err(whole)?;
+    let poses = |name| Poses::of(batch, name).map_err(whole);
+    let (pose_a, pose_b) = (poses("pose_a")?, poses("pose_b")?);
     let known = |column: &Float64Array, row| column.is_valid(row).then(|| column.value(row));
     for row in 0..batch.num_rows() {
         let at = |why: String| (row, why);
@@ -64,12 +66,11 @@ fn rows(batch: &RecordBatch, objects: usize, all: &mut Vec<Recorded>) -> std::re
         }
         let kind = kind.value(row);
         let kind = Kind::named(kind).ok_or_else(|| at(format!("{kind:?} is no kind of query")))?;
-        let pose = |name| pose(batch, name, row).map_err(at);
         all.push(Recorded {
             sequence: sequence.value(row),
             group: group.value(row),
             objects: objects_of,
-            configuration: Configuration { pose_a: pose("pose_a")?, pose_b: pose("pose_b")? },
+            configuration: Configuration { pose_a: pose_a.row(row).map_err(at)?, pose_b: pose_b.row(row).map_err(at)? },
             kind,
             limit: limit.value(row),
             answered: Answered { hit: hit.is_valid(row).then(|| hit.value(row)), distance: known(distance, row) },

@@ -3,14 +3,12 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use arrow_array::{Array, ArrayRef, FixedSizeListArray, Float64Array, RecordBatch, UInt32Array};
-use arrow_schema::{DataType, Field};
-use nalgebra::Point3;
+use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch, UInt32Array};
 use ocb_core::configuration::{Configuration, ConfigurationSet, Placed, Separation, Truth};
 use ocb_core::oracle;
-use ocb_core::pose::Pose;
 use ocb_core::sampling;
 
+use super::lists::{Poses, lists};
 use super::truth_columns::{EXACT, ROUNDED, read_truths, truth_columns};
 use super::{SCHEMA_VERSION, batch, column, from_parquet, to_parquet};
 use crate::{LabError, Result};
@@ -118,9 +116,10 @@ pub fn read_poses(bytes: &[u8]) -> std::result::Result<Vec<Configuration>, Strin
     let (_, batches) = from_parquet(bytes)?;
     let mut all = Vec::new();
     for batch in &batches {
+        let (pose_a, pose_b) = (Poses::of(batch, "pose_a")?, Poses::of(batch, "pose_b")?);
         for row in 0..batch.num_rows() {
-            let pose = |name| pose(batch, name, row).map_err(|e| format!("row {}: {e}", all.len() + 1));
-            let configuration = Configuration { pose_a: pose("pose_a")?, pose_b: pose("pose_b")? };
+            let pose = |poses: &Poses| poses.row(row).map_err(|e| format!("row {}: {e}", all.len() + 1));
+            let configuration = Configuration { pose_a: pose(&pose_a)?, pose_b: pose(&pose_b)? };
             all.push(configuration);
         }
     }
@@ -131,6 +130,7 @@ fn append_placed(placed: &mut Vec<Placed>, batch: &RecordBatch) -> std::result::
     let (relative_distance, step) =
         (column::<Float64Array>(batch, "relative_distance")?, column::<Float64Array>(batch, "step")?);
     let root_index = column::<UInt32Array>(batch, "root_index")?;
+    let (pose_a, pose_b) = (Poses::of(batch, "pose_a")?, Poses::of(batch, "pose_b")?);
     let truths = read_truths(batch, &EXACT)?;
     let rounded = match batch.column_by_name(ROUNDED.hit) {
         Some(_) => read_truths(batch, &ROUNDED)?.into_iter().map(Some).collect(),
@@ -138,7 +138,7 @@ fn append_placed(placed: &mut Vec<Placed>, batch: &RecordBatch) -> std::result::
     };
     for (row, (truth, rounded)) in truths.into_iter().zip(rounded).enumerate() {
         placed.push(Placed {
-            configuration: Configuration { pose_a: pose(batch, "pose_a", row)?, pose_b: pose(batch, "pose_b", row)? },
+            configuration: Configuration { pose_a: pose_a.row(row)?, pose_b: pose_b.row(row)? },
             truth,
             rounded,
             root_index: root_index.value(row),
@@ -157,44 +157,12 @@ fn wanted(placed: &[Placed], this: fn(Separation) -> Option<f64>) -> ArrayRef {
     Arc::new(placed.iter().map(|p| p.wanted.and_then(this)).collect::<Float64Array>())
 }
 
-pub(super) fn lists<T>(rows: &[T], width: i32, of: impl Fn(&T) -> Vec<f64>) -> Result<ArrayRef> {
-    let values: Float64Array = rows.iter().flat_map(of).collect::<Vec<_>>().into();
-    let item = Arc::new(Field::new("item", DataType::Float64, false));
-    let list = FixedSizeListArray::try_new(item, width, Arc::new(values), None)
-        .map_err(|e| LabError::fault("Building the columns failed", e))?;
-    Ok(Arc::new(list))
-}
-
-/// One row of a column of fixed-length lists; the file may be anybody's, so nothing about it is taken for granted.
-fn list(batch: &RecordBatch, name: &str, row: usize, width: usize) -> std::result::Result<Vec<f64>, String> {
-    let lists = column::<FixedSizeListArray>(batch, name)?;
-    if lists.is_null(row) {
-        return Err(format!("{name} is missing"));
-    }
-    let values = lists.value(row);
-    let numbers = values.as_any().downcast_ref::<Float64Array>().ok_or(format!("{name} does not hold f64"))?;
-    if numbers.len() != width || numbers.null_count() > 0 {
-        return Err(format!("{name} must hold {width} numbers"));
-    }
-    Ok(numbers.values().to_vec())
-}
-
-pub(super) fn pose(batch: &RecordBatch, name: &str, row: usize) -> std::result::Result<Pose, String> {
-    let mut matrix = [0.0; 16];
-    matrix[..12].copy_from_slice(&list(batch, name, row, 12)?);
-    matrix[15] = 1.0;
-    Pose::from_row_major(&matrix).map_err(|e| format!("{name}: {e}"))
-}
-
-pub(super) fn point(batch: &RecordBatch, name: &str, row: usize) -> std::result::Result<Point3<f64>, String> {
-    Ok(Point3::from_slice(&list(batch, name, row, 3)?))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::{Rotation3, Vector3};
+    use nalgebra::{Point3, Rotation3, Vector3};
     use ocb_core::configuration::{Class, Containment, Method, Sampling, Witness};
+    use ocb_core::pose::Pose;
 
     fn set() -> ConfigurationSet {
         let placed = |i: u32| {
@@ -254,6 +222,6 @@ mod tests {
     fn a_foreign_parquet_file_is_refused_with_the_missing_column() {
         let table = batch(HashMap::new(), vec![("x", Arc::new(Float64Array::from(vec![1.0])) as ArrayRef)]).unwrap();
         let reason = read_poses(&to_parquet(&table).unwrap()).unwrap_err();
-        assert_eq!(reason, "row 1: the column \"pose_a\" is missing");
+        assert_eq!(reason, "the column \"pose_a\" is missing");
     }
 }

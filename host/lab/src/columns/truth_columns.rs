@@ -6,7 +6,7 @@ use arrow_array::{Array, ArrayRef, BooleanArray, Float64Array, RecordBatch, Stri
 use ocb_core::configuration::{Class, Containment, Truth, Witness};
 
 use super::column;
-use super::sets::{lists, point};
+use super::lists::{Points, lists};
 use crate::Result;
 
 /// The names of a truth's columns.
@@ -93,6 +93,7 @@ pub fn read_truths(batch: &RecordBatch, names: &TruthNames) -> std::result::Resu
     let (lo, hi, margin) = (real(names.distance_lo)?, real(names.distance_hi)?, real(names.margin)?);
     let (class64, class32, containment) = (text(names.class64)?, text(names.class32)?, text(names.containment)?);
     let (triangle_a, triangle_b) = (whole(names.triangle_a)?, whole(names.triangle_b)?);
+    let (point_a, point_b) = (Points::of(batch, names.point_a)?, Points::of(batch, names.point_b)?);
     let truth = |row: usize| {
         Ok(Truth {
             hit: hit.value(row),
@@ -103,8 +104,8 @@ pub fn read_truths(batch: &RecordBatch, names: &TruthNames) -> std::result::Resu
             class64: named_class(class64.value(row))?,
             class32: named_class(class32.value(row))?,
             witness: Witness {
-                point_a: point(batch, names.point_a, row)?,
-                point_b: point(batch, names.point_b, row)?,
+                point_a: point_a.row(row)?,
+                point_b: point_b.row(row)?,
                 triangle_a: triangle_a.value(row),
                 triangle_b: triangle_b.value(row),
             },
