@@ -2,7 +2,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help serve build dist beside runner pages stock plugins-cpp recorders plugins-native check check-oracle test aarch64 systemd bench soak clean tools
+.PHONY: help serve build dist beside runner wrappers pages stock plugins-cpp recorders plugins-native check check-oracle test aarch64 systemd bench soak clean tools
 
 PORT ?= 8080
 DATA ?= data
@@ -19,18 +19,17 @@ help: ## print this list
 serve: COMPILE += --no-default-features
 serve: tools beside ## build what serves one machine, then serve on 127.0.0.1:8080 (PORT=, DATA=)
 	$(COMPILE)
-	@$(MAKE) --silent --keep-going plugins-cpp recorders || echo "make: going on without the wrappers and recorders that were not built"
 	exec $(TARGET)/release/ocb serve --data $(DATA) --listen 127.0.0.1:$(PORT) --stock-dir target/stock
 
-build: tools beside ## build all of it: also PostgreSQL, S3, mail, pictures as PNG, the client for services elsewhere
+build: tools beside ## build all of it: also PostgreSQL, S3, mail, pictures as PNG, the client for services elsewhere, recorders
 	$(COMPILE)
-	@$(MAKE) --silent --keep-going plugins-cpp recorders || echo "make: going on without the wrappers and recorders that were not built"
+	@$(MAKE) --silent --keep-going recorders || echo "make: going on without the recorders that were not built"
 
 dist: build ## pack an archive, a wheel and a Debian package into target/dist
 	host/dist/pack.py $(TARGET)/dist
 
 plugins-cpp: ## build the wrappers of the C++ libraries that are installed, and say how to get the others
-	@$(MAKE) --no-print-directory --jobs=$(shell nproc) -C plugins/cpp
+	@$(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,--jobs=$(shell nproc)) -C plugins/cpp
 
 recorders: ## build what `ocb record` loads into programs, and say how to get the libraries that are missing
 	@$(MAKE) --no-print-directory -C host/record
@@ -45,11 +44,13 @@ plugin-%:
 tools:
 	@tests/setup/tools.sh build
 
-# Building the pages keeps one CPU busy; the runner, which holds none of them, is compiled meanwhile.
+# Building the pages keeps one CPU busy; the wrappers, and the runner, which holds no pages, are compiled meanwhile.
 beside:
-	@$(MAKE) --silent --jobs=2 pages stock runner COMPILE="$(COMPILE)"
+	@$(MAKE) --silent --jobs=3 pages stock wrappers runner COMPILE="$(COMPILE)"
 runner: tools
 	$(COMPILE) --bin ocb-runner
+wrappers:
+	@$(MAKE) --keep-going plugins-cpp || echo "make: going on without the wrappers that were not built"
 
 pages: tools web/app/dist/index.html
 web/app/node_modules/.package-lock.json: web/app/package.json web/app/package-lock.json
