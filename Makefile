@@ -49,7 +49,7 @@ beside:
 	@$(MAKE) --silent --jobs=3 pages stock wrappers runner COMPILE="$(COMPILE)"
 runner: tools
 	$(COMPILE) --bin ocb-runner
-wrappers:
+wrappers: tools
 	@$(MAKE) --keep-going plugins-cpp || echo "make: going on without the wrappers that were not built"
 
 pages: tools web/app/dist/index.html

@@ -10,7 +10,7 @@ use ocb_core::pose::Pose;
 use super::column;
 use crate::{LabError, Result};
 
-/// A column with as many numbers in each row.
+/// A column with `width` numbers in each row; `of` gives those of one row.
 pub fn lists<T>(rows: &[T], width: i32, of: impl Fn(&T) -> Vec<f64>) -> Result<ArrayRef> {
     let values: Float64Array = rows.iter().flat_map(of).collect::<Vec<_>>().into();
     let item = Arc::new(Field::new("item", DataType::Float64, false));
