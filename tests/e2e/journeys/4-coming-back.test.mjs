@@ -38,6 +38,8 @@ test('closing the tab loses nothing, a second guest sees the queue, and cancel e
   await second.go(`/r/${waiting}`)
   await second.at('cancel').click()
   await until('the second run to be cancelled', async () => (await second.api(`/runs/${waiting}`)).state === 'cancelled')
+  // Its pictures so far are gone with it, and the page may be about to ask for them.
+  first.expectRefusal(`/runs/${id}/heatmap`)
   await first.go(`/r/${id}`)
   await first.at('cancel').click()
   await until('the first run to be cancelled', async () => (await first.api(`/runs/${id}`)).state === 'cancelled')

@@ -26,6 +26,8 @@ describe('applyEvent', () => {
     const after = all.reduce((before, one) => applyEvent(before, event({ result: one, seconds_left: one.n / 100 })), asked)
     expect(after.results.map(({ algorithm, n }) => [algorithm, n])).toEqual([['a', 200], ['b', 5000]])
     expect(after.seconds_left).toBe(50)
+    const cancelled = applyEvent(after, event({ state: 'cancelled' }))
+    expect(cancelled.results.map(({ algorithm }) => algorithm)).toEqual(['b'])
   })
 })
 

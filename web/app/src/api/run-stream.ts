@@ -67,13 +67,15 @@ export class RunStream {
 /** The run after an event. */
 export function applyEvent(run: RunInfo, event: RunEvent): RunInfo {
   const { stage, result } = event
+  const results = result ? inOrder(run, replace(run.results, result, (a, b) => a.algorithm === b.algorithm)) : run.results
   return {
     ...run,
     state: event.state,
     runs_ahead: event.runs_ahead,
     seconds_left: event.seconds_left ?? null,
     stages: stage ? replace(run.stages, stage, sameStage) : run.stages,
-    results: result ? inOrder(run, replace(run.results, result, (a, b) => a.algorithm === b.algorithm)) : run.results,
+    // The service drops what is preliminary when a run ends, in whatever way.
+    results: event.state === 'running' ? results : results.filter(({ preliminary }) => !preliminary),
   }
 }
 

@@ -8,6 +8,7 @@ test('what was preliminary is fetched anew when there is more of it, and nothing
   const [a, b, final] = [result('a', 300, true), result('b', 300, true), result('c', 900, false)]
   expect(renewed([a, b, final], [a, b, final])).toEqual([])
   expect(renewed([a, b, final], [a, result('b', 900, false), { ...final }])).toEqual(['b'])
+  expect(renewed([a, b], [b])).toEqual([])
 })
 
 test('a run is preliminary as long as one algorithm is, and says of how many answers', () => {

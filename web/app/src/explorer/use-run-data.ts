@@ -68,10 +68,10 @@ export function heatmapRequest(state: ExplorerState, algorithm: string): Heatmap
   }
 }
 
-/** Algorithms of which there is something newer than before, where that was preliminary. */
+/** Algorithms of which there is something newer than before, where that was preliminary; nothing is left of a cancelled run. */
 export function renewed(before: readonly AlgorithmResult[], now: readonly AlgorithmResult[]): string[] {
-  const changed = (old: AlgorithmResult) => old.preliminary && !now.includes(old)
-  return before.filter(changed).map(({ algorithm }) => algorithm)
+  const changed = ({ algorithm }: AlgorithmResult) => now.some((result) => result.algorithm === algorithm && !before.includes(result))
+  return before.filter((old) => old.preliminary && changed(old)).map(({ algorithm }) => algorithm)
 }
 
 /** Preliminary results are fetched again when there are newer ones; until then the picture stays. */
