@@ -48,6 +48,14 @@ pub struct Attack {
     pub expected: Expected,
 }
 
+impl Attack {
+    /// Is it after files, the network, the kernel, processes or resources, or does it crash? None of that depends on how questions
+    /// are handed over, so they are asked without the clock, which leaves a CPU to the other programs.
+    fn is_untimed(&self) -> bool {
+        self.form != Form::Pass && self.id.starts_with(['F', 'N', 'K', 'P', 'R', 'C'])
+    }
+}
+
 /// When an attack strikes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
