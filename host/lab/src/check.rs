@@ -96,7 +96,8 @@ impl Checking<'_> {
         let trusted = runner.trusts(file);
         let limits = Policy { build_seconds: 20.0, query_seconds: 5.0, trial_seconds: 60.0, ..Policy::default() };
         let policy = Policy { profile: runner.profile, trusted, ..limits };
-        let launcher = Launcher::new(runner.program.clone(), policy);
+        let launcher = Launcher::new(runner.program.clone(), policy.clone().untimed());
+        let timed = Launcher::new(runner.program.clone(), policy);
         if !self.gate(&launcher, file)? || !self.load(&launcher, file)? {
             return Ok(false);
         }
@@ -122,7 +123,7 @@ impl Checking<'_> {
             let until = share(self.term.ends(), algorithms.len() - i);
             self.against_the_reference(&launcher, file, algorithm, until)?;
             if !self.has_failed() {
-                self.conduct(&launcher, file, algorithm, until)?;
+                self.conduct([&launcher, &timed], file, algorithm, until)?;
             }
         }
         Ok(!self.is_stopped())

@@ -33,7 +33,7 @@ impl Checking<'_> {
     /// The first scene in two fresh processes, then timed.
     pub(super) fn conduct(
         &mut self,
-        launcher: &Launcher,
+        [launcher, timed]: [&Launcher; 2],
         file: &Path,
         algorithm: &AlgorithmInfo,
         until: Instant,
@@ -69,7 +69,7 @@ impl Checking<'_> {
         let build = heard.iter().map(|once| once.build_ns).fold(0.0, f64::max) / 1e6;
         let evidence = format!("Builds an object in {build:.2} ms and uses at most {memory} of memory.");
         self.line(format!("{id}: limits"), CheckVerdict::Pass, evidence, None);
-        self.timing(launcher, &trial, query, scene, until)
+        self.timing(timed, &trial, query, scene, until)
     }
 
     fn determinism(&mut self, id: &str, heard: &[Heard]) {
