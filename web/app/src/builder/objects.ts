@@ -1,3 +1,5 @@
+import type { QueryClient } from '@tanstack/vue-query'
+import { putInList } from '../api/in-list'
 import type { ObjectInfo } from '../api/types'
 
 /** Ids of procedural stock objects: `stock:NAME@TRIANGLES`. */
@@ -43,3 +45,7 @@ export function sliderToTriangles(at: number): number {
 export function trianglesToSlider(triangles: number): number {
   return Math.round((1000 * Math.log(triangles / TRIANGLES.least)) / Math.log(TRIANGLES.most / TRIANGLES.least))
 }
+
+/** Puts an uploaded object behind the others of the list. */
+export const addObject = (cache: QueryClient, object: ObjectInfo): Promise<void> =>
+  putInList<ObjectInfo>(cache, 'objects', (old) => [...old.filter(({ id }) => id !== object.id), object])
