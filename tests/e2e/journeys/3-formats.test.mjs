@@ -106,4 +106,9 @@ test('a file in each format is shown with its format, its unit and its triangles
   }
   await v.picture('formats')
   await v.accessible('the builder with a file of each format')
+  // The figures of the question before are faint while those of this one are on their way.
+  await v.page.route('**/api/v1/estimates', () => {})
+  await v.at('query-pq').click()
+  await v.page.locator('dl.asking').waitFor()
+  await v.accessible('the builder while it waits for an estimate')
 })
