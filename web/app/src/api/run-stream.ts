@@ -74,7 +74,7 @@ export function applyEvent(run: RunInfo, event: RunEvent): RunInfo {
     runs_ahead: event.runs_ahead,
     seconds_left: event.seconds_left ?? null,
     stages: stage ? replace(run.stages, stage, sameStage) : run.stages,
-    // The service drops what is preliminary when a run ends, in whatever way.
+    // A run that ended or waits again has nothing preliminary, as the service says when it is asked.
     results: event.state === 'running' ? results : results.filter(({ preliminary }) => !preliminary),
   }
 }
