@@ -105,16 +105,4 @@ mod tests {
         let kept = Places { runner: vec![1], supervisor: Some(0), kind: ClockKind::Futex };
         assert_eq!(Places::of(&policy, &[0, 1]), Ok(kept));
     }
-
-    #[test]
-    fn untimed_questions_leave_a_cpu_to_others() {
-        let timed = Policy { runner_cpu: Some(1), supervisor_cpu: Some(0), ..Policy::default() };
-        let one = Places { runner: vec![1], supervisor: Some(1), kind: ClockKind::Futex };
-        assert_eq!(Places::of(&timed.clone().untimed(), &[0, 1, 2]), Ok(one));
-        // Threads have the CPUs that they would have, and nobody watches them.
-        let threads = Policy { threads: 2, ..timed };
-        let watched = Places { runner: vec![1, 2], supervisor: Some(0), kind: ClockKind::Spin };
-        assert_eq!(Places::of(&threads, &[0, 1, 2]), Ok(watched.clone()));
-        assert_eq!(Places::of(&threads.untimed(), &[0, 1, 2]), Ok(Places { kind: ClockKind::Futex, ..watched }));
-    }
 }

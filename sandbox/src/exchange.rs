@@ -7,6 +7,7 @@ use crate::clock::{Clock, ClockKind};
 use crate::doorbell::{futex_wait, futex_wake};
 use crate::launch::Jail;
 use crate::outcome::{Outcome, Phase};
+use crate::policy::Policy;
 use crate::protocol::{
     Command, MAX_BATCH, SLOT_WORDS, Status, answer, clean_text, contacts_to_copy, parse_status, parse_text_len, request,
 };
@@ -16,8 +17,10 @@ use crate::usage::{Meter, Usage};
 
 /// The jail is looked at so often while an answer is awaited.
 const LOOK_NS: f64 = 1e6;
-/// After so long the supervisor sleeps between looks: what the wake-up adds is then less than a hundredth.
+/// After so long the supervisor sleeps between looks: what the wake-up adds is then less than a hundredth. Where times are rough,
+/// it adds less than the whole.
 const WATCH_NS: f64 = 5e6;
+const WATCH_ROUGHLY_NS: f64 = 1e5;
 /// Time of the supervisor's own that was lost, longer than this and than a hundredth of the whole, disturbs a sample.
 const MISSED_NS: f64 = 5000.0;
 /// Copying one contact takes no longer than this.
@@ -38,6 +41,8 @@ pub(crate) struct Exchange {
     clock: Clock,
     meter: Meter,
     threads: bool,
+    /// How long a watching supervisor watches for an answer.
+    watch_ns: f64,
     number: u32,
     slots: Vec<[u64; SLOT_WORDS]>,
     contacts: Vec<u64>,
@@ -103,16 +108,17 @@ impl From<&Question> for Poses {
 }
 
 impl Exchange {
-    pub fn new(jail: Jail, kind: ClockKind, clock: Clock, trial_seconds: f64, threads: usize) -> Self {
-        let now = Instant::now();
+    pub fn new(jail: Jail, kind: ClockKind, clock: Clock, policy: &Policy) -> Self {
+        let (now, trial_seconds, threads) = (Instant::now(), policy.trial_seconds, policy.threads > 1);
         let trial_ends = now + Duration::from_secs_f64(trial_seconds.clamp(0.0, 1e9));
-        let meter = Meter::of(jail.pid, threads > 1);
+        let meter = Meter::of(jail.pid, threads);
         Self {
             jail,
             kind,
             clock,
             meter,
-            threads: threads > 1,
+            threads,
+            watch_ns: if policy.rough_clock { WATCH_ROUGHLY_NS } else { WATCH_NS },
             number: 0,
             slots: vec![[0; SLOT_WORDS]],
             contacts: Vec::new(),
@@ -288,7 +294,7 @@ impl Exchange {
     ) -> Result<Timed, Outcome> {
         let clock = self.clock;
         let (asked, answered) = (self.number, self.number.wrapping_add(1));
-        let look = clock.in_ticks(LOOK_NS);
+        let [look, watch] = [LOOK_NS, self.watch_ns].map(|ns| clock.in_ticks(ns));
         // While it is loaded nothing is asked, and the CPU that a watcher takes may be the runner's.
         let sleeps = self.kind == ClockKind::Futex || phase == Phase::Load;
         let begun = clock.ticks();
@@ -315,9 +321,9 @@ impl Exchange {
                 looked = now;
                 let waited_ns = clock.nanoseconds(released, now);
                 self.look(phase, limit_seconds, waited_ns, &mut halfway)?;
-                if self.kind == ClockKind::Spin && waited_ns > WATCH_NS {
-                    self.jail.request.u32(request::SUPERVISOR_SLEEPS).store(1, Ordering::SeqCst);
-                }
+            }
+            if !sleeps && now.saturating_sub(released) > watch {
+                self.jail.request.u32(request::SUPERVISOR_SLEEPS).store(1, Ordering::SeqCst);
             }
             polled = now;
             if self.jail.request.u32(request::SUPERVISOR_SLEEPS).load(Ordering::Relaxed) == 0 {

@@ -279,8 +279,7 @@ impl Launcher {
         namespaces: bool,
     ) -> Result<Exchange, Ending> {
         let jail = Jail::start(&self.runner, &self.policy, killer, plugin, trial, places, namespaces)?;
-        let mut exchange =
-            Exchange::new(jail, places.kind, Clock::get(), self.policy.trial_seconds, self.policy.threads);
+        let mut exchange = Exchange::new(jail, places.kind, Clock::get(), &self.policy);
         let closed = exchange.obeyed(Command::CloseListener, Phase::Load, self.policy.load_seconds);
         match closed.and_then(|_| exchange.jail.verify(namespaces)) {
             Ok(()) => Ok(exchange),

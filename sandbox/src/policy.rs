@@ -26,7 +26,8 @@ pub struct Policy {
     pub supervisor_cpu: Option<usize>,
     /// Which hand-off times the queries.
     pub clock: ClockChoice,
-    /// Times are compared by orders of magnitude only: a session begins with few null round trips.
+    /// Times are compared by orders of magnitude only, or nobody reads them: a session begins with few null round trips, and a
+    /// watching supervisor soon sleeps, which leaves its CPU to others and adds the time of being woken.
     pub rough_clock: bool,
     /// The plugin was built from our own sources: it may run even where this machine forbids namespaces, under the
     /// layers that remain ([`crate::Session::layers`] lists them). Never set it for a file that somebody brought.
@@ -56,13 +57,6 @@ impl Policy {
     /// How many threads the plugin may start beside the one that calls it.
     pub fn startable_threads(&self) -> usize {
         if self.threads > 1 { self.threads.max(LEAST_THREADS) } else { 0 }
-    }
-
-    /// For questions whose times nobody reads: both sides sleep in turn, a single-threaded runner and its supervisor on one CPU
-    /// where the policy names one, so that the others are free, and a session begins with few null round trips.
-    pub fn untimed(self) -> Self {
-        let supervisor_cpu = if self.threads == 1 { self.runner_cpu } else { self.supervisor_cpu };
-        Policy { clock: ClockChoice::Futex, rough_clock: true, supervisor_cpu, ..self }
     }
 }
 

@@ -136,6 +136,25 @@ fn both_clocks_see_work() {
 }
 
 #[test]
+fn where_times_are_rough_the_supervisor_soon_sleeps() {
+    let policy = Policy { clock: ClockChoice::Spin, rough_clock: true, ..policy() };
+    let mut session = start(&launcher_with(policy), &fixture(&["WORK=3000000"])).unwrap();
+    let own = || {
+        let mut used = libc::timespec { tv_sec: 0, tv_nsec: 0 };
+        // SAFETY: it writes this one structure.
+        assert_eq!(unsafe { libc::clock_gettime(libc::CLOCK_THREAD_CPUTIME_ID, &raw mut used) }, 0);
+        used.tv_sec as f64 * 1e9 + used.tv_nsec as f64
+    };
+    let mut shares = [0; 5].map(|_| {
+        let before = own();
+        let sample = session.query(Query::CollisionFirst, &apart(0.5)).unwrap();
+        (own() - before) / sample.raw_ns
+    });
+    shares.sort_by(f64::total_cmp);
+    assert!(shares[2] < 0.5, "it watches for this share of each answer's time: {shares:?}");
+}
+
+#[test]
 fn one_cpu_is_enough() {
     let policy = Policy { runner_cpu: Some(0), supervisor_cpu: Some(0), ..policy() };
     let mut session = start(&launcher_with(policy), &fixture(&[])).unwrap();

@@ -96,8 +96,8 @@ impl Checking<'_> {
         let trusted = runner.trusts(file);
         let limits = Policy { build_seconds: 20.0, query_seconds: 5.0, trial_seconds: 60.0, ..Policy::default() };
         let policy = Policy { profile: runner.profile, trusted, ..limits };
-        let launcher = Launcher::new(runner.program.clone(), policy.clone().untimed());
-        let timed = Launcher::new(runner.program.clone(), policy);
+        let timed = Launcher::new(runner.program.clone(), policy.clone());
+        let launcher = Launcher::new(runner.program.clone(), Policy { rough_clock: true, ..policy });
         if !self.gate(&launcher, file)? || !self.load(&launcher, file)? {
             return Ok(false);
         }

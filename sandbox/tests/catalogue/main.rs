@@ -49,8 +49,8 @@ pub struct Attack {
 }
 
 impl Attack {
-    /// Is it after files, the network, the kernel, processes or resources, or does it crash? None of that depends on how questions
-    /// are handed over, so they are asked without the clock, which leaves a CPU to the other programs.
+    /// Is it after files, the network, the kernel, processes or resources, or does it crash? None of that depends on times, so the
+    /// clock is rough, which leaves a CPU to the other programs.
     fn is_untimed(&self) -> bool {
         self.form != Form::Pass && self.id.starts_with(['F', 'N', 'K', 'P', 'R', 'C'])
     }

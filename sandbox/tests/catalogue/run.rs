@@ -69,8 +69,7 @@ fn run(attack: &Attack, constructor: bool) -> Ran {
     defines.extend((form == Form::ThirdObject).then_some(["IN_BUILD", "AT_OBJECT=2"]).into_iter().flatten());
     defines.extend(matches!(form, Form::Contacts | Form::ThreadsContacts).then_some("IN_CONTACTS"));
     let threads = if matches!(form, Form::Threads | Form::ThreadsContacts) { 2 } else { 1 };
-    let limits = Policy { threads, ..policy() };
-    let launcher = launcher_with(if attack.is_untimed() { limits.untimed() } else { limits });
+    let launcher = launcher_with(Policy { threads, rough_clock: attack.is_untimed(), ..policy() });
     if form == Form::Pass { pass::ask(&launcher, attack, &defines) } else { ask(&launcher, attack, &defines) }
 }
 

@@ -19,8 +19,8 @@ fn libraries_answer_about_any_two_objects_of_a_scene() {
         objects.map(|(name, triangles)| stock::generate(name, triangles).expect("a stock object")).into();
     let shapes: Vec<Shape> = meshes.iter().map(|mesh| Shape::new(mesh.clone().into())).collect();
     let all: Vec<&Mesh> = meshes.iter().collect();
-    let policy = Policy { trusted: true, profile: Profile::Dev, ..Policy::default() };
-    let launcher = Launcher::new(built("ocb-runner"), policy.untimed());
+    let policy = Policy { trusted: true, profile: Profile::Dev, rough_clock: true, ..Policy::default() };
+    let launcher = Launcher::new(built("ocb-runner"), policy);
     for algorithm in OFFER {
         let plugin = built(&format!("libocb_{algorithm}.so"));
         let objects = Objects::Scene(&all);

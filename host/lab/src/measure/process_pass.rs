@@ -229,8 +229,7 @@ impl ProcessPass<'_> {
     fn start(&self, state: &MeasuringState, killer: &Killer) -> Result<Session, OutcomeInfo> {
         let algorithm = &state.algorithm;
         let limits = if self.purpose == Purpose::Look { look::limits() } else { limits(self.task.budget) };
-        let timed = allowed(self.machine, algorithm.threads, limits);
-        let policy = if self.purpose == Purpose::Counting { timed.untimed() } else { timed };
+        let policy = allowed(self.machine, algorithm.threads, limits);
         let objects = Objects::Pair(self.shown.first(), self.shown.second());
         let trial = algorithm.trial(objects, self.task.semantics);
         let launcher = self.runner.launcher(algorithm, policy);

@@ -203,14 +203,11 @@ impl MeasuringState {
     /// A fresh process has built both structures. What it took for that in another unit is in no number: a plugin that
     /// recognises the unit could build less there.
     pub fn begin_process(&mut self, session: &Session, purpose: Purpose) {
-        // What only counts is not timed, and what is asked elsewhere has its own times.
-        if !matches!(purpose, Purpose::Elsewhere | Purpose::Counting) {
+        if purpose != Purpose::Elsewhere {
             self.set_ups.push(session.set_up());
         }
-        if purpose != Purpose::Counting {
-            self.clocks.push(*session.clock());
-        }
         self.asked.clear();
+        self.clocks.push(*session.clock());
         self.layers = session.layers().to_vec();
     }
 

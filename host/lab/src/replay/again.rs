@@ -65,7 +65,7 @@ impl Questions<'_> {
             }
         };
         let trial = algorithm.trial(Objects::Pair(shown.first(), shown.second()), spec.semantics);
-        let policy = Policy { threads: algorithm.threads, ..Policy::default() }.untimed();
+        let policy = Policy { threads: algorithm.threads, rough_clock: true, ..Policy::default() };
         let mut session = self.runner.launcher(algorithm, policy).start(&trial)?;
         let whole = self.compare(&mut session, &shown, rows, replayed);
         let ending = session.finish();
